@@ -1,0 +1,39 @@
+# Everything runs in .venv, made on first use. PyBullet has no wheels past Python 3.11, and the code needs 3.11.
+SHELL := /bin/bash
+VENV  := .venv
+BIN   := $(VENV)/bin
+STAMP := $(VENV)/.installed
+ARGS  ?=
+
+.PHONY: demo serve test check install clean lock
+
+demo: $(STAMP)   ## explore a simulated house, carry out one request while a person interferes, report
+	$(BIN)/majordomo demo $(ARGS)
+
+serve: $(STAMP)  ## start the service on the simulated flat and print the page's address
+	$(BIN)/majordomo serve $(ARGS)
+
+test: $(STAMP)   ## all tests, with branch coverage
+	$(BIN)/python -m pytest --cov --cov-report=term $(ARGS)
+
+check: $(STAMP)  ## lint, format, types, import contracts
+	$(BIN)/ruff check src tests
+	$(BIN)/ruff format --check src tests
+	$(BIN)/mypy
+	$(BIN)/lint-imports
+
+install: $(STAMP)
+
+$(STAMP): constraints.txt pyproject.toml
+	@scripts/make_venv $(VENV)
+	$(BIN)/python -m pip install --quiet --require-hashes --requirement constraints.txt
+	$(BIN)/python -m pip install --quiet --no-build-isolation --no-deps --editable .
+	@touch $@
+
+lock:            ## renew constraints.txt from pyproject.toml
+	$(BIN)/pip-compile --quiet --extra dev --generate-hashes --allow-unsafe --strip-extras \
+		--no-emit-index-url --no-emit-trusted-host --no-emit-find-links --no-header \
+		--output-file constraints.txt pyproject.toml
+
+clean:
+	rm -rf $(VENV) build .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache

@@ -1,0 +1,1 @@
+"""The shared belief: nodes, edges, frames, transactions, working memory, queries, topology."""

@@ -1,0 +1,188 @@
+"""Edge types of the scene graph (design, section 3; Concepts, Table 1)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from enum import IntEnum, StrEnum
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from majordomo.scene_graph.se3 import SE3
+
+
+class EdgeType(StrEnum):
+    """Closed set of edge types; the value is what JSON shows."""
+
+    RT = "rt"
+    IN = "in"
+    RELATION = "relation"
+    CONNECTS = "connects"
+    MATCH = "match"
+    HAS = "has"
+    HAS_INTENTION = "has_intention"
+
+
+class EdgeKey(NamedTuple):
+    """Identity of an edge. ``label`` is the predicate of a relation, the agent of an intention, else empty."""
+
+    type: EdgeType
+    source: str
+    target: str
+    label: str = ""
+
+
+class IntentionAction(StrEnum):
+    """What an agent asks the robot to do with the edge's target."""
+
+    VISIT = "visit"
+    CROSS = "cross"
+    LOOK = "look"
+    TASK = "task"
+
+
+class IntentionStatus(StrEnum):
+    """Life of an intention: agents propose, the arbiter grants or revokes, the executor marks done or failed."""
+
+    PROPOSED = "proposed"
+    GRANTED = "granted"
+    DONE = "done"
+    FAILED = "failed"
+    REVOKED = "revoked"
+
+
+class Priority(IntEnum):
+    """Who goes first when several intentions compete; a request outranks exploration."""
+
+    CROSS_DOOR = 10
+    LOOK_AROUND = 20
+    VISIT_DOOR = 30
+    MEASURE_ROOM = 40
+    REQUEST = 100
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class RtEdge:
+    """Rigid transform from parent (source) to child (target) frame.
+
+    ``T_source_target`` maps child coordinates into the parent. ``covariance`` is 6x6, order (x, y, z, rot x, rot y,
+    rot z), expressed in the child frame (right perturbation), read-only.
+    """
+
+    source: str
+    target: str
+    T_source_target: SE3
+    covariance: NDArray[np.float64] = field(default_factory=lambda: np.zeros((6, 6)))
+    stamp_s: float = 0.0
+
+    def __post_init__(self) -> None:
+        matrix = np.array(self.covariance, dtype=np.float64)
+        if matrix.shape != (6, 6):
+            raise ValueError(f"covariance of rt {self.source} -> {self.target} must be 6x6, not {matrix.shape}")
+        matrix.flags.writeable = False
+        object.__setattr__(self, "covariance", matrix)
+
+    @property
+    def key(self) -> EdgeKey:
+        return EdgeKey(EdgeType.RT, self.source, self.target)
+
+    def __eq__(self, other: object) -> bool:
+        return (
+            isinstance(other, RtEdge)
+            and self.key == other.key
+            and self.stamp_s == other.stamp_s
+            and self.T_source_target == other.T_source_target
+            and np.array_equal(self.covariance, other.covariance)
+        )
+
+    def __hash__(self) -> int:
+        return hash((self.key, self.stamp_s))
+
+
+@dataclass(frozen=True, kw_only=True)
+class InEdge:
+    """An object, person or robot (source) belongs to a room (target); exactly one."""
+
+    source: str
+    target: str
+
+    @property
+    def key(self) -> EdgeKey:
+        return EdgeKey(EdgeType.IN, self.source, self.target)
+
+
+@dataclass(frozen=True, kw_only=True)
+class RelationEdge:
+    """Panoptic scene graph predicate between two objects, with its smoothed probability."""
+
+    source: str
+    target: str
+    predicate: str
+    probability: float
+    stamp_s: float = 0.0
+
+    @property
+    def key(self) -> EdgeKey:
+        return EdgeKey(EdgeType.RELATION, self.source, self.target, self.predicate)
+
+
+@dataclass(frozen=True, kw_only=True)
+class ConnectsEdge:
+    """A door (source) joins a room (target); a crossed door has two such edges."""
+
+    source: str
+    target: str
+
+    @property
+    def key(self) -> EdgeKey:
+        return EdgeKey(EdgeType.CONNECTS, self.source, self.target)
+
+
+@dataclass(frozen=True, kw_only=True)
+class MatchEdge:
+    """Two door nodes in two rooms are the same physical door; stored once, source < target."""
+
+    source: str
+    target: str
+
+    @property
+    def key(self) -> EdgeKey:
+        return EdgeKey(EdgeType.MATCH, self.source, self.target)
+
+
+@dataclass(frozen=True, kw_only=True)
+class HasEdge:
+    """A node (source) offers an affordance (target)."""
+
+    source: str
+    target: str
+
+    @property
+    def key(self) -> EdgeKey:
+        return EdgeKey(EdgeType.HAS, self.source, self.target)
+
+
+@dataclass(frozen=True, kw_only=True)
+class HasIntentionEdge:
+    """An agent or task asks for the robot (source) to act on a node (target).
+
+    ``standoff_m`` is how far from the target to stop (visit, look). ``reason`` says why it ended.
+    """
+
+    source: str
+    target: str
+    agent: str
+    action: IntentionAction
+    status: IntentionStatus = IntentionStatus.PROPOSED
+    priority: int
+    standoff_m: float = 0.0
+    proposed_s: float = 0.0
+    reason: str = ""
+
+    @property
+    def key(self) -> EdgeKey:
+        return EdgeKey(EdgeType.HAS_INTENTION, self.source, self.target, self.agent)
+
+
+Edge = RtEdge | InEdge | RelationEdge | ConnectsEdge | MatchEdge | HasEdge | HasIntentionEdge

@@ -1,0 +1,38 @@
+"""Identifiers: well-formed, in natural order, and the next free one of a label."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Container
+from functools import lru_cache
+
+_WELL_FORMED = re.compile(r"\w[\w.:\-]{0,127}")
+_DIGITS = re.compile(r"([0-9]+)")
+_NOT_WORD = re.compile(r"[^a-z0-9]+")
+
+NaturalKey = tuple[str | int, ...]
+
+
+def is_well_formed(identifier: str) -> bool:
+    """Whether ``identifier`` is 1 to 128 letters, digits, ``_ . : -`` and starts with a letter, digit or ``_``."""
+    return _WELL_FORMED.fullmatch(identifier) is not None
+
+
+@lru_cache(maxsize=65536)
+def natural_key(identifier: str) -> NaturalKey:
+    """Sorting key under which ``bottle_2`` comes before ``bottle_10``. Texts and numbers alternate, text first."""
+    return tuple(int(part) if i % 2 else part for i, part in enumerate(_DIGITS.split(identifier)))
+
+
+def slug(label: str) -> str:
+    """A label as the first part of an identifier: ``Potted plant`` becomes ``potted_plant``."""
+    return _NOT_WORD.sub("_", label.lower()).strip("_") or "object"
+
+
+def next_id(taken: Container[str], label: str) -> str:
+    """The first of ``<label>_1``, ``<label>_2``, … that is not taken; ``taken`` may be a snapshot."""
+    stem = slug(label)
+    number = 1
+    while f"{stem}_{number}" in taken:
+        number += 1
+    return f"{stem}_{number}"

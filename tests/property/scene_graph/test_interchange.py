@@ -1,0 +1,77 @@
+"""A document read and written again is the same document, for random houses."""
+
+import json
+
+import numpy as np
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from majordomo.scene_graph.edges import ConnectsEdge, InEdge, MatchEdge, RelationEdge, RtEdge
+from majordomo.scene_graph.interchange import from_json, to_json
+from majordomo.scene_graph.invariants import check
+from majordomo.scene_graph.nodes import DoorNode, DoorState, ObjectNode, RobotNode, RoomNode, RootNode
+from majordomo.scene_graph.poses import MapPoses
+from majordomo.scene_graph.se3 import SE3
+from majordomo.scene_graph.snapshot import Snapshot
+
+law = settings(deadline=None, max_examples=60)
+
+meters = st.floats(-100.0, 100.0)
+poses = st.builds(SE3.from_xyz_yaw, meters, meters, st.floats(0.0, 2.0), st.floats(-3.2, 3.2))
+probabilities = st.floats(0.0, 1.0)
+polygons = st.lists(st.tuples(meters, meters), max_size=5).map(tuple)
+deviations = st.tuples(*[st.floats(0.0, 1.0)] * 3)
+
+
+@st.composite
+def houses(draw):
+    rooms = [f"room_{i}" for i in range(1, draw(st.integers(1, 3)) + 1)]
+    nodes = [RootNode(), RobotNode(battery=draw(probabilities))]
+    edges = [RtEdge(source=draw(st.sampled_from(["root", *rooms])), target="robot", T_source_target=draw(poses))]
+    for room in rooms:
+        nodes.append(RoomNode(id=room, label=draw(st.text(max_size=3)), polygon_m=draw(polygons)))
+        edges.append(RtEdge(source="root", target=room, T_source_target=draw(poses)))
+    for i in range(draw(st.integers(0, 3))):
+        object_id, room = f"cup_{i}", draw(st.sampled_from(rooms))
+        size = draw(st.tuples(*[st.floats(0.0, 2.0)] * 3))
+        nodes.append(ObjectNode(id=object_id, label="cup", existence=draw(probabilities), size_m=size))
+        covariance = np.diag([*np.square(draw(deviations)), 0.0, 0.0, 0.0])
+        edges.append(RtEdge(source=room, target=object_id, T_source_target=draw(poses), covariance=covariance))
+        edges.append(InEdge(source=object_id, target=room))
+        other = f"cup_{draw(st.integers(0, i))}"
+        edges.append(RelationEdge(source=object_id, target=other, predicate="beside", probability=draw(probabilities)))
+    if len(rooms) > 1:
+        for here, there in ((rooms[0], rooms[1]), (rooms[1], rooms[0])):
+            door = f"door_{here.removeprefix('room_')}_0_0"
+            nodes.append(DoorNode(id=door, rooms=(here, there), width_m=0.9, state=draw(st.sampled_from(DoorState))))
+            edges.append(RtEdge(source=here, target=door, T_source_target=draw(poses)))
+            edges += [ConnectsEdge(source=door, target=here), ConnectsEdge(source=door, target=there)]
+        edges.append(MatchEdge(source="door_1_0_0", target="door_2_0_0"))
+    return Snapshot.of(nodes, edges, revision=draw(st.integers(0, 99)), stamp_s=draw(st.floats(0.0, 1e6)))
+
+
+@law
+@given(houses())
+def test_writing_what_was_read_gives_the_same_document(house):
+    assert check(house) == ()
+    document = to_json(house)
+    again = from_json(json.loads(json.dumps(document)))
+    assert to_json(again) == document
+
+
+@law
+@given(houses())
+def test_everything_stays_where_it_was(house):
+    again = from_json(to_json(house))
+    before, after = MapPoses(house), MapPoses(again)
+    for node_id in again.nodes:
+        assert after.pose(node_id).is_close(before.pose(node_id), 1e-5)
+        assert again.room_of(node_id) == house.room_of(node_id)
+
+
+@law
+@given(houses())
+def test_room_frames_list_all_nodes_and_edges(house):
+    document = to_json(house, frame="room")
+    assert len(document["nodes"]) == len(house.nodes)
+    assert len(document["edges"]) == len(house.edges)

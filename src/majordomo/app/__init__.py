@@ -1,0 +1,1 @@
+"""Composition root: settings, runtime, HTTP service, command line, web page."""

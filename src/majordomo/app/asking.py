@@ -1,0 +1,116 @@
+"""``majordomo ask``: a client of the running service that follows one request to its end."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import httpx
+import websockets
+from rich.console import Console
+
+ENDED = frozenset({"succeeded", "failed", "cancelled", "refused"})
+
+
+class NoService(RuntimeError):
+    """No service was found, or it does not answer."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Service:
+    """Where the service is and the token that opens it."""
+
+    address: str
+    token: str
+
+
+def find_service(url: str | None, token: str | None, data: Path) -> Service:
+    """The service at ``url``, else the one that left its address in the data folder.
+
+    Raises:
+        NoService: saying how to start one.
+    """
+    if url is not None:
+        parsed = httpx.URL(url)
+        offered = token or parsed.params.get("token")
+        if not offered:
+            raise NoService("the address holds no token: pass it with --token")
+        return Service(address=str(parsed.copy_with(query=None, path="/")).rstrip("/"), token=offered)
+    try:
+        known = json.loads((data / "service.json").read_text(encoding="ascii"))
+    except (OSError, json.JSONDecodeError):
+        raise NoService("no service is running here: start one with 'majordomo serve'") from None
+    return Service(address=known["address"], token=known["token"])
+
+
+async def ask_service(service: Service, request: str, console: Console) -> bool:
+    """Submit ``request``, print progress, and answer the robot's questions from the keyboard; whether it succeeded.
+
+    Raises:
+        NoService: the service cannot be reached, or refuses.
+    """
+    headers = {"Authorization": f"Bearer {service.token}"}
+    try:
+        async with httpx.AsyncClient(base_url=service.address, headers=headers, timeout=10.0) as client:
+            task = _checked(await client.post("/v1/tasks", json={"request": request}))
+            return await _follow(service, client, task, console)
+    except (httpx.TransportError, OSError, websockets.WebSocketException) as error:
+        raise NoService(f"the service at {service.address} does not answer: {error}") from error
+
+
+async def _follow(service: Service, client: httpx.AsyncClient, task: dict[str, Any], console: Console) -> bool:
+    stream = f"{service.address.replace('http', 'ws', 1)}/v1/stream"
+    told: list[str] = []
+    headers = {"Authorization": f"Bearer {service.token}"}
+    async with websockets.connect(stream, additional_headers=headers, max_size=None) as socket:
+        task = _checked(await client.get(f"/v1/tasks/{task['id']}"))
+        while True:
+            _tell(task, told, console)
+            if task["status"] in ENDED:
+                return bool(task["status"] == "succeeded")
+            await _decide(task, client, console)
+            task = await _next_state(socket, task["id"])
+
+
+async def _next_state(socket: websockets.ClientConnection, task_id: str) -> dict[str, Any]:
+    async for message in socket:
+        event = json.loads(message)
+        tasks = {"task": [event.get("data")], "snapshot": event.get("data", {}).get("tasks", [])}.get(event["type"], [])
+        for task in tasks:
+            if task["id"] == task_id:
+                return dict(task)
+    raise NoService("the service ended the stream")
+
+
+async def _decide(task: dict[str, Any], client: httpx.AsyncClient, console: Console) -> None:
+    if task["status"] == "awaiting_answer":
+        answer = console.input(f"[bold]{task['reply']}[/] > ")
+        _checked(await client.post(f"/v1/tasks/{task['id']}/answer", json={"answer": answer}))
+    elif task["status"] == "awaiting_approval":
+        choice = "approve" if console.input("carry this out? [y/N] ").strip().lower() in {"y", "yes"} else "reject"
+        _checked(await client.post(f"/v1/tasks/{task['id']}/{choice}"))
+
+
+def _tell(task: dict[str, Any], told: list[str], console: Console) -> None:
+    """Print what has not been printed yet."""
+    lines = [
+        f"{step['status']:>10}  {step['skill']}({', '.join(step['args'])})"
+        for step in (task["plan"] or {}).get("steps", ())
+        if step["status"] != "pending"
+    ]
+    lines += [f"    failed  {failure['message']} {failure['suggestion']}" for failure in task["failures"]]
+    if task["status"] in ENDED:
+        lines.append(f"{task['status']:>10}  {task['explanation'] or task['reply']}")
+    for line in lines:
+        if line not in told:
+            told.append(line)
+            console.print(line, markup=False, highlight=False)
+
+
+def _checked(response: httpx.Response) -> dict[str, Any]:
+    if response.is_error:
+        is_problem = "json" in response.headers.get("content-type", "")
+        raise NoService(response.json()["detail"] if is_problem else f"the service answered {response.status_code}")
+    return dict(response.json())

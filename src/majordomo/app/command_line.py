@@ -1,0 +1,187 @@
+"""The command line: ``majordomo demo | serve | ask | evaluate | doctor``."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+import os
+import sys
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.console import Console
+
+from majordomo.app.settings import DEFAULT_DATA, ClockMode, Settings
+
+application = typer.Typer(
+    name="majordomo",
+    help="A robot butler that maps its building, plans on a scene graph, and checks what it did.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+)
+evaluations = typer.Typer(help="Measure something, print a table, write JSON.", no_args_is_help=True)
+application.add_typer(evaluations, name="evaluate")
+
+console = Console()
+complaints = Console(stderr=True)
+
+House = Annotated[str, typer.Option(help="A built-in house's name or a house file.")]
+Seed = Annotated[int, typer.Option(min=0, help="Seed of everything that is random.")]
+Data = Annotated[Path, typer.Option(help="Folder of token, logs and memory.")]
+
+
+def main() -> None:
+    """Entry point; expected problems end with a sentence and exit code 2, never with a stack trace."""
+    from majordomo.app.server import RefusedToBind
+    from majordomo.planner.errors import BadModelSpec
+    from majordomo.scene_graph.errors import SceneFormatError
+    from majordomo.simulation.errors import HouseError, SimulatorError
+
+    try:
+        application()
+    except (RefusedToBind, HouseError, SimulatorError, SceneFormatError, BadModelSpec, OSError) as error:
+        complaints.print(f"majordomo: {error}", style="red", markup=False, highlight=False)
+        sys.exit(2)
+    except KeyboardInterrupt:
+        sys.exit(130)
+
+
+@application.command()
+def serve(
+    house: House = "flat",
+    seed: Seed = 0,
+    clock: Annotated[
+        ClockMode, typer.Option(help="Follow the wall clock, or simulated time in lockstep.")
+    ] = ClockMode.REAL,
+    speed: Annotated[str, typer.Option(help="Simulated seconds per second, or 'max' (lockstep only).")] = "1",
+    port: Annotated[int, typer.Option(min=0, max=65535, help="0 picks a free one.")] = 8642,
+    host: Annotated[str, typer.Option(help="Address to listen on.")] = "127.0.0.1",
+    llm: Annotated[str | None, typer.Option(help="Language model, PROVIDER:MODEL.")] = None,
+    data: Data = DEFAULT_DATA,
+    simulation_api: Annotated[bool, typer.Option("--simulation-api", help="Offer truth and disturbances.")] = False,
+    explore: Annotated[bool, typer.Option(help="Explore the building unasked.")] = True,
+    camera: Annotated[bool, typer.Option(help="Use the RGB-D camera.")] = True,
+    graph: Annotated[Path | None, typer.Option(help="Serve a stored scene graph without a robot.")] = None,
+    verbose: Annotated[bool, typer.Option("--verbose", "-v", help="Log every frame's doings.")] = False,
+) -> None:
+    """Start the service; the first line printed is the page's address."""
+    from majordomo.app.http.security import Token
+    from majordomo.app.runtime import Runtime
+    from majordomo.app.server import bind, check_exposure, page_address
+    from majordomo.app.server import serve as serve_forever
+
+    settings = Settings(
+        house=house,
+        seed=seed,
+        clock=clock,
+        speed=_speed(speed, clock),
+        port=port,
+        host=host,
+        llm=llm,
+        llm_url=os.environ.get("MAJORDOMO_LLM_URL"),
+        llm_key=os.environ.get("MAJORDOMO_LLM_KEY"),
+        data=data,
+        simulation_api=simulation_api,
+        explore=explore,
+        camera=camera,
+        graph=graph,
+    )
+    _log_to_stderr(verbose=verbose)
+    runtime = Runtime(settings)
+    token = Token.stored_in(settings.data_folder)
+    check_exposure(settings, has_token=True)
+    with bind(settings) as listener:
+        address = page_address(listener, token)
+        started = asyncio.run(serve_forever(runtime, listener, token, lambda: print(address, flush=True)))
+    if not started:
+        raise typer.Exit(2)
+
+
+@application.command()
+def demo(
+    house: House = "flat",
+    seed: Seed = 0,
+    port: Annotated[int, typer.Option(min=0, max=65535, help="Port of the page to watch it on; 0 picks one.")] = 0,
+) -> None:
+    """Explore, carry out one request while a person interferes, and report what is true."""
+    from majordomo.app.demo_report import show_demo
+
+    succeeded = asyncio.run(show_demo(house=house, seed=seed, port=port, console=console))
+    raise typer.Exit(0 if succeeded else 1)
+
+
+@application.command()
+def ask(
+    request: Annotated[str, typer.Argument(help="What you want, in plain words.")],
+    url: Annotated[str | None, typer.Option(help="Address of the service; default: the one running here.")] = None,
+    token: Annotated[str | None, typer.Option(envvar="MAJORDOMO_TOKEN", help="Its token.")] = None,
+    data: Data = DEFAULT_DATA,
+) -> None:
+    """Ask the running service for something and follow it to its end."""
+    from majordomo.app.asking import NoService, ask_service, find_service
+
+    try:
+        service = find_service(url, token, data.expanduser())
+        succeeded = asyncio.run(ask_service(service, request, console))
+    except NoService as error:
+        complaints.print(str(error), style="red", markup=False)
+        raise typer.Exit(2) from None
+    raise typer.Exit(0 if succeeded else 1)
+
+
+@application.command()
+def doctor() -> None:
+    """Check what Majordomo needs on this machine, and say what to do about what is missing."""
+    from majordomo.app.doctor import examine
+
+    healthy = examine(console)
+    raise typer.Exit(0 if healthy else 1)
+
+
+@evaluations.command("demo")
+def evaluate_demo(
+    seeds: Annotated[int, typer.Option(min=1, help="How many runs, with seeds 0, 1, 2 …")] = 10,
+    json_file: Annotated[Path | None, typer.Option("--json", help="Where to write the figures.")] = None,
+    house: House = "flat",
+    jobs: Annotated[int, typer.Option(min=1, help="Runs at the same time.")] = 2,
+    logs: Annotated[Path | None, typer.Option(help="Folder for the runs' event logs.")] = None,
+    first_seed: Annotated[int, typer.Option(min=0)] = 0,
+) -> None:
+    """Play the demonstration under several seeds and compare what was reported with the truth."""
+    from majordomo.app.evaluations.demo import evaluate
+
+    good = evaluate(
+        house=house,
+        seeds=range(first_seed, first_seed + seeds),
+        jobs=jobs,
+        logs=logs,
+        json_file=json_file,
+        console=console,
+    )
+    raise typer.Exit(0 if good else 1)
+
+
+def _speed(text: str, clock: ClockMode) -> float | None:
+    if text == "max":
+        if clock is ClockMode.REAL:
+            raise typer.BadParameter("'max' needs --clock lockstep", param_hint="--speed")
+        return None
+    try:
+        speed = float(text)
+    except ValueError:
+        speed = 0.0
+    if not 0.0 < speed < float("inf"):
+        raise typer.BadParameter(f"{text!r} is neither a positive number nor 'max'", param_hint="--speed")
+    return speed
+
+
+def _log_to_stderr(*, verbose: bool) -> None:
+    logging.basicConfig(
+        level=logging.DEBUG if verbose else logging.INFO,
+        format="%(asctime)s %(levelname)-7s %(name)s: %(message)s",
+        stream=sys.stderr,
+    )
+    for chatty in ("httpx", "httpcore", "asyncio", "websockets", "watchfiles"):
+        logging.getLogger(chatty).setLevel(logging.WARNING)

@@ -1,0 +1,1 @@
+"""Evaluations: each prints a table and writes JSON."""

@@ -1,0 +1,41 @@
+"""The event log: one JSON line per event, in robot time only, so that the same seed gives the same bytes."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, TextIO
+
+
+class EventLog:
+    """Appends events to a file, or to nothing when no path is given. Keys are sorted, floats rounded."""
+
+    def __init__(self, path: Path | None) -> None:
+        self._file: TextIO | None = None
+        if path is not None:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            self._file = path.open("w", encoding="utf-8")
+
+    def write(self, stamp_s: float, kind: str, data: Mapping[str, Any]) -> None:
+        """Append one event of ``kind``."""
+        if self._file is None:
+            return
+        record = {"stamp_s": stamp_s, "kind": kind, **data}
+        self._file.write(json.dumps(_rounded(record), sort_keys=True, separators=(",", ":"), default=str) + "\n")
+
+    def close(self) -> None:
+        """Flush and close the file."""
+        if self._file is not None:
+            self._file.close()
+            self._file = None
+
+
+def _rounded(value: Any) -> Any:
+    if isinstance(value, float):
+        return round(value, 6)
+    if isinstance(value, Mapping):
+        return {str(key): _rounded(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_rounded(item) for item in value]
+    return value

@@ -1,0 +1,84 @@
+"""What clients send, validated at the border; unknown fields are refused."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, StringConstraints
+
+from majordomo.planner.tasks import Approval
+
+MAX_REQUEST_CHARACTERS = 10_000
+
+RequestText = Annotated[str, StringConstraints(strip_whitespace=True, min_length=1, max_length=MAX_REQUEST_CHARACTERS)]
+
+
+class Document(BaseModel):
+    """Base of all request bodies."""
+
+    model_config = ConfigDict(extra="forbid")
+
+
+class TaskRequest(Document):
+    """``POST /v1/tasks``."""
+
+    request: RequestText = Field(examples=["bring the blue bottle from the kitchen to the desk in the office"])
+    approval: Approval = Approval.AUTO
+    dry_run: bool = False
+
+
+class Answer(Document):
+    """``POST /v1/tasks/{id}/answer``."""
+
+    answer: RequestText
+
+
+class Nearness(Document):
+    """Within ``radius_m`` of a node, or of a point of the map frame."""
+
+    node: str | None = None
+    point_m: tuple[float, float] | None = None
+    radius_m: float = Field(gt=0)
+
+
+class Relation(Document):
+    """Related by ``predicate`` to ``target``."""
+
+    predicate: str | None = None
+    target: str | None = None
+
+
+class SceneQuery(Document):
+    """``POST /v1/scene/query``."""
+
+    type: str | list[str] | None = None
+    label: str | None = None
+    attributes: dict[str, str] = Field(default_factory=dict)
+    room: str | None = None
+    relation: Relation | None = None
+    near: Nearness | None = None
+    state: str | None = None
+    max_age_s: float | None = Field(default=None, gt=0)
+    order_by: str = "id"
+    descending: bool = False
+    limit: int = Field(default=100, ge=1, le=1000)
+    offset: int = Field(default=0, ge=0)
+
+
+class NodePatch(Document):
+    """``PATCH /v1/scene/nodes/{id}``: what a person teaches."""
+
+    label: Annotated[str, StringConstraints(strip_whitespace=True, min_length=1, max_length=80)] | None = None
+    name: Annotated[str, StringConstraints(strip_whitespace=True, min_length=1, max_length=80)] | None = None
+
+
+class Disturbance(BaseModel):
+    """``POST /v1/simulation/disturb``: one event of design section 4; the simulator checks the rest."""
+
+    model_config = ConfigDict(extra="allow")
+
+    do: Literal["move", "remove", "add", "close_door", "open_door", "walk"]
+
+    def event(self) -> dict[str, Any]:
+        """The event as the simulator takes it."""
+        return self.model_dump()

@@ -1,0 +1,37 @@
+"""Routes for scoring, present only with ``--simulation-api``."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from fastapi import APIRouter
+
+from majordomo.app.http.documents import Disturbance
+from majordomo.app.http.problems import Problem
+from majordomo.app.runtime import Runtime
+from majordomo.simulation.client import SimulatedRobot
+from majordomo.simulation.errors import DisturbError
+
+
+def simulation_routes(runtime: Runtime) -> APIRouter:
+    """The simulator's truth, and a person who interferes."""
+    router = APIRouter(tags=["simulation"])
+
+    def robot() -> SimulatedRobot:
+        if runtime.robot is None or not runtime.robot.alive:
+            raise Problem(503, "simulator_unavailable", "the simulator is not running")
+        return runtime.robot
+
+    @router.get("/v1/simulation/truth", summary="The simulator's truth, for scoring")
+    async def truth() -> dict[str, Any]:
+        return await robot().truth()
+
+    @router.post("/v1/simulation/disturb", summary="Let something happen in the house")
+    async def disturb(body: Disturbance) -> dict[str, Any]:
+        try:
+            await robot().disturb(body.event())
+        except DisturbError as error:
+            raise Problem(422, "invalid_disturbance", str(error)) from None
+        return {"done": True}
+
+    return router

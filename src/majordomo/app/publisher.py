@@ -1,0 +1,110 @@
+"""The agent that shows the graph to the outside: scene, robot and perception events, and the event log."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from majordomo.app.event_log import EventLog
+from majordomo.app.events import EventStream
+from majordomo.scene_graph.diff import Delta
+from majordomo.scene_graph.edges import EdgeType
+from majordomo.scene_graph.memory import WorkingMemory
+from majordomo.scene_graph.nodes import ROBOT_ID, node_type
+
+Documents = dict[str, dict[str, Any]]
+
+
+class Publisher:
+    """Publishes what changed in the scene document since last time, the robot's pose, and once a second the status.
+
+    Args:
+        scene: the scene document in the map frame.
+        robot: the robot's document. ``status``: the status document.
+    """
+
+    name = "publisher"
+
+    def __init__(
+        self,
+        memory: WorkingMemory,
+        stream: EventStream,
+        log: EventLog,
+        *,
+        scene: Callable[[], Mapping[str, Any]],
+        robot: Callable[[], Mapping[str, Any]],
+        status: Callable[[], Mapping[str, Any]],
+        period_s: float = 0.2,
+    ) -> None:
+        self.period_s = period_s
+        self._stream = stream
+        self._log = log
+        self._scene, self._robot, self._status = scene, robot, status
+        self._subscription = memory.subscribe(capacity=4096)
+        self._nodes: Documents = {}
+        self._edges: Documents = {}
+        self._next_status_s = 0.0
+
+    async def step(self, stamp_s: float) -> None:
+        """Publish what is new."""
+        for delta in self._subscription.poll():
+            self._write(delta)
+        self._publish_scene(stamp_s)
+        self._stream.publish("robot", self._robot(), stamp_s)
+        if stamp_s >= self._next_status_s:
+            self._next_status_s = stamp_s + 1.0
+            self._stream.publish("perception", self._status(), stamp_s)
+
+    def _publish_scene(self, stamp_s: float) -> None:
+        scene = self._scene()
+        nodes = {node["id"]: node for node in scene["nodes"] if node["id"] != ROBOT_ID}
+        edges = {_edge_name(edge): edge for edge in scene["edges"]}
+        put_nodes, removed_nodes = _changes(self._nodes, nodes)
+        put_edges, removed_edges = _changes(self._edges, edges)
+        self._nodes, self._edges = nodes, edges
+        if put_nodes or removed_nodes or put_edges or removed_edges:
+            data = {
+                "revision": scene["revision"],
+                "put_nodes": put_nodes,
+                "removed_nodes": [node["id"] for node in removed_nodes],
+                "put_edges": put_edges,
+                "removed_edges": removed_edges,
+            }
+            self._stream.publish("scene", data, stamp_s)
+
+    def _write(self, delta: Delta) -> None:
+        """One line per transaction; the robot's own pose, which changes all the time, is left out."""
+        edges = [edge for edge in delta.put_edges if not (edge.key.type is EdgeType.RT and edge.target == ROBOT_ID)]
+        removed = [key for key in delta.removed_edges if not (key.type is EdgeType.RT and key.target == ROBOT_ID)]
+        if not (delta.put_nodes or delta.removed_nodes or edges or removed):
+            return
+        data = {
+            "agent": delta.agent,
+            "nodes": [[node_type(node), node.id] for node in delta.put_nodes],
+            "removed": list(delta.removed_nodes),
+            "edges": [_edge_line(edge) for edge in edges],
+            "removed_edges": [list(key) for key in removed],
+        }
+        self._log.write(delta.stamp_s, "graph", data)
+
+
+def _edge_line(edge: Any) -> list[Any]:
+    key = edge.key
+    extra: list[Any] = []
+    if key.type is EdgeType.RT:
+        extra = [float(value) for value in edge.T_source_target.translation_m]
+    elif key.type is EdgeType.HAS_INTENTION:
+        extra = [str(edge.action), str(edge.status)]
+    elif key.type is EdgeType.RELATION:
+        extra = [edge.probability]
+    return [*key, *extra]
+
+
+def _edge_name(edge: Mapping[str, Any]) -> str:
+    return "|".join((edge["type"], edge["source"], edge["target"], edge.get("label") or ""))
+
+
+def _changes(old: Documents, new: Documents) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]:
+    put = [document for name, document in new.items() if old.get(name) != document]
+    removed = [document for name, document in old.items() if name not in new]
+    return put, removed

@@ -1,0 +1,32 @@
+"""Raw proximity for obstacle avoidance, from the newest LiDAR revolution; an adapter between two siblings."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from majordomo.perception.sensing import SensorBuffer, scan_points_base
+
+FLOOR_M = 0.06
+"""Returns below this height are floor: three standard deviations of range noise at a steep ring."""
+
+
+class ScanRanges:
+    """``RangeSource`` over a sensor buffer. Computes once per scan."""
+
+    def __init__(self, buffer: SensorBuffer, *, robot_height_m: float = 1.75, reach_m: float = 6.0) -> None:
+        self._buffer = buffer
+        self._robot_height_m = robot_height_m
+        self._reach_m = reach_m
+        self._stamp_s = -np.inf
+        self._points: NDArray[np.float64] = np.zeros((0, 3))
+
+    def points_base(self) -> NDArray[np.float64]:
+        """(N, 3) points between floor and the robot's height, base frame at the scan's stamp."""
+        scan = self._buffer.scan
+        if scan is not None and scan.stamp_s != self._stamp_s:
+            points = scan_points_base(scan)
+            height_m, distance_m = points[:, 2], np.hypot(points[:, 0], points[:, 1])
+            near = (height_m > FLOOR_M) & (height_m < self._robot_height_m) & (distance_m < self._reach_m)
+            self._points, self._stamp_s = points[near], scan.stamp_s
+        return self._points

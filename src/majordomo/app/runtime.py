@@ -1,0 +1,279 @@
+"""One running Majordomo: graph, tasks, agents, robot and clock, started and stopped together.
+
+The HTTP routes, the demonstration and the evaluations talk to this object and to nothing behind it.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import json
+import logging
+from collections.abc import AsyncIterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import httpx
+
+from majordomo.app.event_log import EventLog
+from majordomo.app.events import EventStream
+from majordomo.app.metrics import metrics_text
+from majordomo.app.model_choice import make_language_model
+from majordomo.app.publisher import Publisher
+from majordomo.app.scene_documents import robot_document, scene_document
+from majordomo.app.scheduler import LockstepScheduler, RealTimeScheduler, Scheduler
+from majordomo.app.settings import ClockMode, Settings
+from majordomo.app.stack import GraphStack, RobotStack, Stack
+from majordomo.planner.queue import TaskQueue
+from majordomo.planner.tasks import Approval, Task
+from majordomo.scene_graph.memory import WorkingMemory
+from majordomo.simulation.client import SimulatedRobot
+from majordomo.simulation.errors import SimulatorDied
+
+logger = logging.getLogger(__name__)
+
+
+class RobotUnavailable(RuntimeError):
+    """There is no robot: it died, or a stored graph is served."""
+
+
+class Runtime:
+    """Everything that runs behind the interface. Use ``async with runtime.running()``."""
+
+    def __init__(self, settings: Settings, *, event_log: Path | None = None) -> None:
+        self.settings = settings
+        self.queue = TaskQueue()
+        self.stream = EventStream(self._snapshot_document)
+        self.log = EventLog(event_log)
+        self._http = httpx.AsyncClient()
+        self.model = make_language_model(settings, self._http)
+        self._stack: Stack | None = None
+        self._scheduler: Scheduler | None = None
+        self._loop_task: asyncio.Task[None] | None = None
+        self._lost = ""
+        self._scene_cache: dict[tuple[str, tuple[str, ...]], tuple[int, bytes]] = {}
+        self._changed = asyncio.Condition()
+        self.queue.listen(self._on_task)
+
+    @contextlib.asynccontextmanager
+    async def running(self) -> AsyncIterator[Runtime]:
+        """Start robot and agents, and stop them at the end whatever happens."""
+        await self._start()
+        try:
+            yield self
+        finally:
+            await self._halt()
+            await self._http.aclose()
+            self.log.close()
+
+    @property
+    def memory(self) -> WorkingMemory:
+        """The scene graph."""
+        return self._require_stack().memory
+
+    @property
+    def robot(self) -> SimulatedRobot | None:
+        """The robot's driver, if there is a robot."""
+        return self._stack.robot if isinstance(self._stack, RobotStack) else None
+
+    def require_robot(self) -> SimulatedRobot:
+        """The robot's driver.
+
+        Raises:
+            RobotUnavailable: there is none.
+        """
+        if self.robot is None or not self.robot.alive:
+            raise RobotUnavailable("no robot is running")
+        return self.robot
+
+    @property
+    def now_s(self) -> float:
+        """Robot time in seconds."""
+        return self._scheduler.now_s if self._scheduler is not None else 0.0
+
+    @property
+    def ready(self) -> bool:
+        """Whether a request can be taken."""
+        return self.not_ready_reason == ""
+
+    @property
+    def not_ready_reason(self) -> str:
+        """Why no request can be taken, empty when one can."""
+        if self._lost:
+            return self._lost
+        return "" if self._scheduler is not None and self.now_s > 0.0 else "starting"
+
+    def submit(self, request: str, *, approval: Approval = Approval.AUTO, dry_run: bool = False) -> Task:
+        """Queue a request."""
+        return self.queue.submit(request, stamp_s=self.now_s, approval=approval, dry_run=dry_run)
+
+    def stop_robot(self) -> None:
+        """Latch the stop; never waits for anything."""
+        if self.robot is not None:
+            self.robot.stop()
+        self.log.write(self.now_s, "stop", {})
+        self._say("stopped by a person")
+
+    def release_stop(self) -> None:
+        """Lift the latched stop."""
+        if self.robot is not None:
+            self.robot.release_stop()
+        self.log.write(self.now_s, "resume", {})
+        self._say("stop released")
+
+    async def restart_robot(self) -> bool:
+        """Bring a dead simulator back with an empty graph, since its house begins anew; false while it is alive."""
+        if self.robot is None or self.robot.alive:
+            return False
+        for task in self.queue.tasks:
+            if not task.status.ended:
+                self.queue.cancel(task.id, stamp_s=self.now_s)
+        await self._halt()
+        self._lost = ""
+        await self._start()
+        self._say("the simulator was restarted; the building is explored again")
+        return True
+
+    async def wait_for_change(self, timeout_s: float = 5.0) -> None:
+        """Wait until agents have had a turn (or ``timeout_s`` wall seconds have passed).
+
+        Raises:
+            RobotUnavailable: the robot was lost.
+        """
+        if self._lost:
+            raise RobotUnavailable(self._lost)
+        async with self._changed:
+            with contextlib.suppress(TimeoutError):
+                await asyncio.wait_for(self._changed.wait(), timeout_s)
+
+    async def camera_jpeg(self) -> bytes | None:
+        """What the robot sees, with outlined objects, as JPEG."""
+        return await self._stack.camera_jpeg() if isinstance(self._stack, RobotStack) else None
+
+    def scene_document(self, frame: str, layers: tuple[str, ...] = ()) -> dict[str, Any]:
+        """The scene as a document."""
+        return scene_document(self.memory.snapshot(), frame, layers)
+
+    def scene_json(self, frame: str, layers: tuple[str, ...] = ()) -> bytes:
+        """The scene as JSON, made once per revision."""
+        revision = self.memory.snapshot().revision
+        cached = self._scene_cache.get((frame, layers))
+        if cached is None or cached[0] != revision:
+            body = json.dumps(self.scene_document(frame, layers), separators=(",", ":")).encode()
+            cached = self._scene_cache[frame, layers] = (revision, body)
+            while len(self._scene_cache) > 16:
+                self._scene_cache.pop(next(iter(self._scene_cache)))
+        return cached[1]
+
+    def robot_document(self) -> dict[str, Any]:
+        """Pose, room, load and path of the robot, in the map frame."""
+        stack = self._require_stack()
+        return robot_document(
+            self.memory.snapshot(), path_room=stack.path_room, stopped=stack.stopped, stamp_s=self.now_s
+        )
+
+    def status_document(self) -> dict[str, Any]:
+        """The body of ``GET /v1/status``."""
+        snapshot = self.memory.snapshot()
+        robot = self.robot_document()
+        current = self.queue.current
+        return {
+            "stamp_s": round(self.now_s, 3),
+            "clock": str(self.settings.clock),
+            "house": self.settings.house,
+            "exploring": self._require_stack().exploring and not snapshot.root.explored,
+            "explored": snapshot.root.explored,
+            "task": current.id if current else None,
+            "stopped": robot["stopped"],
+            "robot": {key: robot[key] for key in ("room", "pose_map", "holding")},
+            "language_model": self.settings.llm,
+            "agents": self._agents(),
+            "simulator": self._lost or ("running" if self.robot else "none"),
+            "perception": self._require_stack().degraded,
+            "revision": snapshot.revision,
+        }
+
+    def metrics_text(self) -> bytes:
+        """Prometheus text."""
+        return metrics_text(self.memory.snapshot(), self._agents(), self.queue.tasks)
+
+    def _agents(self) -> dict[str, Any]:
+        turns = self._scheduler.turns if self._scheduler is not None else ()
+        return {turn.agent.name: turn.summary() for turn in turns}
+
+    def _require_stack(self) -> Stack:
+        if self._stack is None:
+            raise RobotUnavailable("not started")
+        return self._stack
+
+    async def _start(self) -> None:
+        settings = self.settings
+        if settings.graph is not None:
+            stack: Stack = GraphStack.load(settings.graph, self.queue, self.model)
+        else:
+            stack = await RobotStack.build(settings, self.queue, self.model, self.log)
+        self._stack = stack
+        self._scene_cache.clear()
+        publisher = Publisher(
+            stack.memory,
+            self.stream,
+            self.log,
+            scene=lambda: self.scene_document("map"),
+            robot=self.robot_document,
+            status=self.status_document,
+        )
+        agents = [*stack.agents, publisher, _Herald(self._changed)]
+        if isinstance(stack, RobotStack) and settings.clock is ClockMode.LOCKSTEP:
+            scheduler: Scheduler = LockstepScheduler(agents, stack.advance, speed=settings.speed)
+        else:
+            scheduler = RealTimeScheduler(agents, stack.now, speed=settings.speed or 1.0)
+        self._scheduler = scheduler
+        self._loop_task = asyncio.create_task(self._run(scheduler), name="scheduler")
+
+    async def _run(self, scheduler: Scheduler) -> None:
+        try:
+            await scheduler.run()
+        except SimulatorDied as error:
+            self._lost = f"the simulator died: {error}; POST /v1/simulation/restart brings it back"
+            logger.critical("%s", self._lost)
+            self._say(self._lost)
+            async with self._changed:
+                self._changed.notify_all()
+
+    async def _halt(self) -> None:
+        if self._loop_task is not None:
+            self._loop_task.cancel()
+            with contextlib.suppress(asyncio.CancelledError):
+                await self._loop_task
+        if self._stack is not None:
+            await self._stack.close()
+
+    def _on_task(self, task: Task) -> None:
+        document = task.document()
+        self.stream.publish("task", document, self.now_s)
+        self.log.write(self.now_s, "task", {"task": document})
+
+    def _say(self, message: str) -> None:
+        self.stream.publish("log", {"message": message}, self.now_s)
+
+    def _snapshot_document(self) -> Mapping[str, Any]:
+        return {
+            "scene": self.scene_document("map"),
+            "tasks": [task.document() for task in self.queue.tasks[-50:]],
+            "robot": self.robot_document(),
+            "status": self.status_document(),
+        }
+
+
+class _Herald:
+    """Wakes whoever waits for agents to have had a turn."""
+
+    name = "herald"
+    period_s = 0.25
+
+    def __init__(self, changed: asyncio.Condition) -> None:
+        self._changed = changed
+
+    async def step(self, stamp_s: float) -> None:  # noqa: ARG002 - every agent takes the time
+        async with self._changed:
+            self._changed.notify_all()

@@ -1,0 +1,126 @@
+"""Runs the HTTP application on a bound socket, and tells the address before anything else is printed."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import socket
+from collections.abc import AsyncIterator, Callable, Iterator
+
+import uvicorn
+
+from majordomo.app.http.security import Token, is_loopback
+from majordomo.app.http.service import make_service
+from majordomo.app.runtime import Runtime
+from majordomo.app.settings import Settings
+
+SHUTDOWN_TIMEOUT_S = 5
+
+
+class RefusedToBind(RuntimeError):
+    """The address would be reachable from outside without protection, or cannot be had."""
+
+
+def bind(settings: Settings) -> socket.socket:
+    """A listening socket; port 0 picks a free one.
+
+    Raises:
+        RefusedToBind: the port is taken, or the host is not this machine's.
+    """
+    family = socket.AF_INET6 if ":" in settings.host else socket.AF_INET
+    listener = socket.socket(family, socket.SOCK_STREAM)
+    listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    try:
+        listener.bind((settings.host, settings.port))
+    except OSError as error:
+        listener.close()
+        raise RefusedToBind(f"cannot listen on {settings.host}:{settings.port}: {error.strerror or error}") from error
+    listener.listen(128)
+    return listener
+
+
+def page_address(listener: socket.socket, token: Token) -> str:
+    """The page's address with its token."""
+    host, port = listener.getsockname()[:2]
+    shown = f"[{host}]" if ":" in host else host
+    return f"http://{shown}:{port}/?token={token.value}"
+
+
+class _Server(uvicorn.Server):
+    """A uvicorn server that tells when it accepts requests."""
+
+    def __init__(self, config: uvicorn.Config, on_ready: Callable[[], None]) -> None:
+        super().__init__(config)
+        self._on_ready = on_ready
+
+    async def startup(self, sockets: list[socket.socket] | None = None) -> None:
+        await super().startup(sockets)
+        if self.started and not self.should_exit:
+            self._on_ready()
+
+
+async def serve(runtime: Runtime, listener: socket.socket, token: Token, on_ready: Callable[[], None]) -> bool:
+    """Serve until interrupted; whether start-up succeeded."""
+    with _announced(runtime.settings, listener, token):
+        server = _make_server(runtime, token, on_ready)
+        await server.serve(sockets=[listener])
+        return server.started
+
+
+@contextlib.asynccontextmanager
+async def serving(runtime: Runtime, listener: socket.socket, token: Token) -> AsyncIterator[None]:
+    """Serve in the background of a program that runs the runtime itself (the demo)."""
+    import asyncio
+
+    ready = asyncio.Event()
+    server = _make_server(runtime, token, ready.set)
+    server.install_signal_handlers = lambda: None  # type: ignore[attr-defined]
+    task = asyncio.create_task(server.serve(sockets=[listener]))
+    waiting = asyncio.create_task(ready.wait())
+    await asyncio.wait({task, waiting}, return_when=asyncio.FIRST_COMPLETED)
+    waiting.cancel()
+    if task.done():
+        task.result()
+        raise RefusedToBind("the service did not start; its log says why")
+    try:
+        yield
+    finally:
+        server.should_exit = True
+        await task
+
+
+def _make_server(runtime: Runtime, token: Token, on_ready: Callable[[], None]) -> _Server:
+    config = uvicorn.Config(
+        make_service(runtime, token),
+        log_level="warning",
+        access_log=False,
+        ws_max_size=65_536,
+        timeout_graceful_shutdown=SHUTDOWN_TIMEOUT_S,
+        server_header=False,
+    )
+    return _Server(config, on_ready)
+
+
+@contextlib.contextmanager
+def _announced(settings: Settings, listener: socket.socket, token: Token) -> Iterator[None]:
+    """Leave address and token in the data folder for ``majordomo ask``, for as long as the service runs."""
+    path = settings.data_folder / "service.json"
+    address = page_address(listener, token).partition("/?")[0]
+    descriptor = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o600)
+    with os.fdopen(descriptor, "w", encoding="ascii") as file:
+        json.dump({"address": address, "token": token.value, "pid": os.getpid()}, file)
+    try:
+        yield
+    finally:
+        path.unlink(missing_ok=True)
+
+
+def check_exposure(settings: Settings, *, has_token: bool) -> None:
+    """Refuse to listen beyond this machine without a token.
+
+    Raises:
+        RefusedToBind: naming the host.
+    """
+    if not is_loopback(settings.host) and not has_token:
+        raise RefusedToBind(f"refusing to listen on {settings.host} without a token")

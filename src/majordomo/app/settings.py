@@ -1,0 +1,48 @@
+"""Everything a service can be told at start, read once by the command line and handed down through constructors."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from pathlib import Path
+
+from pydantic import BaseModel, ConfigDict, Field
+
+DEFAULT_DATA = Path("~/.local/share/majordomo")
+
+
+class ClockMode(StrEnum):
+    """``real`` follows the wall clock; ``lockstep`` advances simulated time and runs each agent when due."""
+
+    REAL = "real"
+    LOCKSTEP = "lockstep"
+
+
+class Settings(BaseModel):
+    """Settings of one service.
+
+    ``speed``: simulated seconds per wall second, ``None`` for as fast as the machine allows (lockstep only).
+    ``llm``: ``provider:model`` or ``None`` for the command grammar alone. ``data``: folder of token, logs and memory.
+    """
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    house: str = "flat"
+    seed: int = Field(default=0, ge=0)
+    clock: ClockMode = ClockMode.REAL
+    speed: float | None = Field(default=1.0, gt=0)
+    host: str = "127.0.0.1"
+    port: int = Field(default=8642, ge=0, le=65535)
+    llm: str | None = None
+    llm_url: str | None = None
+    llm_key: str | None = Field(default=None, repr=False)
+    data: Path = DEFAULT_DATA
+    simulation_api: bool = False
+    explore: bool = True
+    camera: bool = True
+    graph: Path | None = None
+    max_body_bytes: int = 65_536
+
+    @property
+    def data_folder(self) -> Path:
+        """The data folder with ``~`` resolved."""
+        return self.data.expanduser()

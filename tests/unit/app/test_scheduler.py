@@ -1,0 +1,101 @@
+"""Laws of the two schedulers."""
+
+from __future__ import annotations
+
+import asyncio
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from majordomo.app.scheduler import LockstepScheduler, RealTimeScheduler
+
+pytestmark = pytest.mark.anyio
+
+
+@pytest.fixture
+def anyio_backend():
+    return "asyncio"
+
+
+class Diary:
+    """An agent that writes down its turns."""
+
+    def __init__(self, name, period_s, book, fails=False):
+        self.name, self.period_s, self.book, self.fails = name, period_s, book, fails
+
+    async def step(self, stamp_s):
+        self.book.append((round(stamp_s, 6), self.name))
+        if self.fails:
+            raise ArithmeticError("as told")
+
+
+class Simulated:
+    """A body whose time moves when told."""
+
+    def __init__(self):
+        self.now_s = 0.0
+
+    async def advance(self, duration_s):
+        self.now_s += duration_s
+        return self.now_s
+
+
+@given(periods=st.lists(st.sampled_from([0.05, 0.1, 0.2, 0.25, 1.0]), min_size=1, max_size=4))
+def test_in_lockstep_every_agent_gets_its_rate_and_the_order_never_changes(periods):
+    book = []
+    agents = [Diary(f"agent_{index}", period, book) for index, period in enumerate(periods)]
+    scheduler = LockstepScheduler(agents, Simulated().advance)
+
+    async def run():
+        for _ in range(100):
+            await scheduler.tick()
+
+    asyncio.run(run())
+    for agent in agents:
+        turns = sum(name == agent.name for _, name in book)
+        assert abs(turns - 5.0 / agent.period_s) <= 1
+    assert book == sorted(book)
+
+
+async def test_missed_turns_are_skipped_not_made_up_for():
+    book = []
+    body = Simulated()
+    scheduler = LockstepScheduler([Diary("a", 0.1, book)], body.advance, tick_s=1.0)
+    for _ in range(3):
+        await scheduler.tick()
+    assert [stamp for stamp, _ in book] == [1.0, 2.0, 3.0]
+
+
+async def test_an_agent_that_fails_is_counted_and_goes_on_and_hurts_no_other(caplog):
+    book = []
+    scheduler = LockstepScheduler(
+        [Diary("bad", 0.05, book, fails=True), Diary("good", 0.05, book)], Simulated().advance
+    )
+    for _ in range(4):
+        await scheduler.tick()
+    bad, good = scheduler.turns
+    assert (bad.summary()["restarts"], good.summary()["restarts"]) == (4, 0)
+    assert "as told" in bad.last_error
+    assert sum(name == "good" for _, name in book) == 4
+    assert "bad failed" in caplog.text
+
+
+async def test_in_real_time_a_slow_agent_does_not_delay_a_fast_one():
+    book = []
+    release = asyncio.Event()
+
+    class Slow(Diary):
+        async def step(self, stamp_s):
+            await super().step(stamp_s)
+            await release.wait()
+
+    now = asyncio.get_running_loop().time
+    scheduler = RealTimeScheduler([Slow("slow", 0.01, book), Diary("fast", 0.01, book)], now)
+    running = asyncio.create_task(scheduler.run())
+    while sum(name == "fast" for _, name in book) < 5:
+        await asyncio.sleep(0)
+    running.cancel()
+    with pytest.raises(asyncio.CancelledError):
+        await running
+    assert sum(name == "slow" for _, name in book) == 1

@@ -1,0 +1,1 @@
+"""From a request to an outcome: goals, verified plans, execution, monitoring, explanation."""

@@ -1,0 +1,222 @@
+"""Answers to questions, read from the graph, with the age of what is known."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from majordomo.planner.grammar.syntax import Ask, NounPhrase, Reference, Restriction
+from majordomo.planner.grounding import Ambiguous, Context, Grounding, NoReferent
+from majordomo.planner.matching import nodes_of
+from majordomo.planner.naming import at, listed, name_of
+from majordomo.planner.narrowing import Narrowing
+from majordomo.planner.phrasing import article, describe, described, phrase_text, place_phrase
+from majordomo.planner.plan import Query, QueryKind
+from majordomo.planner.vocabulary import singular
+from majordomo.planner.whereabouts import NOW_S, Whereabouts, capital
+from majordomo.scene_graph.nodes import ObjectNode, ObjectState, PersonNode, RoomNode
+
+ABILITIES = (
+    "I can go to places and people, find things, pick them up, put them somewhere, bring them, and answer questions."
+)
+MAX_NAMED = 6
+
+
+@dataclass(frozen=True, kw_only=True)
+class Answer:
+    """What is said, and the question as the graph understood it."""
+
+    text: str
+    query: Query
+
+
+class Answers:
+    """Answers ``Ask`` steps on one graph."""
+
+    def __init__(self, grounding: Grounding) -> None:
+        self._grounding = grounding
+        self._snapshot, self._state = grounding.snapshot, grounding.state
+        self._narrowing = Narrowing(grounding.snapshot, grounding.state, grounding)
+        self._told = Whereabouts(grounding.snapshot, grounding.state)
+
+    def of(self, ask: Ask, context: Context) -> Answer | NoReferent | Ambiguous:
+        """The answer, or why the question cannot be put to the graph."""
+        nodes: tuple[str, ...] = ()
+        match ask.kind:
+            case QueryKind.ROBOT_ROOM:
+                text = self._robot_room()
+            case QueryKind.ABILITIES:
+                text = ABILITIES
+            case QueryKind.ROOMS:
+                text, nodes = self._rooms()
+            case QueryKind.SEEN:
+                text, nodes = self._seen()
+            case QueryKind.HOLDING:
+                text, nodes = self._holding()
+            case _:
+                found = self._found(ask, context)
+                if not isinstance(found, tuple):
+                    return found
+                nodes = found
+                text = self._about(ask, found, context)
+        return Answer(text=text, query=Query(kind=ask.kind, nodes=nodes, phrase=_phrase(ask)))
+
+    def _found(self, ask: Ask, context: Context) -> tuple[str, ...] | NoReferent | Ambiguous:
+        """Everything the question is about, present or missing."""
+        found: dict[str, None] = {}
+        for reference in ask.things or (None,):
+            here = self._candidates(reference, context)
+            if not isinstance(here, tuple):
+                return here
+            if ask.place is not None:
+                lost = self._unknown_place(ask.place, context)
+                if lost is not None:
+                    return lost
+                here = tuple(self._narrowing.restricted(here, ask.place, context))
+            found.update(dict.fromkeys(here))
+        return tuple(found)
+
+    def _candidates(self, reference: Reference | None, context: Context) -> tuple[str, ...] | NoReferent | Ambiguous:
+        if reference is None:
+            return tuple(node.id for node in nodes_of(self._snapshot) if isinstance(node, ObjectNode | PersonNode))
+        if isinstance(reference, NounPhrase):
+            return self._grounding.matches(reference, context, fixed=True)
+        return self._grounding.things(reference, context)
+
+    def _unknown_place(self, place: Restriction, context: Context) -> NoReferent | None:
+        if place.reference is None or self._narrowing.targets(place, context):
+            return None
+        if isinstance(place.reference, NounPhrase):
+            return self._grounding.nothing(place.reference, context)
+        return NoReferent(reason="I do not know which place you mean.")
+
+    def _about(self, ask: Ask, found: tuple[str, ...], context: Context) -> str:
+        present = [i for i in found if i not in self._state.missing]
+        match ask.kind:
+            case QueryKind.COUNT:
+                return self._count(ask, present, found)
+            case QueryKind.LIST:
+                return self._list(ask, present, context)
+            case QueryKind.EXISTS:
+                return self._exists(ask, found, context)
+            case QueryKind.COLOR:
+                return self._colors(found) or self._none(ask, context)
+            case QueryKind.ROOM_OF:
+                return self._where(found, rooms_only=True) or self._none(ask, context)
+            case _:
+                return self._where(found, rooms_only=False) or self._none(ask, context)
+
+    def _none(self, ask: Ask, context: Context) -> str:
+        reference = ask.things[0] if ask.things else None
+        if isinstance(reference, NounPhrase):
+            return self._grounding.nothing(reference, context).reason
+        return "I do not know."
+
+    def _where(self, found: Sequence[str], *, rooms_only: bool) -> str:
+        you = self._grounding.speaker(Context())
+        speaker = you[0] if isinstance(you, tuple) else None
+        told = [self._told.sentence(i, rooms_only=rooms_only, speaker=speaker) for i in found[:MAX_NAMED]]
+        if len(found) > MAX_NAMED:
+            told.append(f"I know of {len(found) - MAX_NAMED} more.")
+        return " ".join(told)
+
+    def _count(self, ask: Ask, present: Sequence[str], found: Sequence[str]) -> str:
+        number = len(present)
+        text = _counted(ask, number)
+        lost = len(found) - number
+        many = ("is", "it") if lost == 1 else ("are", "them")
+        also = f", and {lost} more that {many[0]} not where I last saw {many[1]}"
+        names = f": {listed([describe(i, self._snapshot) for i in present[:MAX_NAMED]])}" if 0 < number <= 3 else ""
+        return f"I know of {number or 'no'} {text}{also if lost else ''}{names}."
+
+    def _list(self, ask: Ask, present: Sequence[str], context: Context) -> str:
+        shown = [i for i in present if i not in self._targets(ask, context)]
+        if not shown:
+            return f"I know of nothing there{f' that is {_phrase(ask)}' if ask.things else ''}."
+        targets = self._targets(ask, context)
+        if len(targets) > 1 and not ask.things:
+            return self._by_place(shown, targets)
+        if ask.things:
+            return f"{capital(listed([describe(i, self._snapshot) for i in shown[: 2 * MAX_NAMED]]))}."
+        return f"I have seen {self._inventory(shown)} there."
+
+    def _by_place(self, shown: Sequence[str], targets: tuple[str, ...]) -> str:
+        sentences = []
+        for target in targets:
+            here = [i for i in shown if self._narrowing.is_at(i, target)]
+            sentences.append(f"{capital(at(target, self._snapshot))}: {self._inventory(here) if here else 'nothing'}.")
+        return " ".join(sentences)
+
+    def _targets(self, ask: Ask, context: Context) -> tuple[str, ...]:
+        return self._narrowing.targets(ask.place, context) if ask.place is not None else ()
+
+    def _inventory(self, nodes: Sequence[str]) -> str:
+        names = Counter(self._plain(i) for i in nodes)
+        return listed([article(name) if count == 1 else f"{count} × {name}" for name, count in names.items()])
+
+    def _plain(self, node_id: str) -> str:
+        node = self._snapshot.node(node_id)
+        if isinstance(node, ObjectNode):
+            return " ".join(f"{node.color} {node.name or node.label}".split()).replace("_", " ")
+        return described(node_id, self._snapshot)
+
+    def _exists(self, ask: Ask, found: Sequence[str], context: Context) -> str:
+        if found:
+            return f"Yes. {self._where(found, rooms_only=False)}"
+        if ask.place is None:
+            return f"No. {self._none(ask, context)}"
+        elsewhere = self._candidates(ask.things[0], context) if ask.things else ()
+        rest = self._where(elsewhere, rooms_only=False) if isinstance(elsewhere, tuple) else ""
+        return f"Not that I know of. {rest}".strip() if rest else f"No. {self._none(ask, context)}"
+
+    def _colors(self, found: Sequence[str]) -> str:
+        objects = [node for i in found if isinstance(node := self._snapshot.node(i), ObjectNode)]
+        return " ".join(self._color(node) for node in objects[:MAX_NAMED])
+
+    def _color(self, node: ObjectNode) -> str:
+        thing = f"The {node.name or node.label.replace('_', ' ')} {place_phrase(node.id, self._snapshot)}"
+        return f"{thing} is {node.color}." if node.color else f"{thing}: I could not tell its color."
+
+    def _robot_room(self) -> str:
+        room = self._snapshot.current_room
+        if room is None:
+            return "I do not know yet which room I am in."
+        label = self._snapshot.room(room).label
+        return (
+            f"I am in {name_of(room, self._snapshot)} ({room})." if label else f"I am in {room}; I have no name for it."
+        )
+
+    def _rooms(self) -> tuple[str, tuple[str, ...]]:
+        rooms = tuple(node.id for node in nodes_of(self._snapshot) if isinstance(node, RoomNode))
+        if not rooms:
+            return "I do not know any room yet.", ()
+        names = [f"{name_of(i, self._snapshot)} ({i})" if self._snapshot.room(i).label else i for i in rooms]
+        return f"I know {len(rooms)} room{'s' if len(rooms) > 1 else ''}: {listed(names)}.", rooms
+
+    def _seen(self) -> tuple[str, tuple[str, ...]]:
+        now = self._snapshot.stamp_s - NOW_S
+        objects = [node for node in nodes_of(self._snapshot) if isinstance(node, ObjectNode)]
+        fresh = tuple(node.id for node in objects if node.last_seen_s >= now and node.state is not ObjectState.MISSING)
+        if fresh:
+            return f"I see {self._inventory(fresh)}.", fresh
+        return f"I see no object right now. In all I know of {len(objects)} objects.", ()
+
+    def _holding(self) -> tuple[str, tuple[str, ...]]:
+        held = self._state.holding
+        if held is None:
+            return "I am holding nothing.", ()
+        return f"I am holding {name_of(held, self._snapshot)}.", (held,)
+
+
+def _phrase(ask: Ask) -> str:
+    reference = ask.things[0] if ask.things else None
+    return phrase_text(reference) if isinstance(reference, NounPhrase) else "things"
+
+
+def _counted(ask: Ask, number: int) -> str:
+    """*1 red cup*, *2 red cups*: the noun phrase in the number that was counted."""
+    reference = ask.things[0]
+    if not isinstance(reference, NounPhrase) or number != 1:
+        return _phrase(ask)
+    return phrase_text(replace(reference, words=tuple(singular(reference.head).split(" "))))

@@ -1,0 +1,61 @@
+"""What is told about a task under way: its failures, its confirmed goals, and how it ended."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from majordomo.planner.crew import Crew
+from majordomo.planner.explainer import explain, failure_sentence, success_sentence
+from majordomo.planner.ledger import Ledger
+from majordomo.planner.plan import Step
+from majordomo.planner.tasks import TaskStatus
+from majordomo.scene_graph.snapshot import Snapshot
+from majordomo.skills.failures import Failure
+
+
+@dataclass(frozen=True, kw_only=True)
+class Ending:
+    """How a task ended, and the sentence that says so."""
+
+    status: TaskStatus
+    explanation: str
+
+
+class Chronicle:
+    """Writes what happens into the task's record and the event log."""
+
+    def __init__(self, task_id: str, ledger: Ledger, crew: Crew) -> None:
+        self._task_id, self._ledger, self._crew = task_id, ledger, crew
+
+    def step(self, step: Step, stamp_s: float) -> None:
+        """A step begins."""
+        self._crew.emit(stamp_s, "step", task=self._task_id, step=str(step))
+
+    def step_done(self, step: Step, snapshot: Snapshot, stamp_s: float) -> None:
+        """A step is confirmed, and with it perhaps a goal."""
+        self._crew.queue.amend(self._task_id, verified=self._ledger.report(snapshot))
+        self._crew.emit(stamp_s, "step_done", task=self._task_id, step=str(step))
+
+    def failure(self, failure: Failure, step: Step, snapshot: Snapshot, stamp_s: float, *, hopeless: bool) -> None:
+        """Something went wrong; ``hopeless``: nothing more will be tried."""
+        report = explain(failure, step, snapshot, hopeless=hopeless)
+        failures = self._crew.queue.task(self._task_id).failures
+        self._crew.queue.amend(self._task_id, failures=(*failures, report), explanation=report.sentence)
+        fields = {"step": report.step, "code": report.code, "why": report.message, "next": report.suggestion}
+        self._crew.emit(stamp_s, "failure", task=self._task_id, **fields)
+
+    def replan(self, plan: str, why: str, stamp_s: float) -> None:
+        """A new plan is in force."""
+        self._crew.emit(stamp_s, "replan", task=self._task_id, why=why, plan=plan)
+
+    def success(self, snapshot: Snapshot, stamp_s: float) -> Ending:
+        """Every goal is confirmed."""
+        task = self._crew.queue.amend(self._task_id, verified=self._ledger.report(snapshot))
+        goals = [verified.goal for verified in task.verified]
+        return Ending(status=TaskStatus.SUCCEEDED, explanation=success_sentence(task, goals, snapshot, stamp_s))
+
+    def surrender(self, reason: str, snapshot: Snapshot) -> Ending:
+        """Nothing is left to try."""
+        self._crew.queue.amend(self._task_id, verified=self._ledger.report(snapshot))
+        explanation = failure_sentence(self._ledger.remaining(), reason, snapshot)
+        return Ending(status=TaskStatus.FAILED, explanation=explanation)

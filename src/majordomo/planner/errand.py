@@ -1,0 +1,249 @@
+"""One task under way: step by step, each confirmed by perception; failures lead to new plans (design, section 8)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from enum import StrEnum
+from functools import partial
+
+from majordomo.planner.chronicle import Chronicle, Ending
+from majordomo.planner.crew import Crew
+from majordomo.planner.explainer import give_up_reason, unseen_sentence
+from majordomo.planner.goals import Goal
+from majordomo.planner.job import Job, Watch, actions_or_refusal
+from majordomo.planner.ledger import Ledger
+from majordomo.planner.lookout import Lookout
+from majordomo.planner.plan import Impossible, Plan, Step
+from majordomo.planner.progress import Progress
+from majordomo.planner.recovery import Recoveries
+from majordomo.planner.replanner import Hunt, Replanner
+from majordomo.planner.tasks import TaskStatus
+from majordomo.scene_graph.snapshot import Snapshot
+from majordomo.skills.action import Action, RobotContext
+from majordomo.skills.failures import Evidence, Failure, FailureCode
+
+VERIFY = Step(skill="VERIFY", args=())
+"""What reports call the last look at the goals."""
+CONFIRMED_BY_BODY = frozenset({"GOTO", "PICK"})
+"""Skills whose effect the robot's pose and grip confirm; there is nothing to look at again."""
+PLACE_CODES = frozenset(
+    {FailureCode.WAY_BLOCKED, FailureCode.DOOR_CLOSED, FailureCode.UNREACHABLE, FailureCode.TIMEOUT}
+    | {FailureCode.NOT_CONFIRMED, FailureCode.PERSON_IN_WAY}
+)
+"""While searching, these concern one place among several: it is skipped, and the search goes on."""
+LOOK_TIMEOUT_S = 60.0
+
+
+class Phase(StrEnum):
+    """What the errand is about right now."""
+
+    READY = "ready"
+    ACTING = "acting"
+    CONFIRMING = "confirming"
+    VERIFYING = "verifying"
+    LOOKING = "looking"
+    WAITING = "waiting"
+
+
+class Errand:
+    """Carries out one task's plan and its successors until every goal is confirmed, or nothing is left to try.
+
+    ``advance`` is called while the task runs and has the robot; time in between does not count.
+    """
+
+    def __init__(
+        self, task_id: str, goals: Sequence[Goal], plan: Plan, replanner: Replanner, crew: Crew, stamp_s: float
+    ) -> None:
+        self._task_id, self._crew, self._replanner = task_id, crew, replanner
+        self._ledger = Ledger(goals, stamp_s)
+        self._recoveries = Recoveries(max_failures=crew.settings.max_failures)
+        self._progress = Progress(task_id, goals, plan, crew.queue, crew.memory.snapshot())
+        self._lookout = Lookout(crew, self._progress, replanner)
+        self._chronicle = Chronicle(task_id, self._ledger, crew)
+        self._job: Job | None = None
+        self._phase, self._phase_s, self._wait_s = Phase.READY, 0.0, 0.0
+        self._looked, self._after_look = False, Phase.READY
+        self._acted_s = self._stamp_s = stamp_s
+        self._replans = 0
+
+    def advance(self, stamp_s: float, dt_s: float) -> Ending | None:
+        """Go on from the graph as it is now; an ``Ending`` when the task is over."""
+        context = self._crew.executor.context
+        if context is None:
+            return None
+        self._stamp_s = stamp_s
+        self._phase_s += dt_s
+        self._progress.spend(dt_s)
+        snapshot = context.snapshot
+        if self._hunt is not None and self._hunt.found(snapshot) and self._phase is not Phase.WAITING:
+            return self._replan(snapshot, "found")
+        ending = self._handlers[self._phase](context, snapshot)
+        self._progress.follow(self._job)
+        return ending
+
+    def close(self) -> None:
+        """End whatever is under way."""
+        if self._job is not None:
+            self._job.abandon()
+            self._job = None
+
+    @property
+    def _handlers(self) -> dict[Phase, Callable[[RobotContext, Snapshot], Ending | None]]:
+        return {
+            Phase.READY: self._begin,
+            Phase.ACTING: self._act,
+            Phase.CONFIRMING: self._confirm,
+            Phase.VERIFYING: self._verify,
+            Phase.LOOKING: self._look,
+            Phase.WAITING: self._wait,
+        }
+
+    @property
+    def _hunt(self) -> Hunt | None:
+        seeking = self._progress.plan.seeking
+        return self._replanner.hunt(seeking) if seeking is not None else None
+
+    def _enter(self, phase: Phase) -> None:
+        self._phase, self._phase_s = phase, 0.0
+
+    def _begin(self, context: RobotContext, snapshot: Snapshot) -> Ending | None:
+        """Start the next step, if the graph still allows it; after the last one, look at the goals."""
+        step, self._looked = self._progress.step, False
+        if step is None:
+            if self._hunt is not None:
+                return self._replan(snapshot, "not found there")
+            self._enter(Phase.VERIFYING)
+            return None
+        failure = self._lookout.before(step, context)
+        if failure is not None:
+            return self._fail(failure, step, snapshot)
+        self._ledger.handled(step, self._stamp_s)
+        seeking, crew = self._hunt is not None, self._crew
+        make = partial(crew.look_at, step.args[0]) if seeking else partial(crew.skills.actions, step)
+        actions = actions_or_refusal(lambda: make(context), context)
+        self._progress.start()
+        self._chronicle.step(step, self._stamp_s)
+        timeout_s = self._crew.skills.timeout_s(step, snapshot)
+        self._start(str(step), actions, timeout_s, watch=self._lookout.during(step, context))
+        self._enter(Phase.ACTING)
+        return None
+
+    def _act(self, context: RobotContext, snapshot: Snapshot) -> Ending | None:
+        del context
+        job, step = self._job, self._progress.step
+        if job is None or step is None or not job.ended:
+            return None
+        self._ledger.handled(step, self._stamp_s)
+        self._acted_s = self._stamp_s
+        if job.failure is not None:
+            return self._fail(job.failure, step, snapshot)
+        self._enter(Phase.CONFIRMING)
+        return None
+
+    def _confirm(self, context: RobotContext, snapshot: Snapshot) -> Ending | None:
+        """Wait for perception to confirm the step, looking again once."""
+        step, patience_s = self._progress.step, self._crew.settings.confirm_s
+        if step is None:
+            return None
+        if self._hunt is not None:
+            self._settle(step, self._hunt, snapshot)
+            return None
+        failure = self._crew.skills.confirmed(step, snapshot, self._acted_s)
+        if failure is None:
+            self._step_done(step, snapshot)
+            return None
+        impatient = self._phase_s >= patience_s
+        surprise = self._lookout.now(step, context) if impatient or step.skill == "GOTO" else None
+        if surprise is not None or (impatient and (self._looked or step.skill in CONFIRMED_BY_BODY)):
+            return self._fail(surprise or failure, step, snapshot)
+        if impatient:
+            self._look_again(step.args[-1], context)
+        return None
+
+    def _settle(self, step: Step, hunt: Hunt, snapshot: Snapshot) -> None:
+        """Give perception a moment to notice the object at a place; then the place has been searched."""
+        if self._phase_s >= self._crew.settings.settle_s:
+            hunt.looked.append(step.args[0])
+            self._step_done(step, snapshot)
+
+    def _step_done(self, step: Step, snapshot: Snapshot) -> None:
+        self._ledger.note(snapshot)
+        self._progress.follow(self._job)
+        self._progress.succeed(snapshot)
+        self._chronicle.step_done(step, snapshot, self._stamp_s)
+        self._enter(Phase.READY)
+
+    def _verify(self, context: RobotContext, snapshot: Snapshot) -> Ending | None:
+        """After the last step every goal must be confirmed; else look once; else make a new plan."""
+        self._ledger.note(snapshot)
+        open_goals = self._ledger.open(snapshot)
+        if not open_goals:
+            return self._chronicle.success(snapshot, self._stamp_s)
+        if self._phase_s < self._crew.settings.confirm_s:
+            return None
+        goal = open_goals[0]
+        if not self._looked and goal.object_id is not None and goal.object_id in snapshot:
+            self._look_again(goal.object_id, context)
+            return None
+        evidence = Evidence(nodes=goal.args, revision=snapshot.revision, observation="no fresh observation confirms it")
+        failure = Failure(code=FailureCode.NOT_CONFIRMED, message=unseen_sentence(goal, snapshot), evidence=evidence)
+        return self._fail(failure, VERIFY, snapshot)
+
+    def _look_again(self, node_id: str, context: RobotContext) -> None:
+        self._looked, self._after_look = True, self._phase
+        actions = actions_or_refusal(lambda: self._crew.look_at(node_id, context), context)
+        self._start(f"look at {node_id}", actions, LOOK_TIMEOUT_S)
+        self._enter(Phase.LOOKING)
+
+    def _look(self, context: RobotContext, snapshot: Snapshot) -> None:
+        del context, snapshot
+        if self._job is None or self._job.ended:
+            self._enter(self._after_look)
+
+    def _wait(self, context: RobotContext, snapshot: Snapshot) -> Ending | None:
+        del context
+        return self._replan(snapshot, "recovery") if self._phase_s >= self._wait_s else None
+
+    def _fail(self, failure: Failure, step: Step, snapshot: Snapshot) -> Ending | None:
+        """Explain and record a failure; then skip the place, wait for a new plan, or give up."""
+        self.close()
+        self._progress.fail()
+        skipping = self._hunt is not None and failure.code in PLACE_CODES
+        recovery = self._recoveries.after(failure.code, str(step)) if not skipping else None
+        hopeless = recovery is None and not skipping
+        self._chronicle.failure(failure, step, snapshot, self._stamp_s, hopeless=hopeless)
+        if self._hunt is not None and skipping:
+            self._hunt.skipped.append(step.args[0])
+            self._progress.skip()
+            self._enter(Phase.READY)
+        elif recovery is None:
+            times = self._recoveries.times(failure.code, str(step))
+            return self._chronicle.surrender(give_up_reason(failure, times), snapshot)
+        else:
+            self._wait_s = recovery.wait_s
+            self._enter(Phase.WAITING)
+        return None
+
+    def _replan(self, snapshot: Snapshot, why: str) -> Ending | None:
+        """Put a new plan in force, made from the graph as it is now; end when there is none."""
+        self.close()
+        plan = self._replanner.plan(self._ledger.remaining(), snapshot, self._stamp_s)
+        if isinstance(plan, Impossible):
+            return self._chronicle.surrender(plan.reason, snapshot)
+        self._replans += 1
+        self._progress.adopt(plan, snapshot, replans=self._replans)
+        self._chronicle.replan(str(plan), why, self._stamp_s)
+        self._enter(Phase.READY)
+        return None
+
+    def _start(self, name: str, actions: list[Action], timeout_s: float, watch: Watch | None = None) -> None:
+        self._job = Job(name, actions, timeout_s=timeout_s, watch=watch, wanted=self._wanted)
+        self._crew.executor.assign(agent_of(self._task_id), self._job)
+
+    def _wanted(self) -> bool:
+        return self._crew.queue.task(self._task_id).status is TaskStatus.RUNNING
+
+
+def agent_of(task_id: str) -> str:
+    """Name of the intention under which a task has the robot."""
+    return f"task:{task_id}"

@@ -1,0 +1,1 @@
+"""The command grammar: plain English to readings, without a language model."""

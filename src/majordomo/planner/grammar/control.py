@@ -1,0 +1,52 @@
+"""Words that act before anything else is thought about: stop, wait, go on, cancel."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+
+from majordomo.planner.grammar.tokens import words_of
+
+
+class Control(StrEnum):
+    """Closed set of control words."""
+
+    STOP = "stop"
+    PAUSE = "pause"
+    RESUME = "resume"
+    CANCEL = "cancel"
+
+
+_PHRASES: dict[Control, tuple[str, ...]] = {
+    Control.STOP: (
+        "stop", "halt", "freeze", "emergency stop", "stop now", "stop it", "stop moving", "stop immediately",
+        "stop right there", "do not move", "do not move any more", "stand still", "stop there", "stop that",
+        "stop what you are doing",
+    ),
+    Control.PAUSE: ("wait", "pause", "hold on", "hang on", "wait a moment", "wait a second", "wait a minute",
+    "one moment",
+                    "hold it", "wait there", "wait here", "just a moment", "just a second"),
+    Control.RESUME: ("resume", "go on", "continue", "carry on", "proceed", "keep going", "you can go on", "go ahead",
+                     "you may continue", "you can continue", "unpause"),
+    Control.CANCEL: ("cancel", "abort", "never mind", "nevermind", "forget it", "cancel that", "cancel it", "abort it",
+                     "cancel the task", "abort the task", "leave it", "cancel this", "forget about it", "drop it"),
+}  # fmt: skip
+_COURTESY = frozenset({"please", "robot", "majordomo", "butler", "now", "ok", "okay", "hey", "no", "oh", "immediately"})
+_MEANING = {phrase: control for control, phrases in _PHRASES.items() for phrase in phrases}
+MAX_CHARACTERS = 200
+
+
+def control_word(text: str) -> Control | None:
+    """The control that the whole of ``text`` is, courtesy and repetition aside; None for anything else.
+
+    *stop*, *Stop! Stop!*, *please wait* are controls. *stop at the kitchen* is not: it says more than the word does.
+    """
+    if len(text) > MAX_CHARACTERS:
+        return None
+    words = [word.text for word in words_of(text) if word.kind == "word" and word.text not in _COURTESY]
+    if not words:
+        return None
+    for length in range(1, len(words) + 1):
+        control = _MEANING.get(" ".join(words[:length]))
+        if control is not None and words == (words[:length] * len(words))[: len(words)] and len(words) % length == 0:
+            return control
+    return None

@@ -1,0 +1,215 @@
+"""From words to terminals: closed-class phrases, names of the live graph, fillers dropped, steps separated.
+
+Lark's Earley parser takes its tokens from here. A word gets one terminal, chosen by where it stands: *water* is a
+verb at the start of a step, before a noun phrase, and a noun elsewhere.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+
+from majordomo.planner.grammar.tokens import Word, words_of
+from majordomo.planner.grammar.words import NOUNLIKE, POLITE_IF_VERB, VERBS, phrase_table
+from majordomo.planner.vocabulary import PERSON_WORDS, known_nouns, normal, singular
+
+IDENTIFIER = re.compile(r"[^\W_]+(?:_[^\W_]+)*_\d+")
+_PHRASES = phrase_table()
+_LONGEST = max(len(words) for words in _PHRASES)
+_KNOWN = frozenset(tuple(normal(noun).split()) for noun in known_nouns())
+_ASKING = frozenset({"WHERE", "WHAT", "WHICH", "WHO", "HOW_MANY", "COUNT", "LIST", "TELL", "BE", "DO", "HAVE", "CAN"})
+_ASKED = frozenset({"WHERE", "WHAT", "WHICH", "WHO", "HOW_MANY", "WHETHER", "IN"})
+_ACTING = frozenset(VERBS) | {"UNABLE"}
+_NP_START = frozenset(
+    [
+        "THE",
+        "MY",
+        "A",
+        "THIS",
+        "THAT",
+        "ALL",
+        "BOTH",
+        "EVERYTHING",
+        "NUMBER",
+        "ONE",
+        "ME",
+        "IT",
+        "HIM",
+        "NOUN",
+        "WORD",
+        "NAME",
+        "IDENTIFIER",
+        "COLOR",
+        "ORANGE",
+        "BIG",
+        "SMALL",
+    ]
+)
+_NO_NOUN_BEFORE = frozenset({"", "THEN", "AND", "COMMA", "STOP"})
+_END = frozenset({"", "AND", "COMMA", "STOP", "THEN"})
+_BEFORE_NOUN = frozenset(
+    {"THE", "MY", "A", "THIS", "THAT", "COLOR", "BIG", "SMALL", "NEAREST", "LARGEST", "SMALLEST", "NUMBER"}
+)
+_CLOSED_THAT_STAY = frozenset({"COLOR", "ORANGE", "ONE", "EVERYTHING", "NUMBER", "NAME", "PERSON"})
+
+
+@dataclass(frozen=True)
+class Terminal:
+    """One token: its terminal, its canonical form, and the words as they were typed."""
+
+    type: str
+    value: str
+    typed: str
+
+
+@dataclass(frozen=True)
+class Lexicon:
+    """Names of the live graph as tuples of words: nouns (labels, taught names, rooms) and persons."""
+
+    nouns: frozenset[tuple[str, ...]] = frozenset()
+    persons: frozenset[tuple[str, ...]] = frozenset()
+    longest: int = field(default=4)
+
+    @classmethod
+    def of(cls, nouns: Iterable[str], persons: Iterable[str] = ()) -> Lexicon:
+        """From labels and names as they stand in the graph."""
+        split = frozenset(tuple(normal(noun).split()) for noun in nouns if normal(noun))
+        people = frozenset(tuple(normal(person).split()) for person in persons if normal(person))
+        return cls(split, people, max((len(words) for words in split | people | _KNOWN), default=1))
+
+    def is_noun(self, words: tuple[str, ...]) -> bool:
+        """Whether ``words`` name something here or in the vocabulary, in the singular or plural."""
+        one = (*words[:-1], singular(words[-1]))
+        return words in self.nouns or one in self.nouns or words in _KNOWN or one in _KNOWN
+
+
+def clauses(text: str, lexicon: Lexicon) -> list[list[Terminal]]:
+    """The steps of a request, each as a list of terminals; courtesy is dropped."""
+    tagged = _settle(_tag(words_of(text), lexicon), lexicon)
+    steps: list[list[Terminal]] = [[]]
+    for index, token in enumerate(tagged):
+        if token.type in ("THEN", "STOP") or (token.type in ("AND", "COMMA") and _starts_step(tagged, index + 1)):
+            steps.append([])
+        elif token.type != "FILLER":
+            steps[-1].append(token)
+    return [_trim(step) for step in steps if _trim(step)]
+
+
+def _tag(words: Sequence[Word], lexicon: Lexicon) -> list[Terminal]:
+    tokens: list[Terminal] = []
+    index = 0
+    while index < len(words):
+        length, token = _longest(words, index, lexicon)
+        tokens.append(token)
+        index += length
+    return tokens
+
+
+def _longest(words: Sequence[Word], index: int, lexicon: Lexicon) -> tuple[int, Terminal]:
+    """The longest phrase that starts here; names of the graph win over closed-class words of the same length."""
+    word = words[index]
+    if word.kind != "word":
+        return 1, _special(word)
+    run: list[str] = []
+    while len(run) < max(_LONGEST, lexicon.longest) and index + len(run) < len(words):
+        if words[index + len(run)].kind != "word":
+            break
+        run.append(words[index + len(run)].text)
+    for length in range(len(run), 0, -1):
+        token = _match(tuple(run[:length]), lexicon)
+        if token is not None:
+            return length, token
+    return 1, _unknown(word.text)
+
+
+def _match(words: tuple[str, ...], lexicon: Lexicon) -> Terminal | None:
+    typed = " ".join(words)
+    phrase = _PHRASES.get(words)
+    if words in lexicon.persons and phrase is None:
+        return Terminal("NAME", typed, typed)
+    if phrase is None and len(words) == 1 and (typed in PERSON_WORDS or singular(typed) in PERSON_WORDS):
+        return Terminal("PERSON", typed, typed)
+    if lexicon.is_noun(words) and (phrase is None or len(words) > 1):
+        return Terminal("NOUN", typed, typed)
+    return None if phrase is None else Terminal(phrase[0], phrase[1], typed)
+
+
+def _special(word: Word) -> Terminal:
+    kind = {"quoted": "NOUN", "comma": "COMMA", "stop": "STOP"}.get(word.kind, "JUNK")
+    return Terminal(kind, normal(word.text) if kind == "NOUN" else word.text, word.text)
+
+
+def _unknown(word: str) -> Terminal:
+    if IDENTIFIER.fullmatch(word):
+        return Terminal("IDENTIFIER", word, word)
+    return Terminal("NUMBER" if word.isdecimal() else "WORD", word, word)
+
+
+def _settle(tokens: Sequence[Terminal], lexicon: Lexicon) -> list[Terminal]:
+    """Choose among the uses of words that have several, from left to right."""
+    settled: list[Terminal] = []
+    for index, token in enumerate(tokens):
+        before = next((t.type for t in reversed(settled) if t.type != "FILLER"), "")
+        following = [t for t in tokens[index + 1 :] if t.type != "FILLER"]
+        settled.append(_choose(token, before, following, lexicon))
+    return settled
+
+
+def _choose(token: Terminal, before: str, following: Sequence[Terminal], lexicon: Lexicon) -> Terminal:
+    after = following[0].type if following else ""
+    kind = token.type
+    if kind not in _CLOSED_THAT_STAY and before in _BEFORE_NOUN and lexicon.is_noun((token.typed,)):
+        kind = "NOUN"
+    elif token.typed in ("check", "see", "look", "find") and after == "WHETHER":
+        kind = "TELL"
+    elif token.type == "TELL" and after not in _ASKED:
+        return Terminal("UNABLE", token.typed.split()[0], token.typed)
+    elif token.typed == "first" and before in ("", "THEN", "STOP"):
+        kind = "THEN"
+    elif token.typed in POLITE_IF_VERB and _is_polite(token.typed, following):
+        kind = "FILLER"
+    elif token.type in _ACTING and token.typed in NOUNLIKE and not _is_verb_here(before, after):
+        kind = "NOUN"
+    return Terminal(kind, token.typed if kind == "NOUN" else token.value, token.typed)
+
+
+def _is_polite(words: str, following: Sequence[Terminal]) -> bool:
+    after = following[0].type if following else ""
+    if words == "to":
+        return after in _ACTING and _is_phrase(following[1:])
+    return after in _ACTING or (after == "TELL" and words.endswith("you"))
+
+
+def _is_phrase(following: Sequence[Terminal]) -> bool:
+    return bool(following) and following[0].type in _NP_START
+
+
+def _is_verb_here(before: str, after: str) -> bool:
+    """A verb that is a noun as well starts a step, and something follows it, unless it is the whole request."""
+    return before in _NO_NOUN_BEFORE and (after not in _END or before in ("", "THEN", "STOP"))
+
+
+def _starts_step(tokens: Sequence[Terminal], index: int) -> bool:
+    """Whether a new step begins at ``index``: an action verb or a question word, after courtesy."""
+    for token in tokens[index:]:
+        if token.type in ("FILLER", "AND", "COMMA"):
+            continue
+        return token.type in _ACTING or token.type in _ASKING or token.type == "THEN"
+    return False
+
+
+def _trim(step: list[Terminal]) -> list[Terminal]:
+    """A step without leading or trailing conjunctions."""
+    start, end = 0, len(step)
+    while start < end and step[start].type in ("AND", "COMMA"):
+        start += 1
+    while end > start and step[end - 1].type in ("AND", "COMMA"):
+        end -= 1
+    return step[start:end]
+
+
+def typed(step: Sequence[Terminal] | Mapping[int, Terminal]) -> str:
+    """The words of a step as they were typed."""
+    tokens = step.values() if isinstance(step, Mapping) else step
+    return " ".join(token.typed for token in tokens).replace(" ,", ",")

@@ -1,0 +1,132 @@
+"""What a step of a request says, before anything is looked up: references in words, and what is wanted of them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+from majordomo.planner.plan import QueryKind
+
+
+class Quantity(StrEnum):
+    """How many things a noun phrase speaks of."""
+
+    BARE = "bare"
+    THE = "the"
+    A = "a"
+    THIS = "this"
+    ALL = "all"
+    BOTH = "both"
+    SOME = "some"
+    EXACTLY = "exactly"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Restriction:
+    """Narrows a noun phrase. ``relation``: on, in, near, from, at, nearest, held, here, there, or as typed."""
+
+    relation: str
+    reference: Reference | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class NounPhrase:
+    """*the two big red cups on the table*: head words, quantity with its number, modifiers, restriction."""
+
+    words: tuple[str, ...]
+    quantity: Quantity = Quantity.BARE
+    count: int | None = None
+    colors: tuple[str, ...] = ()
+    sizes: tuple[str, ...] = ()
+    superlative: str | None = None
+    restriction: Restriction | None = None
+    number: int | None = None
+    person: bool = False
+
+    @property
+    def head(self) -> str:
+        """The head as one string: ``remote control``."""
+        return " ".join(self.words)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Pronoun:
+    """*it*, *me*, *him*, *here*, *there*, *you*: a reference to what was said or to who is speaking."""
+
+    word: str
+
+
+Reference = NounPhrase | Pronoun
+
+
+@dataclass(frozen=True, kw_only=True)
+class Destination:
+    """Where something goes. ``relation``: to, on, in, near."""
+
+    relation: str
+    reference: Reference
+
+
+@dataclass(frozen=True, kw_only=True)
+class Carry:
+    """Bring things somewhere; ``destination`` is None when not said, ``implied`` when it is the speaker by default."""
+
+    things: tuple[Reference, ...]
+    destination: Destination | None
+    implied: bool = False
+    verb: str = "put"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Several:
+    """*Put the cup on the table and the book on the desk*: one verb, several things with a destination each."""
+
+    steps: tuple[Carry, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class PutDown:
+    """Put what is held down, nearby."""
+
+    things: tuple[Reference, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class PutBack:
+    """Put things back where they were."""
+
+    things: tuple[Reference, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Go:
+    """Drive to a room, a thing or a person."""
+
+    target: Reference
+
+
+@dataclass(frozen=True, kw_only=True)
+class Find:
+    """Find things, perhaps within ``place``."""
+
+    things: tuple[Reference, ...]
+    place: Reference | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Pick:
+    """Take things into the gripper."""
+
+    things: tuple[Reference, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Ask:
+    """A question about ``things``, limited to ``place``."""
+
+    kind: QueryKind
+    things: tuple[Reference, ...] = ()
+    place: Restriction | None = None
+
+
+Step = Carry | Several | PutDown | PutBack | Go | Find | Pick | Ask

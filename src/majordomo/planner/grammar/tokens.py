@@ -1,0 +1,58 @@
+"""From characters to words: quotes, contractions, punctuation; nothing is dropped that could carry meaning."""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from dataclasses import dataclass
+
+from majordomo.planner.grammar.words import CONTRACTIONS
+
+MAX_CHARACTERS = 10_000
+
+_TOKEN = re.compile(
+    r"""
+    "(?P<quoted>[^"]{1,80})"                  # a name in quotation marks is one noun
+  | (?P<word>[^\W_]+(?:[_'\-][^\W_]+)*'?)     # letters and digits, joined by _ ' -
+  | (?P<comma>,)
+  | (?P<stop>[.;!?:]+|\n)
+  | (?P<junk>\S)
+    """,
+    re.VERBOSE,
+)
+_QUOTES = str.maketrans({"’": "'", "‘": "'", "“": '"', "”": '"', "„": '"', "`": "'"})
+
+
+@dataclass(frozen=True)
+class Word:
+    """One word of a request in lower case; ``kind`` is ``word``, ``quoted``, ``comma``, ``stop`` or ``junk``."""
+
+    text: str
+    kind: str
+
+
+def text_flaw(text: str) -> str | None:
+    """What forbids reading ``text`` at all: empty, too long, or control characters; a sentence, or None."""
+    if not text.strip():
+        return "The request is empty. Tell me what to do, or ask a question."
+    if len(text) > MAX_CHARACTERS:
+        return f"The request has {len(text)} characters; I read at most {MAX_CHARACTERS}. Please say it shorter."
+    if any(unicodedata.category(char) in ("Cc", "Cs", "Co") and char not in "\n\r\t" for char in text):
+        return "The request contains control characters. Please send plain text."
+    return None
+
+
+def words_of(text: str) -> list[Word]:
+    """Split ``text`` into words, lower case, contractions written out."""
+    clean = unicodedata.normalize("NFKC", text).translate(_QUOTES).casefold().strip()
+    if clean.count('"') == 2 and clean.startswith('"') and clean.endswith('"'):
+        clean = clean[1:-1]
+    words: list[Word] = []
+    for match in _TOKEN.finditer(clean):
+        kind = match.lastgroup or "junk"
+        content = match.group(kind)
+        if kind == "word":
+            words += [Word(part, "word") for part in CONTRACTIONS.get(content, content).split()]
+        else:
+            words.append(Word(" ".join(content.split()), kind))
+    return words

@@ -1,0 +1,215 @@
+"""Grounding: each reference of a request is resolved on the graph by query code, to none, one or several nodes.
+
+None is refused with what there is instead, one is accepted, several lead to a question. Counting, *nearest*, *largest*
+and *both* are computed here, never by a language model.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+from majordomo.planner.grammar.syntax import NounPhrase, Pronoun, Quantity, Reference
+from majordomo.planner.matching import named
+from majordomo.planner.narrowing import Narrowing
+from majordomo.planner.phrasing import alternatives, describe, phrase_text, which_question
+from majordomo.planner.vocabulary import is_plural
+from majordomo.scene_graph.nodes import ObjectNode, PersonNode
+from majordomo.scene_graph.snapshot import Snapshot
+from majordomo.skills.state import PlanState
+
+
+@dataclass(frozen=True, kw_only=True)
+class NoReferent:
+    """A reference names nothing; ``reason`` says so, with what there is instead. ``unknown``: no word is known."""
+
+    reason: str
+    unknown: bool = False
+
+
+@dataclass(frozen=True, kw_only=True)
+class Ambiguous:
+    """A reference names several nodes; ``question`` asks which, ``phrase`` is what was said."""
+
+    question: str
+    phrase: str
+    candidates: tuple[str, ...]
+
+
+Grounded = tuple[str, ...] | NoReferent | Ambiguous
+
+
+@dataclass(kw_only=True)
+class Context:
+    """What references may lean on.
+
+    ``mentioned``: identifiers, the newest first. ``places``: places spoken of, the newest first. ``choices``: answers
+    to earlier questions, by phrase. ``focus``: the room the request has just gone to. ``noun``: for *the red one*.
+    """
+
+    speaker: str | None = None
+    mentioned: tuple[str, ...] = ()
+    fresh: tuple[str, ...] = ()
+    places: tuple[str, ...] = ()
+    choices: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    focus: str | None = None
+    noun: str = ""
+
+
+class Grounding:
+    """Resolves references on one snapshot."""
+
+    def __init__(self, snapshot: Snapshot, state: PlanState) -> None:
+        self.snapshot, self.state = snapshot, state
+        self._narrowing = Narrowing(snapshot, state, self)
+
+    def things(self, reference: Reference, context: Context, *, avoid: frozenset[str] = frozenset()) -> Grounded:
+        """What is to be carried, found or asked about. ``avoid``: not these, when any one will do."""
+        if isinstance(reference, Pronoun):
+            return self._pronoun(reference.word, context)
+        return self._phrase(reference, context, carried=True, avoid=avoid)
+
+    def place(self, reference: Reference, context: Context) -> Grounded:
+        """One place: a room, piece of furniture, person, door or object."""
+        if isinstance(reference, Pronoun):
+            found = self._pronoun(reference.word, context)
+            return found[:1] if isinstance(found, tuple) else found
+        return self._phrase(reference, context, carried=False)
+
+    def matches(
+        self, phrase: NounPhrase, context: Context, *, widely: bool = True, fixed: bool = False
+    ) -> tuple[str, ...]:
+        """Every node that fits the words of ``phrase``, whatever its quantity; options as in ``matching.named``."""
+        return self._narrowing.narrow(self._named(phrase, context, widely=widely, fixed=fixed), phrase, context)
+
+    def among(self, candidates: Sequence[str], phrase: NounPhrase) -> tuple[str, ...]:
+        """Those of ``candidates`` that fit the modifiers of ``phrase``, whatever its noun."""
+        return self._narrowing.narrow(tuple(candidates), phrase, Context())
+
+    def speaker(self, context: Context) -> Grounded:
+        """The person who asks: as told, or named user, or the only one."""
+        if context.speaker is not None and context.speaker in self.snapshot:
+            return (context.speaker,)
+        people = self.snapshot.of_type(PersonNode)
+        users = [person.id for person in people if person.name.casefold() in ("user", "me")]
+        if len(users) == 1 or len(people) == 1:
+            return tuple(users) or (people[0].id,)
+        if not people:
+            return NoReferent(reason="I have not seen you yet, so I do not know where you are.")
+        return self._ambiguous("you", tuple(person.id for person in people), context, "Who of them are you")
+
+    def _pronoun(self, word: str, context: Context) -> Grounded:
+        if word == "me":
+            return self.speaker(context)
+        if word == "here":
+            speaker = self.speaker(context)
+            room = self.snapshot.current_room
+            return (room,) if isinstance(speaker, NoReferent) and room is not None else speaker
+        if word == "there":
+            return context.places[:1] or NoReferent(reason="I do not know which place you mean by “there”.")
+        if word == "him":
+            people = [i for i in context.mentioned if isinstance(self.snapshot.get(i), PersonNode)]
+            return tuple(people[:1]) or NoReferent(reason="I do not know whom you mean.")
+        return self._it(context)
+
+    def _it(self, context: Context) -> Grounded:
+        if context.fresh:
+            return context.fresh
+        if self.state.holding is not None:
+            return (self.state.holding,)
+        objects = [i for i in context.mentioned if isinstance(self.snapshot.get(i), ObjectNode)]
+        return tuple(objects[:1]) or NoReferent(reason="I do not know what you mean by “it”.")
+
+    def _phrase(
+        self, phrase: NounPhrase, context: Context, *, carried: bool, avoid: frozenset[str] = frozenset()
+    ) -> Grounded:
+        many = phrase.quantity in (Quantity.ALL, Quantity.BOTH, Quantity.SOME, Quantity.EXACTLY) or _plural(phrase)
+        found = self._suited(self.matches(phrase, context, widely=many), carried=carried)
+        text = phrase_text(phrase)
+        chosen = tuple(i for i in context.choices.get(text, ()) if i in found)
+        if chosen:
+            return chosen
+        if not found:
+            return self.nothing(phrase, context)
+        match phrase.quantity:
+            case Quantity.A | Quantity.SOME:
+                return self._any(phrase, found, avoid)
+            case Quantity.ALL:
+                return found
+            case Quantity.BOTH | Quantity.EXACTLY:
+                return self._count(phrase, found, context)
+            case _ if _plural(phrase) and phrase.quantity is not Quantity.BARE:
+                return found
+            case _:
+                return self._one(text, found, context)
+
+    def _one(self, text: str, found: tuple[str, ...], context: Context) -> Grounded:
+        if len(found) > 1:
+            spoken = tuple(i for i in found if i in context.fresh)
+            focused = tuple(i for i in found if context.focus is not None and self.state.room_of(i) == context.focus)
+            for preferred in (spoken, focused):
+                if len(preferred) == 1:
+                    return preferred
+        return found if len(found) == 1 else self._ambiguous(text, found, context, "Which one do you mean")
+
+    def _any(self, phrase: NounPhrase, found: tuple[str, ...], avoid: frozenset[str]) -> Grounded:
+        """The nearest of those that will do, unless there are too few."""
+        wanted = phrase.count or 1
+        fit = [i for i in found if i not in avoid and i != self.state.holding and i not in self.state.missing]
+        fit = self._narrowing.by_distance(fit) or list(found)
+        if len(fit) < wanted:
+            seen = "; ".join(describe(i, self.snapshot) for i in found[:4])
+            return NoReferent(reason=f"I know of only {len(fit)} that fit “{phrase_text(phrase)}”: {seen}.")
+        return tuple(fit[:wanted])
+
+    def _count(self, phrase: NounPhrase, found: tuple[str, ...], context: Context) -> Grounded:
+        if len(found) == phrase.count:
+            return found
+        if len(found) > (phrase.count or 0):
+            return self._ambiguous(phrase_text(phrase), found, context, f"I know of {len(found)}. Which do you mean")
+        seen = "; ".join(describe(i, self.snapshot) for i in found)
+        return NoReferent(reason=f"I know of only {len(found)} that fits “{phrase_text(phrase)}”: {seen}.")
+
+    def _ambiguous(self, text: str, found: tuple[str, ...], context: Context, ask: str) -> Grounded:
+        chosen = tuple(i for i in context.choices.get(text, ()) if i in found)
+        if chosen:
+            return chosen
+        return Ambiguous(question=which_question(ask, text, found, self.snapshot), phrase=text, candidates=found)
+
+    def nothing(self, phrase: NounPhrase, context: Context) -> NoReferent:
+        bare = replace(phrase, colors=(), sizes=(), superlative=None, restriction=None, number=None)
+        same = self.matches(bare, context)
+        missing = self._narrowing.missing_reference(phrase, context)
+        if missing is not None:
+            return missing
+        return NoReferent(reason=alternatives(phrase, same, self.snapshot), unknown=not same)
+
+    def _named(self, phrase: NounPhrase, context: Context, *, widely: bool, fixed: bool) -> tuple[str, ...]:
+        head = phrase.head
+        if head in ("one", "ones"):
+            head = context.noun or "thing"
+        found = named(head, phrase.number, self.snapshot, widely=widely, fixed=fixed)
+        if found or len(phrase.words) < 2:
+            return found
+        return self._named_in_room(phrase, widely=widely)
+
+    def _named_in_room(self, phrase: NounPhrase, *, widely: bool) -> tuple[str, ...]:
+        """*the kitchen table*: a table in the kitchen."""
+        rooms = [i for i in named(phrase.words[0], None, self.snapshot, widely=True) if self.snapshot.room_of(i) == i]
+        rest = named(" ".join(phrase.words[1:]), phrase.number, self.snapshot, widely=widely)
+        return tuple(i for i in rest if self.state.room_of(i) in rooms and i not in rooms)
+
+    def _suited(self, found: tuple[str, ...], *, carried: bool) -> tuple[str, ...]:
+        """Of several, those that can be carried, or that one can put something on, in or before, if there are any."""
+        if len(found) < 2:
+            return found
+        things = self.state.world.things
+        if carried:
+            fit = tuple(i for i in found if i in things and things[i].graspable)
+        else:
+            fit = tuple(i for i in found if i in things and not things[i].graspable)
+        return fit or found
+
+
+def _plural(phrase: NounPhrase) -> bool:
+    return bool(phrase.words) and (is_plural(phrase.words[-1]) or phrase.words[-1] == "ones")

@@ -1,0 +1,157 @@
+"""The intake: a request becomes a verified plan that may run, or an answer, a question, a refusal."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+from dataclasses import dataclass, replace
+from typing import Any, Protocol
+
+from majordomo.planner.executor import OnEvent, ignore_event
+from majordomo.planner.explainer import plan_sentence
+from majordomo.planner.goals import Goal
+from majordomo.planner.plan import Dialogue, Impossible, Interpretation, Kind, Plan, Source
+from majordomo.planner.queue import TaskQueue
+from majordomo.planner.replanner import Replanner, Verifier
+from majordomo.planner.tasks import Approval, PlanReport, StepReport, Task, TaskStatus
+from majordomo.scene_graph.memory import WorkingMemory
+from majordomo.scene_graph.snapshot import Snapshot
+
+logger = logging.getLogger(__name__)
+
+MENTIONS = 20
+"""Identifiers remembered for pronouns in later requests."""
+
+
+class Interpreter(Protocol):
+    """What the Task Planner offers: words in, goals or a reply out."""
+
+    async def interpret(self, text: str, snapshot: Snapshot, dialogue: Dialogue) -> Interpretation:
+        """What a request means on this revision of the graph."""
+        ...
+
+
+@dataclass(frozen=True, kw_only=True)
+class Ready:
+    """A task that may run now: its goals, the first plan, and what makes the next ones. ``intent`` says it aloud."""
+
+    task: Task
+    goals: tuple[Goal, ...]
+    plan: Plan
+    replanner: Replanner
+    intent: str
+
+
+class Intake:
+    """Understands requests and plans for them; moves tasks from ``planning`` on, except to ``running``.
+
+    Args:
+        memory: the graph.
+        queue: the tasks' records.
+        interpreter: the Task Planner.
+        verifier: makes and checks plans.
+        on_event: told what was understood, planned, and how tasks end here.
+        interpret_s: deadline for understanding a request, in wall time.
+        paper: there is no robot, and every plan is only shown.
+    """
+
+    def __init__(
+        self,
+        memory: WorkingMemory,
+        queue: TaskQueue,
+        interpreter: Interpreter,
+        verifier: Verifier,
+        *,
+        on_event: OnEvent = ignore_event,
+        interpret_s: float = 60.0,
+        paper: bool = False,
+    ) -> None:
+        self._memory, self._queue = memory, queue
+        self._interpreter, self._verifier = interpreter, verifier
+        self._on_event, self._interpret_s, self._paper = on_event, interpret_s, paper
+        self._mentioned: tuple[str, ...] = ()
+
+    async def take(self, task: Task, stamp_s: float, *, busy: bool = False) -> Ready | None:
+        """Plan for a task in status ``planning``; ``None`` when it is not to run now.
+
+        ``busy``: another task has the robot. Then what words can settle is settled, and a plan goes back to the queue.
+        """
+        if task.approved and task.plan is not None:
+            return self._plan(task, task.plan.goals, Source(task.plan.source), stamp_s)
+        snapshot = self._memory.snapshot()
+        dialogue = Dialogue(answers=task.dialogue, mentioned=self._mentioned)
+        try:
+            async with asyncio.timeout(self._interpret_s):
+                meaning = await self._interpreter.interpret(task.request, snapshot, dialogue)
+        except TimeoutError:
+            self.end(task, TaskStatus.FAILED, "I could not understand the request in time.", stamp_s)
+            return None
+        task = self._queue.task(task.id)
+        if task.status is not TaskStatus.PLANNING:
+            return None
+        if busy and meaning.kind is Kind.PLAN and not task.dry_run:
+            self._queue.move(task.id, TaskStatus.QUEUED, stamp_s=stamp_s, kind=meaning.kind.value)
+            return None
+        return self._follow(task, meaning, stamp_s)
+
+    def end(self, task: Task, status: TaskStatus, explanation: str, stamp_s: float, **changes: Any) -> Task:
+        """End a task with a sentence, and tell."""
+        logger.info("%s %s: %s", task.id, status, explanation)
+        task = self._queue.move(task.id, status, stamp_s=stamp_s, explanation=explanation, **changes)
+        self._emit(stamp_s, "ended", task=task.id, status=status.value, why=explanation)
+        return task
+
+    def _follow(self, task: Task, meaning: Interpretation, stamp_s: float) -> Ready | None:
+        said = {"kind": meaning.kind.value, "reply": meaning.reply}
+        goals = [str(goal) for goal in meaning.goals]
+        self._remember(meaning)
+        self._emit(stamp_s, "understood", task=task.id, source=meaning.source.value, **said, goals=goals)
+        match meaning.kind:
+            case Kind.ANSWER:
+                self.end(task, TaskStatus.SUCCEEDED, meaning.reply, stamp_s, **said)
+            case Kind.REFUSE:
+                self.end(task, TaskStatus.REFUSED, meaning.reply, stamp_s, **said)
+            case Kind.CLARIFY:
+                asked = {"candidates": meaning.candidates, "dialogue": (*task.dialogue, (meaning.reply, ""))}
+                self._queue.move(task.id, TaskStatus.AWAITING_ANSWER, stamp_s=stamp_s, **said, **asked)
+            case Kind.PLAN:
+                return self._plan(self._queue.amend(task.id, **said), meaning.goals, meaning.source, stamp_s)
+        return None
+
+    def _plan(self, task: Task, goals: tuple[Goal, ...], source: Source, stamp_s: float) -> Ready | None:
+        """Plan for the goals; then refuse, show the plan, ask for approval, or let the task run."""
+        snapshot = self._memory.snapshot()
+        replanner = Replanner(self._verifier, source)
+        plan = replanner.plan(goals, snapshot, stamp_s)
+        if isinstance(plan, Impossible):
+            self.end(task, TaskStatus.REFUSED, plan.reason, stamp_s, reply=plan.reason)
+            return None
+        report = _report(plan, goals)
+        same = task.plan is not None and _outline(task.plan) == _outline(report)
+        task = self._queue.amend(task.id, plan=report, times=replace(task.times, planned_s=stamp_s))
+        self._emit(stamp_s, "planned", task=task.id, plan=str(plan), revision=plan.revision)
+        intent = plan_sentence(plan, snapshot)
+        if task.dry_run or self._paper:
+            self.end(task, TaskStatus.SUCCEEDED, f"Planned only, nothing was moved. {intent}", stamp_s)
+        elif task.approval is Approval.ASK and not (task.approved and same):
+            asked = {"approved": False, "explanation": f"{intent} Shall I?"}
+            self._queue.move(task.id, TaskStatus.AWAITING_APPROVAL, stamp_s=stamp_s, **asked)
+        else:
+            return Ready(task=task, goals=goals, plan=plan, replanner=replanner, intent=intent)
+        return None
+
+    def _remember(self, meaning: Interpretation) -> None:
+        spoken = (*meaning.mentioned, *(arg for goal in meaning.goals for arg in goal.args))
+        self._mentioned = tuple(dict.fromkeys((*spoken, *self._mentioned)))[:MENTIONS]
+
+    def _emit(self, stamp_s: float, event: str, **fields: Any) -> None:
+        self._on_event({"stamp_s": round(stamp_s, 3), "by": "mission", "event": event, **fields})
+
+
+def _report(plan: Plan, goals: tuple[Goal, ...]) -> PlanReport:
+    steps = tuple(StepReport(skill=step.skill, args=step.args) for step in plan.steps)
+    return PlanReport(source=plan.source.value, revision=plan.revision, goals=goals, steps=steps)
+
+
+def _outline(plan: PlanReport) -> tuple[str, ...]:
+    return tuple(step.text for step in plan.steps)

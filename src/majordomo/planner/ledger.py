@@ -1,0 +1,71 @@
+"""The ledger of a task's goals: which of them perception has confirmed, by observations newer than the last touch."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from majordomo.planner.goals import Goal, Predicate, holds_in, superseded
+from majordomo.planner.plan import Step
+from majordomo.planner.tasks import VerifiedGoal
+from majordomo.scene_graph.nodes import ObjectNode
+from majordomo.scene_graph.snapshot import Snapshot
+
+IMMEDIATE = frozenset({Predicate.ROBOT_AT, Predicate.HOLDING})
+"""Goals about the robot's own body, which its pose and its grip confirm at every moment."""
+
+
+class Ledger:
+    """Goals in their order, and when the robot last touched the object of each.
+
+    A goal is *confirmed* when the graph believes it and its object was seen after the robot last handled it (after
+    ``since_s`` if never). Goals that a later one supersedes need to have been confirmed once, in their turn; the others
+    must be confirmed at the end.
+    """
+
+    def __init__(self, goals: Sequence[Goal], since_s: float) -> None:
+        self.goals = tuple(goals)
+        self._since_s = since_s
+        self._handled_s: dict[str, float] = {}
+        self._reached = 0
+
+    def handled(self, step: Step, stamp_s: float) -> None:
+        """Note that a step may have changed where its arguments are; older observations of them count no more."""
+        if step.skill != "GOTO":
+            for arg in step.args:
+                self._handled_s[arg] = stamp_s
+
+    def note(self, snapshot: Snapshot) -> None:
+        """Pass over the goals that are confirmed now, in order, up to the first that is not."""
+        while self._reached < len(self.goals) and self.confirms(self.goals[self._reached], snapshot):
+            self._reached += 1
+
+    def confirms(self, goal: Goal, snapshot: Snapshot) -> bool:
+        """Whether the graph believes a goal on fresh evidence."""
+        if not holds_in(goal, snapshot, since_s=self._since_s):
+            return False
+        return goal.predicate in IMMEDIATE or self._fresh(goal, snapshot)
+
+    def open(self, snapshot: Snapshot) -> tuple[Goal, ...]:
+        """Goals that are still to be confirmed: those not reached, and reached ones that must last and do not."""
+        return tuple(
+            goal
+            for index, goal in enumerate(self.goals)
+            if not (self._passed(index) or (index < self._reached and self.confirms(goal, snapshot)))
+        )
+
+    def remaining(self) -> tuple[Goal, ...]:
+        """Goals for a new plan: all but those that are over and done with."""
+        return tuple(goal for index, goal in enumerate(self.goals) if not self._passed(index))
+
+    def report(self, snapshot: Snapshot) -> tuple[VerifiedGoal, ...]:
+        """Every goal and whether it is confirmed, or was in its turn."""
+        still_open = self.open(snapshot)
+        return tuple(VerifiedGoal(goal=goal, confirmed=goal not in still_open) for goal in self.goals)
+
+    def _passed(self, index: int) -> bool:
+        """Whether a goal was confirmed in its turn and need not last."""
+        return index < self._reached and superseded(self.goals, index)
+
+    def _fresh(self, goal: Goal, snapshot: Snapshot) -> bool:
+        node = snapshot.get(goal.args[0])
+        return isinstance(node, ObjectNode) and node.last_seen_s > self._handled_s.get(node.id, self._since_s)

@@ -1,0 +1,108 @@
+"""Which nodes a noun could name: by identifier, taught name, label, synonym, head noun or kind, in that order."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from difflib import get_close_matches
+
+from majordomo.planner.vocabulary import (
+    ANYTHING,
+    FURNITURE,
+    PERSON_WORDS,
+    ROOM_WORDS,
+    kind_labels,
+    normal,
+    singular,
+    words_for,
+)
+from majordomo.scene_graph.identifiers import natural_key
+from majordomo.scene_graph.nodes import DoorNode, ObjectNode, PersonNode, RoomNode, RoomStatus
+from majordomo.scene_graph.snapshot import Snapshot
+
+Place = RoomNode | ObjectNode | PersonNode | DoorNode
+
+
+def nodes_of(snapshot: Snapshot) -> Iterator[Place]:
+    """Everything a person may speak of, in natural order: objects, rooms that stand, persons, one node a door."""
+    yield from snapshot.of_type(ObjectNode)
+    yield from (room for room in snapshot.of_type(RoomNode) if room.status is not RoomStatus.TEMPORARY)
+    yield from snapshot.of_type(PersonNode)
+    yield from (door for door in snapshot.of_type(DoorNode) if is_first_of_pair(snapshot, door))
+
+
+def is_first_of_pair(snapshot: Snapshot, door: DoorNode) -> bool:
+    """Whether this node stands for its physical door: the lower identifier of a matched pair."""
+    return not any(edge.target == door.id for edge in snapshot.edges_to(door.id) if edge.key.type == "match")
+
+
+def nouns_of(snapshot: Snapshot) -> Iterator[str]:
+    """Labels and taught names of the graph; what the lexer must recognize as nouns."""
+    for node in nodes_of(snapshot):
+        if not isinstance(node, PersonNode):
+            yield node.label
+        if isinstance(node, ObjectNode):
+            yield node.name
+            yield from node.categories
+
+
+def named(head: str, number: int | None, snapshot: Snapshot, *, widely: bool, fixed: bool = False) -> tuple[str, ...]:
+    """Identifiers of the nodes that ``head`` (*remote control*) may name.
+
+    ``widely``: every way of naming counts, as in *how many cups*; else the closest way that names anything decides, so
+    that *mug* prefers what is labeled mug to what is labeled cup. ``fixed``: *things* and *objects* may be any, not
+    only those that can be carried.
+    """
+    if head in snapshot:
+        return (head,)
+    ranked = [(rank, node) for node in nodes_of(snapshot) if (rank := _rank(head, node, fixed=fixed)) is not None]
+    if number is not None:
+        ranked = [(rank, node) for rank, node in ranked if node.id.rpartition("_")[2] == str(number)]
+    closest = min((rank for rank, _ in ranked), default=0)
+    kept = [node.id for rank, node in ranked if widely or rank == closest]
+    return tuple(sorted(kept, key=natural_key))
+
+
+def similar(head: str, snapshot: Snapshot) -> tuple[str, ...]:
+    """Labels of the graph that are spelled like ``head``."""
+    labels = sorted({normal(node.label) for node in nodes_of(snapshot) if node.label} | _names(snapshot))
+    return tuple(get_close_matches(singular(head), labels, n=2, cutoff=0.7))
+
+
+def _names(snapshot: Snapshot) -> set[str]:
+    return {normal(node.name) for node in nodes_of(snapshot) if isinstance(node, ObjectNode | PersonNode) and node.name}
+
+
+def _rank(head: str, node: Place, *, fixed: bool) -> int | None:
+    """How closely ``head`` names ``node``: 0 name, 1 label, 2 synonym, 3 last word, 4 kind, None not at all."""
+    forms = {head, singular(head)}
+    label = normal(node.label)
+    if isinstance(node, ObjectNode | PersonNode) and node.name and normal(node.name) in {head, f"my {head}"}:
+        return 0
+    if isinstance(node, PersonNode):
+        return 1 if forms & PERSON_WORDS else None
+    if isinstance(node, DoorNode):
+        return 1 if "door" in forms else None
+    if isinstance(node, RoomNode) and forms & ROOM_WORDS:
+        return 4
+    if not label:
+        return None
+    if label in forms or singular(label) in forms:
+        return 1
+    if label in words_for(head):
+        return 2
+    if label.rpartition(" ")[2] in forms and isinstance(node, ObjectNode):
+        return 3
+    return 4 if isinstance(node, ObjectNode) and _is_kind(forms, node, fixed=fixed) else None
+
+
+def _is_kind(forms: Iterable[str], node: ObjectNode, *, fixed: bool) -> bool:
+    label = normal(node.label)
+    categories = {singular(normal(category)) for category in node.categories}
+    for form in forms:
+        if form in ANYTHING and (node.graspable or fixed):
+            return True
+        if form in FURNITURE and node.support and not node.graspable:
+            return True
+        if form in categories or label in kind_labels(form):
+            return True
+    return False

@@ -1,0 +1,263 @@
+"""From readings to goals: each step of a request is grounded in turn, and what it mentions serves the next.
+
+A step with several readings keeps those that the graph makes sense of. Exactly one such reading is accepted.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from majordomo.planner.answers import Answer, Answers
+from majordomo.planner.gathering import Gathering, Trouble, noun_of
+from majordomo.planner.goals import Goal, Predicate, holds
+from majordomo.planner.grammar.syntax import (
+    Ask,
+    Carry,
+    Destination,
+    Find,
+    Go,
+    NounPhrase,
+    Pick,
+    Pronoun,
+    PutBack,
+    PutDown,
+    Reference,
+    Restriction,
+    Several,
+    Step,
+)
+from majordomo.planner.grounding import Ambiguous, Context, Grounding, NoReferent
+from majordomo.planner.naming import aim_phrase, name_of
+from majordomo.planner.plan import Query
+from majordomo.scene_graph.nodes import ObjectNode, PersonNode, RoomNode
+from majordomo.skills.state import PlanState
+
+MAX_MENTIONED = 6
+SHELF_LIKE = frozenset({"shelf", "bookshelf", "bookcase", "cabinet", "rack", "shelves", "cupboard"})
+"""Labels of supports that things are put *in* as well as *on*, in a person's words."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Meant:
+    """What one step means: goals, or the answer to a question; and what it mentioned."""
+
+    goals: tuple[Goal, ...] = ()
+    implied: bool = False
+    answer: str = ""
+    query: Query | None = None
+    things: tuple[str, ...] = ()
+    places: tuple[str, ...] = ()
+    focus: str | None = None
+    noun: str = ""
+
+
+Outcome = Meant | Trouble
+
+
+class Meaning:
+    """Gives readings their meaning on one graph."""
+
+    def __init__(self, grounding: Grounding) -> None:
+        self._grounding = grounding
+        self._snapshot, self._state = grounding.snapshot, grounding.state
+        self._answers = Answers(grounding)
+        self._gathering = Gathering(grounding)
+
+    def of(self, readings: tuple[Step, ...], context: Context) -> Outcome:
+        """The one meaning of a step, or why there is none.
+
+        Parallel wording (*the cup on the table and the book on the desk*) is taken at its word, if it makes sense. A
+        reading that leaves a choice open is asked about, even if another would settle it. Readings that hold already
+        give way to readings that ask for something, and those that follow from another to that one.
+        """
+        parallel = tuple(reading for reading in readings if isinstance(reading, Several))
+        others = tuple(reading for reading in readings if reading not in parallel)
+        outcomes = [self._step(reading, context) for reading in parallel]
+        if all(isinstance(outcome, NoReferent) for outcome in outcomes):
+            outcomes += [self._step(reading, context) for reading in others]
+        meant = [outcome for outcome in outcomes if isinstance(outcome, Meant)]
+        open_choices = [outcome for outcome in outcomes if isinstance(outcome, Ambiguous) and outcome.candidates]
+        if open_choices:
+            return open_choices[0]
+        if not meant:
+            return _clearest([outcome for outcome in outcomes if not isinstance(outcome, Meant)])
+        news = [m for m in meant if not m.goals or not all(holds(goal, self._state) for goal in m.goals)] or meant
+        distinct = list({m.goals: m for m in news}.values())
+        strongest = [m for m in distinct if not any(self._follows(m, other) for other in distinct if other is not m)]
+        return strongest[0] if len(strongest) == 1 else self._either(strongest or distinct)
+
+    def _follows(self, weak: Meant, strong: Meant) -> bool:
+        """Whether goals like *in the kitchen* follow from goals like *on the table*, which stands in the kitchen."""
+        pairs = list(zip(weak.goals, strong.goals, strict=False))
+        same = len(weak.goals) == len(strong.goals) and all(w.args[0] == s.args[0] for w, s in pairs)
+        return same and all(
+            w.predicate is Predicate.IN and s.args[-1] != w.args[-1] and self._state.room_of(s.args[-1]) == w.args[-1]
+            for w, s in pairs
+        )
+
+    def _either(self, meanings: list[Meant]) -> Ambiguous:
+        ways = [" and ".join(aim_phrase(goal, self._snapshot) for goal in m.goals) for m in meanings]
+        return Ambiguous(question=f"Did you mean to {', or to '.join(ways)}?", phrase="", candidates=())
+
+    def _step(self, step: Step, context: Context) -> Outcome:
+        match step:
+            case Carry():
+                return self._carry(step, context)
+            case Several():
+                return self._several(step, context)
+            case Pick():
+                return self._handle(step.things, Predicate.HOLDING, context)
+            case Find():
+                return self._find(step, context)
+            case Go():
+                return self._go(step, context)
+            case PutDown():
+                return self._put_down(step, context)
+            case PutBack():
+                return NoReferent(reason="I do not keep record of where things were. Tell me where to put it.")
+            case Ask():
+                answer = self._answers.of(step, context)
+                if not isinstance(answer, Answer):
+                    return answer
+                return Meant(answer=answer.text, query=answer.query, things=answer.query.nodes[:MAX_MENTIONED])
+
+    def _carry(self, step: Carry, context: Context) -> Outcome:
+        if step.destination is None:
+            things = self._gathering.all_of(step.things, context)
+            if not isinstance(things, tuple):
+                return things
+            names = " and ".join(name_of(i, self._snapshot) for i in things)
+            return Ambiguous(question=f"Where should I {step.verb} {names}?", phrase="destination", candidates=())
+        place = self._destination(step.destination, step.things, context)
+        if not isinstance(place, str):
+            return place
+        predicate = self._predicate(step.destination.relation, place)
+        there = frozenset(
+            i for i in self._state.places if holds(Goal(predicate=predicate, args=(i, place)), self._state)
+        )
+        things = self._gathering.to_carry(step.things, context, avoid=there | {place})
+        if not isinstance(things, tuple):
+            return things
+        goals = tuple(Goal(predicate=predicate, args=(i, place)) for i in things)
+        noun = noun_of(step.things, context)
+        return Meant(goals=goals, implied=step.implied, things=things, places=(place,), noun=noun)
+
+    def _several(self, step: Several, context: Context) -> Outcome:
+        goals: tuple[Goal, ...] = ()
+        things: tuple[str, ...] = ()
+        places: tuple[str, ...] = ()
+        for carry in step.steps:
+            outcome = self._carry(carry, context)
+            if not isinstance(outcome, Meant):
+                return outcome
+            goals, things, places = goals + outcome.goals, things + outcome.things, outcome.places + places
+        return Meant(goals=goals, things=things, places=places)
+
+    def _destination(self, destination: Destination, things: tuple[Reference, ...], context: Context) -> str | Trouble:
+        """One place; *it* is never the thing that is carried."""
+        reference = destination.reference
+        if isinstance(reference, Pronoun) and reference.word == "it" and Pronoun(word="it") in things:
+            return NoReferent(reason="I do not know what you mean by “it”.")
+        found = self._grounding.place(reference, context)
+        if not isinstance(found, tuple):
+            return found
+        if len(found) > 1:
+            question = "Which one of them do you mean?"
+            return Ambiguous(question=question, phrase="", candidates=found)
+        return found[0]
+
+    def _predicate(self, relation: str, place: str) -> Predicate:
+        node, thing = self._snapshot.get(place), self._state.world.things.get(place)
+        if relation == "near":
+            return Predicate.NEAR
+        if isinstance(node, PersonNode) and relation == "to":
+            return Predicate.GIVEN
+        if isinstance(node, RoomNode) and relation in ("to", "in"):
+            return Predicate.IN
+        container = thing is not None and thing.container
+        shelf = isinstance(node, ObjectNode) and node.support and node.label in SHELF_LIKE
+        if relation == "in":
+            return Predicate.ON if shelf and not container else Predicate.IN
+        if relation == "to" and isinstance(node, ObjectNode) and not (node.support or container):
+            return Predicate.NEAR
+        return Predicate.IN if container else Predicate.ON
+
+    def _handle(self, references: tuple[Reference, ...], predicate: Predicate, context: Context) -> Outcome:
+        things = self._gathering.to_carry(references, context)
+        if not isinstance(things, tuple):
+            return things
+        goals = tuple(Goal(predicate=predicate, args=(i,)) for i in things)
+        return Meant(
+            goals=goals, implied=predicate is Predicate.HOLDING, things=things, noun=noun_of(references, context)
+        )
+
+    def _find(self, step: Find, context: Context) -> Outcome:
+        references = step.things
+        if step.place is not None:
+            within = Restriction(relation="at", reference=step.place)
+            references = tuple(
+                replace(r, restriction=within) if isinstance(r, NounPhrase) and r.restriction is None else r
+                for r in references
+            )
+        found = self._gathering.all_of(references, context)
+        if not isinstance(found, tuple):
+            return found
+        goals = tuple(
+            Goal(predicate=Predicate.FOUND if self._is_object(i) else Predicate.ROBOT_AT, args=(i,)) for i in found
+        )
+        return Meant(goals=goals, implied=True, things=found, noun=noun_of(references, context))
+
+    def _go(self, step: Go, context: Context) -> Outcome:
+        found = self._grounding.place(step.target, context)
+        if not isinstance(found, tuple):
+            return found
+        if len(found) > 1:
+            return Ambiguous(question="I can be in one place only. Which one?", phrase="", candidates=found)
+        (place,) = found
+        focus = place if isinstance(self._snapshot.get(place), RoomNode) else self._state.room_of(place)
+        things = (place,) if self._is_object(place) else ()
+        goals = (Goal(predicate=Predicate.ROBOT_AT, args=(place,)),)
+        return Meant(goals=goals, places=(place,), things=things, focus=focus)
+
+    def _put_down(self, step: PutDown, context: Context) -> Outcome:
+        things = self._gathering.all_of(step.things, context)
+        if not isinstance(things, tuple):
+            return things
+        room = self._state.robot_room
+        if things != (self._state.holding,) and not set(things) <= set(context.fresh):
+            names = " and ".join(name_of(i, self._snapshot) for i in things)
+            return NoReferent(reason=f"I am not holding {names}.")
+        if room is None:
+            return NoReferent(reason="I do not know which room I am in.")
+        place = context.focus or room
+        goals = tuple(Goal(predicate=Predicate.IN, args=(i, place)) for i in things)
+        return Meant(goals=goals, things=things, places=(place,))
+
+    def _is_object(self, node_id: str) -> bool:
+        return isinstance(self._snapshot.get(node_id), ObjectNode)
+
+
+def without_steps_between(meanings: list[Meant], state: PlanState) -> tuple[Goal, ...]:
+    """The goals of all steps in order, without those that only lead to a later one about the same object.
+
+    *Take the cup and put it on the desk* is about the desk; so is *take it to the office and put it on the desk*.
+    """
+    tagged = [(goal, meant.implied) for meant in meanings for goal in meant.goals]
+    kept = []
+    for index, (goal, implied) in enumerate(tagged):
+        later = [
+            other for other, _ in tagged[index + 1 :] if goal.object_id is not None and other.args[0] == goal.args[0]
+        ]
+        refined = goal.predicate is Predicate.IN and any(
+            state.room_of(other.args[-1]) == goal.args[-1] for other in later
+        )
+        if not later or not (implied or refined):
+            kept.append(goal)
+    return tuple(kept)
+
+
+def _clearest(troubles: list[Trouble]) -> Trouble:
+    """A question with candidates says most; then any question; then the first reason."""
+    questions = [trouble for trouble in troubles if isinstance(trouble, Ambiguous)]
+    with_candidates = [question for question in questions if question.candidates]
+    return (with_candidates or questions or troubles)[0]

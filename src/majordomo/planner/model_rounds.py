@@ -1,0 +1,153 @@
+"""Asks a language model for goals, checks them, and sends flaws back: at most five rounds within one deadline."""
+
+from __future__ import annotations
+
+import json
+import time
+import unicodedata
+from collections.abc import Callable
+from typing import Any
+
+from majordomo.planner.goals import Goal
+from majordomo.planner.models.protocol import (
+    CORRECTABLE,
+    FailureKind,
+    LanguageModel,
+    Message,
+    ModelFailure,
+    ModelReply,
+    ModelRequest,
+    Role,
+)
+from majordomo.planner.outline import Outline, outline
+from majordomo.planner.plan import Dialogue, Impossible, Interpretation, Kind, Source
+from majordomo.planner.proposal import Proposal, goals_of, read_proposal, schema
+from majordomo.planner.verifier import Verifier
+from majordomo.prompts.templates import render
+from majordomo.scene_graph.nodes import ObjectNode, ObjectState
+from majordomo.scene_graph.snapshot import Snapshot
+
+MAX_ROUNDS = 5
+SKILLS = (
+    "GOTO(room, object, person or door)",
+    "PICK(object)",
+    "PLACE(object, furniture, container, person or room)",
+)
+
+
+class ModelRounds:
+    """The conversation with a language model about one request at a time."""
+
+    def __init__(
+        self,
+        model: LanguageModel,
+        verifier: Verifier,
+        journal: Callable[[dict[str, Any]], None],
+        deadline_s: float,
+        *,
+        rounds: int = MAX_ROUNDS,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        self._model, self._verifier, self._journal = model, verifier, journal
+        self._deadline_s, self._rounds, self._clock = deadline_s, rounds, clock
+
+    async def run(self, text: str, snapshot: Snapshot, dialogue: Dialogue) -> Interpretation | ModelFailure:
+        """A checked interpretation, or why there is none. The ``reply`` of an answer is the question."""
+        scene = outline(snapshot, text, mentioned=dialogue.mentioned)
+        messages = self._opening(text, scene, dialogue)
+        end_s = self._clock() + self._deadline_s
+        failure = ModelFailure(kind=FailureKind.TIMEOUT, message="there was no time to ask it")
+        for number in range(1, self._rounds + 1):
+            left_s = end_s - self._clock()
+            if left_s <= 0:
+                return ModelFailure(
+                    kind=FailureKind.TIMEOUT, message=f"no usable answer within {self._deadline_s:.0f} s"
+                )
+            request = ModelRequest(
+                messages=tuple(messages), schema=schema(scene.identifiers), schema_name="robot_request"
+            )
+            answer = await self._ask(request, left_s, number)
+            outcome = self._checked(answer, snapshot) if isinstance(answer, ModelReply) else answer
+            if isinstance(outcome, Interpretation):
+                return outcome
+            failure = outcome
+            if failure.kind not in CORRECTABLE:
+                return failure
+            messages += _correction(answer.text, failure)
+        return ModelFailure(
+            kind=failure.kind, message=f"after {self._rounds} rounds, {failure.message}", text=failure.text
+        )
+
+    def _opening(self, text: str, scene: Outline, dialogue: Dialogue) -> list[Message]:
+        said = [f"robot: {json.dumps(question)} person: {json.dumps(answer)}" for question, answer in dialogue.answers]
+        mentioned = f"spoken of lately: {', '.join(dialogue.mentioned[:8])}" if dialogue.mentioned else ""
+        request = render(
+            "task_request",
+            scene=scene.text,
+            dialogue="; ".join(part for part in (*said, mentioned) if part) or "nothing",
+            request=json.dumps(text, ensure_ascii=False),
+        )
+        rules = render("task_planner", skills="\n".join(f"- {skill}" for skill in SKILLS))
+        return [Message(role=Role.SYSTEM, text=rules), Message(role=Role.USER, text=request)]
+
+    async def _ask(self, request: ModelRequest, deadline_s: float, number: int) -> ModelReply | ModelFailure:
+        prompt = [{"role": message.role.value, "text": message.text} for message in request.messages]
+        self._journal({"event": "model_prompt", "model": self._model.name, "round": number, "messages": prompt})
+        answer = await self._model.complete(request, deadline_s)
+        entry: dict[str, Any] = {
+            "event": "model_answer",
+            "model": self._model.name,
+            "round": number,
+            "text": answer.text,
+        }
+        if isinstance(answer, ModelReply):
+            entry |= {"prompt_tokens": answer.prompt_tokens, "completion_tokens": answer.completion_tokens}
+        else:
+            entry |= {"failure": answer.kind.value, "message": answer.message}
+        self._journal(entry)
+        return answer
+
+    def _checked(self, answer: ModelReply, snapshot: Snapshot) -> Interpretation | ModelFailure:
+        proposal = read_proposal(answer.data)
+        if isinstance(proposal, ModelFailure):
+            return proposal
+        kind = Kind(proposal.kind)
+        if kind is not Kind.PLAN:
+            reply = _plain(proposal.question if kind is Kind.ANSWER else proposal.reply)
+            return Interpretation(kind=kind, source=Source.MODEL, reply=reply)
+        goals = goals_of(proposal, snapshot.nodes)
+        return goals if isinstance(goals, ModelFailure) else self._verified(goals, proposal, snapshot)
+
+    def _verified(
+        self, goals: tuple[Goal, ...], proposal: Proposal, snapshot: Snapshot
+    ) -> Interpretation | ModelFailure:
+        """Goals for which there is a plan; those with missing objects are planned for when these have been found."""
+        flaws = self._verifier.verify_goals(goals, snapshot)
+        if flaws:
+            return ModelFailure(kind=FailureKind.WRONG_SHAPE, message=flaws[0].message)
+        if not any(_is_missing(arg, snapshot) for goal in goals for arg in goal.args):
+            plan = self._verifier.plan_for(goals, snapshot, source=Source.MODEL)
+            if isinstance(plan, Impossible):
+                return ModelFailure(kind=FailureKind.WRONG_SHAPE, message=plan.reason)
+        mentioned = tuple(dict.fromkeys(arg for goal in goals for arg in goal.args))
+        return Interpretation(
+            kind=Kind.PLAN, source=Source.MODEL, goals=goals, reply=_plain(proposal.reply), mentioned=mentioned
+        )
+
+
+def _correction(text: str, failure: ModelFailure) -> list[Message]:
+    flaw = failure.message if failure.message.endswith((".", ":")) else f"{failure.message}."
+    return [
+        Message(role=Role.ASSISTANT, text=text[:4000] or "(nothing)"),
+        Message(role=Role.USER, text=render("task_correction", flaw=flaw)),
+    ]
+
+
+def _plain(text: str) -> str:
+    """A model's words as plain text: no control characters, no lone surrogates."""
+    return "".join(char if unicodedata.category(char) not in ("Cc", "Cs", "Co") else " " for char in text).strip()
+
+
+def _is_missing(node_id: str, snapshot: Snapshot) -> bool:
+    node = snapshot.get(node_id)
+    return isinstance(node, ObjectNode) and node.state is ObjectState.MISSING

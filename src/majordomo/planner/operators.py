@@ -1,0 +1,138 @@
+"""The search's operators: which skills are worth trying for a goal in a state, and the least that goals can cost.
+
+Grounding is by purpose. For a goal about a cup only the cup, what stands on it, what the gripper holds, and places to
+put them come into question, so a building of thousands of nodes branches no more than a room does.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from math import inf
+
+from majordomo.planner.goals import PLACING, Goal, Predicate
+from majordomo.planner.plan import Step
+from majordomo.planner.surfaces import surfaces_near
+from majordomo.skills.skill import Skill
+from majordomo.skills.state import PlanState
+
+GOTO, PICK, PLACE = "GOTO", "PICK", "PLACE"
+
+Applied = tuple[Step, float, PlanState]
+
+
+class Operators:
+    """Grounded skills. What is in the way is put down where the robot stands: no other place costs less.
+
+    Costs of ways are remembered, so use one for one problem.
+    """
+
+    def __init__(self, skills: Mapping[str, Skill]) -> None:
+        self._skills = skills
+        self._legs_s: dict[tuple[str, str], float] = {}
+
+    def applicable(self, goal: Goal, state: PlanState, unmet: dict[str, None]) -> Iterator[Applied]:
+        """Steps towards ``goal`` whose conditions hold; the conditions that do not are added to ``unmet``."""
+        for step in self._worth_trying(goal, state):
+            skill = self._skills[step.skill]
+            failed = skill.conditions(state, step.args)
+            if failed:
+                unmet.update(dict.fromkeys(condition.message for condition in failed))
+            else:
+                yield step, skill.cost_s(state, step.args), skill.effects(state, step.args)
+
+    def at_least_s(self, goals: Sequence[Goal], state: PlanState) -> float:
+        """Seconds that ``goals`` take at least from ``state``.
+
+        Every object that must move is picked up once, carried once and put down once, one after the other; the robot
+        must first come to one of them, and in the end to everywhere it is sent.
+        """
+        first: dict[str, Goal] = {}
+        sent_s = 0.0
+        for goal in goals:
+            if goal.object_id is None or goal.predicate is Predicate.FOUND:
+                sent_s = max(sent_s, 0.0 if state.is_at(goal.args[-1]) else self._leg_s(state, None, goal.args[-1]))
+            else:
+                first.setdefault(goal.args[0], goal)
+        handling_s, approaches_s = 0.0, [inf]
+        for object_id, goal in first.items():
+            handling_s += self._handling_s(goal, state)
+            if state.holding in goal.args or state.is_at(object_id):
+                approaches_s.append(0.0)
+            else:
+                approaches_s.append(self._leg_s(state, None, object_id))
+        return max(sent_s, handling_s + (min(approaches_s) if first else 0.0))
+
+    def _worth_trying(self, goal: Goal, state: PlanState) -> Iterator[Step]:
+        if goal.object_id is None or (goal.predicate is Predicate.FOUND and state.holding != goal.args[0]):
+            yield from self._goto(state, goal.args[0])
+        elif state.holding == goal.args[0]:
+            yield from self._put(state, goal.args[0], self.places(goal, state))
+        elif state.holding is not None:
+            yield from self._put(state, state.holding, _out_of_the_way(goal, state))
+        else:
+            for object_id in (goal.args[0], *_stacked(state, goal.args[0])):
+                yield from self._goto(state, object_id)
+                yield Step(skill=PICK, args=(object_id,))
+
+    def places(self, goal: Goal, state: PlanState) -> tuple[str, ...]:
+        """Where ``goal``'s object can be put so that the goal holds. PLACE itself finds a free spot there."""
+        if goal.predicate is not Predicate.NEAR:
+            return goal.args[1:] if goal.predicate in PLACING else ()
+        handed = state.world.things[goal.args[1]].kind == "person"
+        return (goal.args[1],) if handed else surfaces_near(goal.args[1], state)
+
+    def _put(self, state: PlanState, object_id: str, places: Sequence[str]) -> Iterator[Step]:
+        for place in places:
+            if place != state.robot_room:
+                yield from self._goto(state, place)
+            yield Step(skill=PLACE, args=(object_id, place))
+
+    def _goto(self, state: PlanState, target: str) -> Iterator[Step]:
+        if state.robot_at != target:
+            yield Step(skill=GOTO, args=(target,))
+
+    def _handling_s(self, goal: Goal, state: PlanState) -> float:
+        """Seconds to pick up (unless held), carry and put down the goal's object, without the way to it."""
+        object_id = goal.args[0]
+        if goal.predicate is Predicate.NEAR and state.holding == goal.args[1]:
+            return 0.0
+        held = state.holding == object_id
+        pick_s = 0.0 if held else self._skills[PICK].cost_s(state, (object_id,))
+        if goal.predicate is Predicate.HOLDING:
+            return pick_s
+        costs_s = [
+            self._carry_s(state, object_id, place) + self._skills[PLACE].cost_s(state, (object_id, place))
+            for place in self.places(goal, state)
+        ]
+        return pick_s + min(costs_s, default=0.0)
+
+    def _carry_s(self, state: PlanState, object_id: str, place: str) -> float:
+        here = state.holding == object_id or state.is_at(object_id)
+        if (here and state.is_at(place)) or state.anchor(object_id) == state.anchor(place):
+            return 0.0
+        from_robot_s = self._leg_s(state, None, place) if here else inf
+        return from_robot_s if state.holding == object_id else min(from_robot_s, self._leg_s(state, object_id, place))
+
+    def _leg_s(self, state: PlanState, start: str | None, target: str) -> float:
+        """Seconds of one GOTO from ``start`` (the robot's own place when None); a detour takes no less."""
+        origin = state.robot_at if start is None else start
+        key = (state.anchor(origin), state.anchor(target))
+        if key not in self._legs_s:
+            there = state.after(robot_at=key[0], robot_room=state.room_of(key[0]), near=frozenset())
+            self._legs_s[key] = self._skills[GOTO].cost_s(there, (key[1],))
+        return self._legs_s[key]
+
+
+def _out_of_the_way(goal: Goal, state: PlanState) -> tuple[str, ...]:
+    """Where the held object, not the goal's, goes: a free place here; if it is the one to be near to, beside the other."""
+    if goal.predicate is Predicate.NEAR and state.holding == goal.args[1]:
+        return surfaces_near(goal.args[0], state)
+    return (state.robot_room,) if state.robot_room is not None else ()
+
+
+def _stacked(state: PlanState, object_id: str) -> list[str]:
+    """Everything that stands on ``object_id``, whatever it stands on in between."""
+    found: list[str] = []
+    for other in state.on_top_of(object_id):
+        found += [other, *_stacked(state, other)]
+    return found

@@ -1,0 +1,137 @@
+"""The graph as a model reads it: an indented outline, pruned to what a request may be about.
+
+Rooms, in them furniture, on it things. Names are quoted as JSON strings: they are data. Identifiers are plain.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+from majordomo.planner.matching import is_first_of_pair
+from majordomo.planner.naming import name_of
+from majordomo.planner.vocabulary import kind_labels, normal, singular, words_for
+from majordomo.scene_graph.identifiers import natural_key
+from majordomo.scene_graph.nodes import DoorNode, DoorState, ObjectNode, ObjectState, PersonNode, RoomNode, RoomStatus
+from majordomo.scene_graph.snapshot import Snapshot
+
+MAX_OBJECTS = 70
+MAX_ROOMS = 60
+MAX_IDENTIFIERS = 250
+_WORD = re.compile(r"\w+")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Outline:
+    """Text, the identifiers in it that goals may use, and how many objects were left out."""
+
+    text: str
+    identifiers: tuple[str, ...]
+    left_out: int
+
+
+def outline(snapshot: Snapshot, request: str, *, mentioned: Sequence[str] = ()) -> Outline:
+    """The part of the graph that ``request`` may be about; what it names, furniture, then the rest."""
+    rooms = [room for room in snapshot.of_type(RoomNode) if room.status is not RoomStatus.TEMPORARY]
+    objects = _chosen(snapshot, request, mentioned)
+    used = {snapshot.room_of(node.id) for node in objects} | {snapshot.current_room}
+    rooms = sorted(rooms, key=lambda room: (room.id not in used, natural_key(room.id)))[:MAX_ROOMS]
+    people = list(snapshot.of_type(PersonNode))[:20]
+    lines = [_robot_line(snapshot)]
+    for room in sorted(rooms, key=lambda room: natural_key(room.id)):
+        here = " (the robot is here)" if room.id == snapshot.current_room else ""
+        lines.append(f"{room.id} {_quoted(room.label)}{here}")
+        lines += [
+            f"  {person.id} person {_quoted(person.name)}"
+            for person in people
+            if snapshot.room_of(person.id) == room.id
+        ]
+        lines += _tree(snapshot, objects, room.id)
+    doors, door_lines = _doors(snapshot, {room.id for room in rooms})
+    everything = [*(room.id for room in rooms), *(p.id for p in people), *(node.id for node in objects), *doors]
+    left_out = len(snapshot.of_type(ObjectNode)) - len(objects)
+    if left_out:
+        door_lines.append(f"{left_out} more objects are known that the request does not seem to be about")
+    return Outline(
+        text="\n".join(lines + door_lines), identifiers=tuple(everything[:MAX_IDENTIFIERS]), left_out=left_out
+    )
+
+
+def _chosen(snapshot: Snapshot, request: str, mentioned: Sequence[str]) -> list[ObjectNode]:
+    """At most ``MAX_OBJECTS``: named in the request or mentioned, what those stand on, furniture, and the rest."""
+    objects = snapshot.of_type(ObjectNode)
+    words = _words(request)
+    named = {node.id for node in objects if node.id in mentioned or _is_named(node, words)}
+    held = snapshot.robot.holding if snapshot.robot is not None else None
+    below = {support for i in named if (support := snapshot.support_of(i)) is not None}
+
+    def rank(node: ObjectNode) -> tuple[int, object]:
+        furniture = node.support and not node.graspable
+        tier = 0 if node.id in named or node.id == held else 1 if node.id in below else 2 if furniture else 3
+        return tier, natural_key(node.id)
+
+    return sorted(sorted(objects, key=rank)[:MAX_OBJECTS], key=lambda node: natural_key(node.id))
+
+
+def _words(request: str) -> frozenset[str]:
+    tokens = _WORD.findall(request.lower())
+    pairs = [" ".join(pair) for pair in pairwise(tokens)]
+    words: set[str] = set()
+    for token in (*tokens, *pairs):
+        words |= words_for(token) | kind_labels(token) | {singular(token)}
+    return frozenset(words)
+
+
+def _is_named(node: ObjectNode, words: frozenset[str]) -> bool:
+    label = normal(node.label)
+    return label in words or label.rpartition(" ")[2] in words or node.id in words or normal(node.name) in words
+
+
+def _tree(snapshot: Snapshot, objects: Sequence[ObjectNode], room: str) -> list[str]:
+    here = [node for node in objects if snapshot.room_of(node.id) == room]
+    ids = {node.id for node in here}
+    lines: list[str] = []
+
+    def add(node: ObjectNode, depth: int) -> None:
+        lines.append(f"{'  ' * depth}{_object_line(node)}")
+        for other in here:
+            if snapshot.support_of(other.id) == node.id and other.id != node.id and depth < 6:
+                add(other, depth + 1)
+
+    for node in here:
+        if snapshot.support_of(node.id) not in ids:
+            add(node, 1)
+    return lines
+
+
+def _object_line(node: ObjectNode) -> str:
+    marks = [_quoted(node.name)] if node.name else []
+    marks += [node.color] if node.color else []
+    marks += ["furniture"] if node.support and not node.graspable else []
+    marks += ["fixed"] if not node.support and not node.graspable else []
+    marks += ["not where it was"] if node.state is ObjectState.MISSING else []
+    return " ".join([node.id, _quoted(node.label), *marks])
+
+
+def _robot_line(snapshot: Snapshot) -> str:
+    held = snapshot.robot.holding if snapshot.robot is not None else None
+    return f"robot holding {held}" if held is not None else "robot holding nothing"
+
+
+def _doors(snapshot: Snapshot, rooms: set[str]) -> tuple[list[str], list[str]]:
+    """Identifiers of physical doors between known rooms, and a line for each that is closed."""
+    ids, lines = [], []
+    for door in snapshot.of_type(DoorNode):
+        if door.rooms[1] is None or not {*door.rooms} <= rooms or not is_first_of_pair(snapshot, door):
+            continue
+        ids.append(door.id)
+        if door.state is DoorState.CLOSED:
+            lines.append(f"{door.id} {name_of(door.id, snapshot)} is closed")
+    return ids, lines
+
+
+def _quoted(name: str) -> str:
+    return json.dumps(name[:60], ensure_ascii=False)

@@ -1,0 +1,37 @@
+"""Planning without a robot: requests are understood, planned and verified on a stored graph, and nothing moves."""
+
+from __future__ import annotations
+
+from majordomo.planner.intake import Intake, Interpreter
+from majordomo.planner.queue import TaskQueue
+from majordomo.planner.replanner import Verifier
+from majordomo.planner.tasks import TaskStatus
+from majordomo.scene_graph.memory import WorkingMemory
+
+
+class PaperMission:
+    """Takes the place of ``Mission`` where there is no body: every task ends with its plan."""
+
+    name = "mission"
+
+    def __init__(
+        self,
+        memory: WorkingMemory,
+        queue: TaskQueue,
+        interpreter: Interpreter,
+        verifier: Verifier,
+        *,
+        period_s: float = 0.1,
+    ) -> None:
+        self.period_s = period_s
+        self._queue = queue
+        self._intake = Intake(memory, queue, interpreter, verifier, paper=True)
+
+    async def step(self, stamp_s: float) -> None:
+        """Plan for the next task, if there is one."""
+        task = self._queue.current
+        if task is None:
+            return
+        if task.status is TaskStatus.QUEUED:
+            task = self._queue.move(task.id, TaskStatus.PLANNING, stamp_s=stamp_s)
+        await self._intake.take(task, stamp_s)

@@ -1,0 +1,113 @@
+"""How references are spoken of: the phrase as said, candidates to choose from, what there is instead."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from majordomo.planner.grammar.syntax import NounPhrase, Pronoun, Quantity
+from majordomo.planner.matching import nodes_of, similar
+from majordomo.planner.naming import at, listed, name_of
+from majordomo.planner.vocabulary import is_plural, normal, singular
+from majordomo.scene_graph.nodes import DoorNode, ObjectNode, ObjectState, PersonNode, RoomNode
+from majordomo.scene_graph.snapshot import Snapshot
+
+MAX_LISTED = 5
+
+
+def phrase_text(phrase: NounPhrase) -> str:
+    """A noun phrase without its article: *big red cup on the table*."""
+    words = [*phrase.sizes, *phrase.colors, *phrase.words]
+    if phrase.superlative is not None:
+        words.insert(0, phrase.superlative)
+    if phrase.quantity in (Quantity.SOME, Quantity.EXACTLY, Quantity.BOTH) and phrase.count:
+        words.insert(0, str(phrase.count))
+    if phrase.number is not None:
+        words.append(str(phrase.number))
+    if phrase.restriction is not None:
+        words.append(phrase.restriction.relation)
+        reference = phrase.restriction.reference
+        if isinstance(reference, Pronoun):
+            words.append(reference.word)
+        elif reference is not None:
+            words.append(f"the {phrase_text(reference)}")
+    return " ".join(words)
+
+
+def describe(node_id: str, snapshot: Snapshot) -> str:
+    """A candidate in words, with its place: "the blue bottle on the table in the kitchen"."""
+    node = snapshot.get(node_id)
+    name = name_of(node_id, snapshot)
+    if isinstance(node, ObjectNode):
+        place = place_phrase(node_id, snapshot)
+        return name if place in name else f"{name} {place}"
+    if isinstance(node, PersonNode):
+        room = snapshot.room_of(node_id)
+        return f"{name} in {name_of(room, snapshot)}" if room is not None else name
+    return name
+
+
+def place_phrase(object_id: str, snapshot: Snapshot) -> str:
+    """Where an object is: "on the table in the kitchen", "in my gripper", "at a place I do not know"."""
+    node = snapshot.get(object_id)
+    if snapshot.robot is not None and snapshot.robot.holding == object_id:
+        return "in my gripper"
+    support, room = snapshot.support_of(object_id), snapshot.room_of(object_id)
+    if support is not None:
+        place = at(support, snapshot)
+        named = f"in {name_of(room, snapshot)}" if room is not None else ""
+        place = place if not named or place.endswith(named) else f"{place} {named}"
+    else:
+        place = f"in {name_of(room, snapshot)}" if room is not None else "at a place I do not know"
+    lost = isinstance(node, ObjectNode) and node.state is ObjectState.MISSING
+    return f"last known {place}" if lost else place
+
+
+def which_question(ask: str, text: str, candidates: Sequence[str], snapshot: Snapshot) -> str:
+    """A question that lists the candidates with their identifiers."""
+    options = [f"{describe(i, snapshot)} ({i})" for i in candidates[:MAX_LISTED]]
+    more = f", or one of {len(candidates) - MAX_LISTED} more" if len(candidates) > MAX_LISTED else ""
+    lead = f"“{text}” could be several things. " if text != "you" else ""
+    return f"{lead}{ask}: {_ored(options)}{more}?"
+
+
+def alternatives(phrase: NounPhrase, same: Sequence[str], snapshot: Snapshot) -> str:
+    """Why a phrase names nothing, and what there is instead."""
+    text = phrase_text(phrase)
+    head = singular(phrase.head)
+    if phrase.person and not same:
+        known = [name_of(node.id, snapshot) for node in snapshot.of_type(PersonNode)]
+        others = f" I know {listed(known)}." if known else " I have not seen anybody yet."
+        return f"I know nobody called {phrase.head}.{others}"
+    if same:
+        seen = listed([f"{article(described(i, snapshot))}" for i in same[:3]])
+        return f"I know of no {text}. I have seen {seen}."
+    close = [label for label in similar(head, snapshot) if label != head]
+    if close:
+        return f"I know of no {text}. Did you mean {_ored(list(close))}?"
+    labels = sorted({normal(node.label) for node in nodes_of(snapshot) if isinstance(node, ObjectNode)})
+    known_things = f" Things I have seen: {', '.join(labels[:8])}." if labels else " I have not seen any objects yet."
+    return f"I know of no {text}.{known_things}"
+
+
+def described(node_id: str, snapshot: Snapshot) -> str:
+    """A candidate without its article: "blue bottle on the table in the kitchen"."""
+    return describe(node_id, snapshot).removeprefix("the ")
+
+
+def article(text: str) -> str:
+    """With the indefinite article; names of rooms and people keep theirs."""
+    if is_plural(text.rsplit(" ", maxsplit=1)[-1]) or text[:1].isupper():
+        return text
+    return f"{'an' if text[:1].lower() in 'aeiou' else 'a'} {text}"
+
+
+def kind_of(node_id: str, snapshot: Snapshot) -> str:
+    """*room*, *object*, *person* or *door*."""
+    names = {RoomNode: "room", ObjectNode: "object", PersonNode: "person", DoorNode: "door"}
+    return names.get(type(snapshot.node(node_id)), "node")
+
+
+def _ored(options: Sequence[str]) -> str:
+    if len(options) < 2:
+        return "".join(options)
+    return f"{', '.join(options[:-1])} or {options[-1]}"

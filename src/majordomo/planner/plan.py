@@ -1,0 +1,128 @@
+"""Plans, and what a request was understood to be; plain values that the rest of the planner passes around."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+from majordomo.planner.goals import Goal
+
+
+@dataclass(frozen=True, kw_only=True)
+class Step:
+    """One skill with its arguments: ``PICK(bottle_1)``."""
+
+    skill: str
+    args: tuple[str, ...]
+
+    def __str__(self) -> str:
+        return f"{self.skill}({', '.join(self.args)})"
+
+
+class Source(StrEnum):
+    """Who named the goals: the command grammar, a language model, or the search for a missing object."""
+
+    GRAMMAR = "grammar"
+    MODEL = "model"
+    SEARCH = "search"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Plan:
+    """Steps that achieve ``goals`` when carried out from graph revision ``revision``.
+
+    ``expected_s``, ``expected_m``: estimated time and way. ``seeking``: the object a search plan looks for; its steps
+    visit places, most likely first, and the rest of them is dropped as soon as the object is seen.
+    """
+
+    source: Source
+    revision: int
+    goals: tuple[Goal, ...]
+    steps: tuple[Step, ...]
+    expected_s: float = 0.0
+    expected_m: float = 0.0
+    seeking: str | None = None
+
+    def __str__(self) -> str:
+        return ", ".join(str(step) for step in self.steps) or "nothing to do"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Impossible:
+    """No plan exists; ``reason`` says why in one sentence, ``nodes`` are what it is about."""
+
+    reason: str
+    nodes: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, kw_only=True)
+class Flaw:
+    """What is wrong with a goal or plan: one sentence naming the fix, and the nodes it is about."""
+
+    message: str
+    nodes: tuple[str, ...] = ()
+
+
+class Kind(StrEnum):
+    """What a request was understood to be."""
+
+    PLAN = "plan"
+    ANSWER = "answer"
+    CLARIFY = "clarify"
+    REFUSE = "refuse"
+
+
+class QueryKind(StrEnum):
+    """Closed set of questions that the graph can answer."""
+
+    WHERE = "where"
+    COUNT = "count"
+    LIST = "list"
+    EXISTS = "exists"
+    ROBOT_ROOM = "robot_room"
+    ROOM_OF = "room_of"
+    HOLDING = "holding"
+    SEEN = "seen"
+    ROOMS = "rooms"
+    COLOR = "color"
+    ABILITIES = "abilities"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Query:
+    """A question about the graph: its kind, the nodes it is about, and the words for them."""
+
+    kind: QueryKind
+    nodes: tuple[str, ...] = ()
+    phrase: str = ""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Interpretation:
+    """What a request means on one revision of the graph.
+
+    ``kind`` plan: ``goals`` are set and checked. answer: ``reply`` holds the answer, ``query`` the question. clarify:
+    ``reply`` is the question to ask, ``candidates`` the identifiers to choose from, if that is the question.
+    refuse: ``reply`` says why. ``mentioned``: identifiers that were spoken of, for later pronouns, the newest first.
+    """
+
+    kind: Kind
+    source: Source = Source.GRAMMAR
+    goals: tuple[Goal, ...] = ()
+    reply: str = ""
+    candidates: tuple[str, ...] = ()
+    query: Query | None = None
+    mentioned: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, kw_only=True)
+class Dialogue:
+    """What was said before.
+
+    ``answers``: the robot's questions about this very request and what was answered, oldest first. ``mentioned``:
+    identifiers spoken of in earlier requests, the newest first. ``speaker``: the person who asks, if known.
+    """
+
+    answers: tuple[tuple[str, str], ...] = ()
+    mentioned: tuple[str, ...] = ()
+    speaker: str | None = None

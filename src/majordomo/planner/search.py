@@ -1,0 +1,128 @@
+"""Classical search: which skills, in which order, achieve ordered goals at the least expected time.
+
+A* over pairs of a symbolic state and the number of goals achieved so far (Hart, Nilsson and Raphael, 1968). A goal is
+ticked off when it holds and all before it are ticked off; at the end all ``lasting`` goals hold together. No step
+brings about a later goal before its turn, so that *first ... then ...* means what it says.
+"""
+
+from __future__ import annotations
+
+import heapq
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import count
+
+from majordomo.planner.goals import PLACING, Goal, Predicate, holds, lasting
+from majordomo.planner.operators import Operators
+from majordomo.planner.plan import Step
+from majordomo.skills.skill import Skill
+from majordomo.skills.state import PlanState
+
+GUARDED = PLACING | {Predicate.HOLDING}
+"""Goals that no step may bring about before their turn; being somewhere on the way is no harm."""
+
+Estimate = Callable[[PlanState, int], float]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Found:
+    """The cheapest way: steps, their expected seconds, and how many states were expanded."""
+
+    steps: tuple[Step, ...]
+    cost_s: float
+    expanded: int
+
+
+@dataclass(frozen=True, kw_only=True)
+class Exhausted:
+    """No way: every state was tried, or the ``budget`` was. ``unmet`` are conditions that stood in the way."""
+
+    expanded: int
+    out_of_budget: bool
+    unmet: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class _Node:
+    """A state reached, the goals ticked off, and how."""
+
+    state: PlanState
+    ticked: int
+    cost_s: float
+    step: Step | None
+    before: _Node | None
+
+    def steps(self) -> tuple[Step, ...]:
+        taken: list[Step] = []
+        node: _Node | None = self
+        while node is not None and node.step is not None:
+            taken.append(node.step)
+            node = node.before
+        return tuple(reversed(taken))
+
+
+class Search:
+    """One planning problem: ordered goals from one state with the registered skills."""
+
+    def __init__(self, goals: Sequence[Goal], skills: Mapping[str, Skill], *, budget: int = 20_000) -> None:
+        self._goals = tuple(goals)
+        self._lasting = lasting(goals)
+        self._operators = Operators(skills)
+        self._budget = budget
+
+    def run(self, start: PlanState) -> Found | Exhausted:
+        """The cheapest steps from ``start``; deterministic."""
+        first = _Node(start, self.tick(start, 0), 0.0, None, None)
+        order = count()
+        queue = [(self._estimate(first), next(order), first)]
+        best = {(start, first.ticked): 0.0}
+        expanded = 0
+        unmet: dict[str, None] = {}
+        while queue and expanded < self._budget:
+            _, _, node = heapq.heappop(queue)
+            if node.cost_s > best[(node.state, node.ticked)]:
+                continue
+            if self.done(node.state, node.ticked):
+                return Found(steps=node.steps(), cost_s=node.cost_s, expanded=expanded)
+            expanded += 1
+            for after in self._successors(node, unmet):
+                key = (after.state, after.ticked)
+                if after.cost_s < best.get(key, float("inf")):
+                    best[key] = after.cost_s
+                    heapq.heappush(queue, (after.cost_s + self._estimate(after), next(order), after))
+        return Exhausted(expanded=expanded, out_of_budget=bool(queue), unmet=tuple(unmet))
+
+    def tick(self, state: PlanState, ticked: int) -> int:
+        """How many goals are ticked off in ``state`` when ``ticked`` were before."""
+        while ticked < len(self._goals) and holds(self._goals[ticked], state):
+            ticked += 1
+        return ticked
+
+    def done(self, state: PlanState, ticked: int) -> bool:
+        """Whether nothing is left to do."""
+        return ticked == len(self._goals) and all(holds(goal, state) for goal in self._lasting)
+
+    def too_early(self, before: PlanState, after: PlanState, ticked: int) -> bool:
+        """Whether a step brought about a goal whose turn has not come; ``ticked`` counts those ticked off after it."""
+        return any(
+            goal.predicate in GUARDED and holds(goal, after) and not holds(goal, before)
+            for goal in self._goals[ticked + 1 :]
+        )
+
+    def pending(self, state: PlanState, ticked: int) -> Goal:
+        """The goal to work on: the next in order, or a lasting one that was undone."""
+        if ticked < len(self._goals):
+            return self._goals[ticked]
+        return next(goal for goal in self._lasting if not holds(goal, state))
+
+    def _successors(self, node: _Node, unmet: dict[str, None]) -> Iterator[_Node]:
+        goal = self.pending(node.state, node.ticked)
+        for step, cost_s, state in self._operators.applicable(goal, node.state, unmet):
+            ticked = self.tick(state, node.ticked)
+            if not self.too_early(node.state, state, ticked):
+                yield _Node(state, ticked, node.cost_s + cost_s, step, node)
+
+    def _estimate(self, node: _Node) -> float:
+        """Seconds that the remaining goals take at least: admissible, zero at the end."""
+        left = self._goals[node.ticked :] or tuple(goal for goal in self._lasting if not holds(goal, node.state))
+        return self._operators.at_least_s(left, node.state)

@@ -1,0 +1,52 @@
+"""Answers to the robot's questions: which of the candidates a person chose."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from majordomo.planner.grammar.parser import CommandGrammar
+from majordomo.planner.grammar.tokens import words_of
+from majordomo.planner.grounding import Context
+from majordomo.planner.interpreter import Interpreter
+from majordomo.scene_graph.snapshot import Snapshot
+
+_ORDINALS = {"first": 0, "1": 0, "second": 1, "2": 1, "third": 2, "3": 2, "fourth": 3, "4": 3, "fifth": 4, "5": 4}
+_ALL = {"all", "both", "all of them", "both of them", "everything", "every one"}
+_ANY = {"any", "any of them", "either", "whichever", "does not matter", "it does not matter", "any one", "you choose"}
+_DROPPED = frozenset({"please", "the", "one", "number", "take", "i", "mean", "meant", "bring"})
+
+
+def select(
+    answer: str, candidates: Sequence[str], snapshot: Snapshot, interpreter: Interpreter, grammar: CommandGrammar
+) -> tuple[str, ...]:
+    """The candidates that ``answer`` chooses: by identifier, number, *both*, *any*, description; empty when unclear."""
+    words = [word.text for word in words_of(answer) if word.kind == "word"]
+    said = " ".join(words)
+    if said in candidates:
+        return (said,)
+    if said in _ALL:
+        return tuple(candidates)
+    if said in _ANY:
+        return tuple(candidates[:1])
+    short = [word for word in words if word not in _DROPPED]
+    if len(short) == 1 and short[0] in _ORDINALS and _ORDINALS[short[0]] < len(candidates):
+        return (candidates[_ORDINALS[short[0]]],)
+    if short == ["last"]:
+        return tuple(candidates[-1:])
+    return _described(said, candidates, snapshot, interpreter, grammar)
+
+
+def _described(
+    said: str, candidates: Sequence[str], snapshot: Snapshot, interpreter: Interpreter, grammar: CommandGrammar
+) -> tuple[str, ...]:
+    """By noun phrase: *the blue one*, *blue*, *on the table*, *the one in the kitchen*, *anna*."""
+    grounding = interpreter.grounding(snapshot)
+    for wording in (said, f"{said} one", f"the one {said}", f"the one in {said}", f"the one on {said}"):
+        for phrase in grammar.phrase(wording, interpreter.lexicon(snapshot)):
+            fitting = grounding.matches(phrase, Context(noun=""))
+            if phrase.words in (("one",), ("ones",)):
+                fitting = grounding.among(candidates, phrase)
+            chosen = tuple(i for i in candidates if i in fitting)
+            if chosen and len(chosen) < len(candidates):
+                return chosen if len(chosen) == 1 else ()
+    return ()

@@ -1,0 +1,120 @@
+"""The Task Planner: a request's words to goals, an answer, a question or a refusal (design, section 8).
+
+The grammar is tried first on every turn. A language model, when there is one, takes what the grammar cannot parse; what
+it proposes is checked, and flaws go back to it as one sentence. When it fails, the grammar's own answer stands and
+says so.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+from majordomo.planner.grammar.parser import CommandGrammar
+from majordomo.planner.grammar.tokens import text_flaw
+from majordomo.planner.interpreter import Choices, Interpreter, Reading
+from majordomo.planner.model_rounds import ModelRounds
+from majordomo.planner.models.protocol import CORRECTABLE, LanguageModel, ModelFailure
+from majordomo.planner.plan import Dialogue, Interpretation, Kind
+from majordomo.planner.selection import select
+from majordomo.planner.verifier import Verifier
+from majordomo.scene_graph.snapshot import Snapshot
+
+Journal = Callable[[dict[str, Any]], None]
+DEADLINE_S = 45.0
+"""For all rounds with a language model together, in wall time."""
+
+
+def no_journal(entry: dict[str, Any]) -> None:
+    """Keeps nothing."""
+    del entry
+
+
+class TaskPlanner:
+    """Interprets requests; made once for a service.
+
+    Args:
+        grammar: the command grammar.
+        verifier: checks goals; holds the skills.
+        model: takes what the grammar cannot parse; None for the grammar alone.
+        journal: told every prompt and raw answer, as plain data.
+    """
+
+    def __init__(
+        self,
+        grammar: CommandGrammar,
+        verifier: Verifier,
+        model: LanguageModel | None = None,
+        *,
+        journal: Journal = no_journal,
+        deadline_s: float = DEADLINE_S,
+    ) -> None:
+        self._grammar = grammar
+        self._interpreter = Interpreter(grammar, verifier)
+        self._rounds = ModelRounds(model, verifier, journal, deadline_s) if model is not None else None
+
+    async def interpret(self, text: str, snapshot: Snapshot, dialogue: Dialogue) -> Interpretation:
+        """What ``text`` means on ``snapshot``, with the answers to earlier questions about it."""
+        wording, reading = self.read(text, snapshot, dialogue)
+        if reading.wholly or self._rounds is None:
+            return reading.interpretation
+        outcome = await self._rounds.run(wording, snapshot, dialogue)
+        if isinstance(outcome, ModelFailure):
+            return _without_model(reading.interpretation, outcome)
+        if outcome.kind is Kind.ANSWER:
+            return self._answered(outcome, reading, snapshot, dialogue)
+        return outcome
+
+    def read(self, text: str, snapshot: Snapshot, dialogue: Dialogue) -> tuple[str, Reading]:
+        """The grammar's reading of the request and the answers given so far, and the words it now consists of."""
+        choices: Choices = {}
+        reading = self._interpreter.read(text, snapshot, dialogue, choices)
+        for _, answer in dialogue.answers:
+            if reading.interpretation.kind is not Kind.CLARIFY:
+                break
+            if not answer.strip():
+                continue
+            text, choices = self._take_answer(text, answer, reading, choices, snapshot)
+            reading = self._interpreter.read(text, snapshot, dialogue, choices)
+        return text, reading
+
+    def _take_answer(
+        self, text: str, answer: str, reading: Reading, choices: Choices, snapshot: Snapshot
+    ) -> tuple[str, Choices]:
+        """The request and the settled phrases after one answer: a choice, a destination, or a new request."""
+        if text_flaw(answer) is not None:
+            return text, choices
+        candidates = reading.interpretation.candidates
+        if candidates:
+            chosen = select(answer, candidates, snapshot, self._interpreter, self._grammar)
+            if chosen:
+                return text, {**choices, reading.asked: chosen}
+        if reading.asked == "destination":
+            for wording in (f"{text} {answer}", f"{text} to {answer}", f"{text} on {answer}"):
+                parsed = self._interpreter.read(wording, snapshot, Dialogue(), choices)
+                if parsed.wholly and parsed.asked != "destination":
+                    return wording, choices
+        return self._restated(text, answer, choices, snapshot, was_parsed=reading.wholly)
+
+    def _restated(
+        self, text: str, answer: str, choices: Choices, snapshot: Snapshot, *, was_parsed: bool
+    ) -> tuple[str, Choices]:
+        """An answer that is a whole request takes the old one's place; one that says nothing leaves it open."""
+        parsed = self._interpreter.read(answer, snapshot, Dialogue(), {})
+        return (answer, {}) if parsed.wholly or not was_parsed else (text, choices)
+
+    def _answered(
+        self, proposed: Interpretation, reading: Reading, snapshot: Snapshot, dialogue: Dialogue
+    ) -> Interpretation:
+        """A model only rephrases questions; the graph answers them."""
+        answer = self._interpreter.read(proposed.reply, snapshot, dialogue)
+        if answer.wholly and answer.interpretation.kind in (Kind.ANSWER, Kind.REFUSE):
+            return replace(answer.interpretation, kind=Kind.ANSWER, source=proposed.source)
+        return reading.interpretation
+
+
+def _without_model(interpretation: Interpretation, failure: ModelFailure) -> Interpretation:
+    what = "gave no usable answer" if failure.kind in CORRECTABLE else "is not available"
+    note = f"(The language model {what}: {failure.message}.)".replace("..", ".")
+    return replace(interpretation, reply=f"{interpretation.reply} {note}")

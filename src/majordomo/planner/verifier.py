@@ -1,0 +1,114 @@
+"""The verifier: no plan leaves it that symbolic execution has not proven (design, section 8).
+
+Goals are type-checked, search fills in every GOTO, PICK and PLACE, and the steps are then carried out on a copy of the
+facts: each condition must hold in turn, and the goals at the end.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+
+from majordomo.planner.flaws import goal_flaws
+from majordomo.planner.goals import Goal, holds, lasting
+from majordomo.planner.naming import goal_phrase
+from majordomo.planner.plan import Flaw, Impossible, Plan, Source, Step
+from majordomo.planner.search import Exhausted, Search
+from majordomo.planner.seeking import seeking_plan
+from majordomo.scene_graph.snapshot import Snapshot
+from majordomo.skills.skill import Skill
+from majordomo.skills.state import PlanState
+
+
+class Verifier:
+    """Makes and checks plans with the registered skills.
+
+    Args:
+        skills: by name; at least GOTO, PICK and PLACE.
+        budget: states that one search may expand.
+    """
+
+    def __init__(self, skills: Mapping[str, Skill], *, budget: int = 20_000) -> None:
+        self._skills = skills
+        self._budget = budget
+        self._read: tuple[Snapshot, PlanState] | None = None
+
+    def verify_goals(self, goals: Sequence[Goal], snapshot: Snapshot) -> list[Flaw]:
+        """What is wrong with ``goals`` on this graph; empty when they make sense. Missing objects are no flaw."""
+        return goal_flaws(goals, snapshot, self.state(snapshot))
+
+    def plan_for(
+        self, goals: Sequence[Goal], snapshot: Snapshot, *, source: Source = Source.GRAMMAR
+    ) -> Plan | Impossible:
+        """The cheapest proven plan for ``goals`` in order, or the reason why there is none."""
+        flaws = self.verify_goals(goals, snapshot)
+        if flaws:
+            return Impossible(reason=flaws[0].message, nodes=flaws[0].nodes)
+        state = self.state(snapshot)
+        found = Search(goals, self._skills, budget=self._budget).run(state)
+        if isinstance(found, Exhausted):
+            return _impossible(goals, found, snapshot, state)
+        plan = Plan(
+            source=source,
+            revision=snapshot.revision,
+            goals=tuple(goals),
+            steps=found.steps,
+            expected_s=found.cost_s,
+            expected_m=self._length_m(found.steps, state),
+        )
+        unproven = self.check_plan(plan, snapshot)
+        return Impossible(reason=unproven[0].message, nodes=unproven[0].nodes) if unproven else plan
+
+    def check_plan(self, plan: Plan, snapshot: Snapshot) -> list[Flaw]:
+        """What keeps ``plan`` from being carried out on this graph, by symbolic execution; empty when nothing does.
+
+        Steps that are done already must have been taken off. A plan that seeks an object promises no goal.
+        """
+        state = self.state(snapshot)
+        gone = [arg for step in plan.steps for arg in step.args if arg not in state.world.things]
+        if gone:
+            return [Flaw(message=f"{gone[0]} is no longer in the scene graph.", nodes=(gone[0],))]
+        for step in plan.steps:
+            unmet = self._skills[step.skill].conditions(state, step.args)
+            if unmet:
+                return [Flaw(message=condition.message, nodes=condition.nodes or step.args) for condition in unmet]
+            state = self._skills[step.skill].effects(state, step.args)
+        if plan.seeking is not None:
+            return []
+        return [
+            Flaw(message=f"The plan does not make it so that {goal_phrase(goal, snapshot)}.", nodes=goal.args)
+            for goal in lasting(plan.goals)
+            if not holds(goal, state)
+        ]
+
+    def search_plan(
+        self, object_id: str, snapshot: Snapshot, since_s: float, already_looked: Collection[str] = ()
+    ) -> Plan | Impossible:
+        """Places to look for ``object_id``, most likely first; Impossible when all were looked at since ``since_s``."""
+        if object_id not in snapshot:
+            return Impossible(reason=f"{object_id} is not in the scene graph.")
+        return seeking_plan(object_id, snapshot, self.state(snapshot), since_s, already_looked)
+
+    def state(self, snapshot: Snapshot) -> PlanState:
+        """The facts of ``snapshot``; those of the last one asked for are kept."""
+        if self._read is None or self._read[0] is not snapshot:
+            self._read = (snapshot, PlanState.from_snapshot(snapshot))
+        return self._read[1]
+
+    def _length_m(self, steps: Sequence[Step], state: PlanState) -> float:
+        length_m = 0.0
+        for step in steps:
+            if step.skill == "GOTO":
+                length_m += state.distance_m(state.robot_at, step.args[0]) or 0.0
+            state = self._skills[step.skill].effects(state, step.args)
+        return length_m
+
+
+def _impossible(goals: Sequence[Goal], exhausted: Exhausted, snapshot: Snapshot, state: PlanState) -> Impossible:
+    left = next((goal for goal in goals if not holds(goal, state)), goals[0])
+    if exhausted.out_of_budget:
+        reason = f"I found no plan within {exhausted.expanded} steps of thought: ask for less at once."
+    elif exhausted.unmet:
+        reason = exhausted.unmet[-1]
+    else:
+        reason = f"I know of no way to make it so that {goal_phrase(left, snapshot)}."
+    return Impossible(reason=reason, nodes=left.args)

@@ -1,0 +1,1 @@
+"""Sensors to graph: LiDAR concepts (room, door), localization, RGB-D objects and relations, memory."""

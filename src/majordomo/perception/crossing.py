@@ -1,0 +1,76 @@
+"""How agents tell each other through the graph that a door is being crossed into the unknown.
+
+Between "the robot went through" and "the room behind it stands", the door carries ``BEING_CROSSED`` as its crossing
+reason. The room concept measures while it does; the door concept proposes nothing; long-term memory replaces it by the
+outcome.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from majordomo.perception.localization.planar import Pose2, diagonal_covariance, spatial_covariance
+from majordomo.scene_graph.edges import EdgeKey, EdgeType, InEdge, RtEdge
+from majordomo.scene_graph.memory import Transaction
+from majordomo.scene_graph.nodes import ROBOT_ID, CrossingStatus, DoorNode
+from majordomo.scene_graph.snapshot import Snapshot
+
+BEING_CROSSED = "being crossed"
+DOOR_AGENT = "door_concept"
+
+
+def door_being_crossed(snapshot: Snapshot) -> DoorNode | None:
+    """The door whose far side the robot is on without knowing it, if any."""
+    return next((door for door in snapshot.of_type(DoorNode) if is_being_crossed(door)), None)
+
+
+def is_being_crossed(door: DoorNode) -> bool:
+    return door.crossing is CrossingStatus.UNCROSSED and door.crossing_reason == BEING_CROSSED
+
+
+def mark_being_crossed(door: DoorNode) -> DoorNode:
+    return replace(door, crossing_reason=BEING_CROSSED)
+
+
+def given_up(door: DoorNode, reason: str) -> DoorNode:
+    """The door, no longer to be explored."""
+    return replace(door, crossing=CrossingStatus.GIVEN_UP, crossing_reason=reason)
+
+
+def uncrossed(door: DoorNode) -> DoorNode:
+    """The door, to be explored again."""
+    return replace(door, crossing=CrossingStatus.UNCROSSED, crossing_reason="")
+
+
+def cross_affordance(door_id: str) -> str:
+    """Identifier of the affordance to cross a permanent door."""
+    return "aff_cross_" + door_id.removeprefix("door_")
+
+
+def match_of(snapshot: Snapshot, door_id: str) -> str | None:
+    """The same physical door as known from its other room, if it is."""
+    for edge in (*snapshot.edges_from(door_id, EdgeType.MATCH), *snapshot.edges_to(door_id, EdgeType.MATCH)):
+        return edge.target if edge.source == door_id else edge.source
+    return None
+
+
+def match_key(first: str, second: str) -> EdgeKey:
+    """Key of the match edge between two doors."""
+    source, target = sorted((first, second))
+    return EdgeKey(EdgeType.MATCH, source, target)
+
+
+def move_robot(tx: Transaction, room_id: str, T_room_base: Pose2, stamp_s: float, std: float = 0.005) -> None:
+    """Hang the robot from a room, and say that it is in it."""
+    for edge in (*tx.snapshot.edges_to(ROBOT_ID, EdgeType.RT), *tx.snapshot.edges_from(ROBOT_ID, EdgeType.IN)):
+        tx.remove(edge.key)
+    tx.put(
+        RtEdge(
+            source=room_id,
+            target=ROBOT_ID,
+            T_source_target=T_room_base.to_se3(),
+            covariance=spatial_covariance(diagonal_covariance(std, std, std / 3.0)),
+            stamp_s=stamp_s,
+        ),
+        InEdge(source=ROBOT_ID, target=room_id),
+    )

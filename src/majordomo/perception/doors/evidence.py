@@ -1,0 +1,165 @@
+"""What many scans together say about one wall: which parts are wall, which are open, and where exactly a gap ends."""
+
+from __future__ import annotations
+
+from collections import deque
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from majordomo.perception.doors.wall_rays import WallRays
+
+Array = NDArray[np.float64]
+
+_BIN_M = 0.02
+_KEPT_SCANS = 60
+_MOST_RAYS = 30.0
+_FARTHEST_SAMPLE_M = 5.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class Gap:
+    """An open stretch of a wall, stations in meters from the wall's start.
+
+    ``wall_before_m``, ``wall_after_m``: where wall was seen beside it, so that the post is between there and the open
+    stretch; ``None`` where none was seen near.
+    """
+
+    start_m: float
+    end_m: float
+    wall_before_m: float | None = None
+    wall_after_m: float | None = None
+
+    @property
+    def width_m(self) -> float:
+        return self.end_m - self.start_m
+
+    @property
+    def center_m(self) -> float:
+        return (self.start_m + self.end_m) / 2.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class GapSettings:
+    """``narrowest_m``: least width that rays pass through; seen at an angle, the reveals of a thick wall take their share
+    of a door. ``rays``: least number in a part of the wall
+    that tells. ``bridge_m``: a part without rays this short is like its neighbors. ``post_m``: how far beside a gap wall
+    may be first seen: rays that end on the reveal of a thick wall tell nothing. ``hiding_m``: an unseen stretch this long could hide a door."""
+
+    narrowest_m: float = 0.35
+    rays: float = 2.0
+    bridge_m: float = 0.12
+    post_m: float = 0.36
+    hiding_m: float = 0.5
+
+
+class WallEvidence:
+    """Counts of rays that passed and that ended on the face, along one wall, and the recent rays themselves.
+
+    A ray that ends behind the face, on a reveal or a recessed panel, counts as neither: it was seen at too flat an angle.
+    """
+
+    def __init__(self, length_m: float) -> None:
+        self.length_m = length_m
+        bins = max(1, int(np.ceil(length_m / _BIN_M)))
+        self._passed = np.zeros(bins)
+        self._ended = np.zeros(bins)
+        self._low_hits = np.zeros(bins)
+        self._blocked = np.zeros(bins)
+        self._scans: deque[WallRays] = deque(maxlen=_KEPT_SCANS)
+
+    def add(self, rays: WallRays, *, keep: bool) -> None:
+        """Count the rays of one scan; ``keep`` them one by one too, for finding edges."""
+        index = np.minimum((rays.station_m / _BIN_M).astype(np.int64), len(self._passed) - 1)
+        weight = 1.0 / np.maximum(rays.distance_m, 1.0)
+        ended = rays.on_face & ~rays.passed
+        np.add.at(self._passed, index[rays.passed], weight[rays.passed])
+        np.add.at(self._ended, index[ended], weight[ended])
+        np.add.at(self._low_hits, index[rays.low_hit], weight[rays.low_hit])
+        np.add.at(self._blocked, np.minimum((rays.blocked_m / _BIN_M).astype(np.int64), len(self._blocked) - 1), 1.0)
+        self._bound()
+        if keep:
+            self._scans.append(rays)
+
+    def _bound(self) -> None:
+        """Old counts make room for new ones where there are many, so that what changes is seen."""
+        share = np.minimum(1.0, _MOST_RAYS / np.maximum(self._passed + self._ended, 1e-9))
+        for counts in (self._passed, self._ended, self._low_hits):
+            counts *= share
+
+    def gaps(self, settings: GapSettings | None = None) -> list[Gap]:
+        """Open stretches wide enough for a door."""
+        settings = settings or GapSettings()
+        state = self._states(settings)
+        found: list[Gap] = []
+        for start, end in _runs(state == 1):
+            gap = Gap(
+                start_m=start * _BIN_M,
+                end_m=min(end * _BIN_M, self.length_m),
+                wall_before_m=self._wall_beside(state, start, -1, settings),
+                wall_after_m=self._wall_beside(state, end - 1, 1, settings),
+            )
+            if gap.width_m >= settings.narrowest_m:
+                found.append(gap)
+        return found
+
+    def unseen(self, settings: GapSettings | None = None) -> list[Gap]:
+        """Stretches that could hide a door: not seen to be wall, and nothing stands close before them."""
+        settings = settings or GapSettings()
+        hidden = (self._states(settings) != -1) & (self._blocked < 1.0)
+        known = self.gaps(settings)
+        runs = [(start * _BIN_M, min(end * _BIN_M, self.length_m)) for start, end in _runs(hidden)]
+        return [
+            Gap(start_m=start_m, end_m=end_m)
+            for start_m, end_m in runs
+            if end_m - start_m > settings.hiding_m and not any(start_m <= gap.center_m <= end_m for gap in known)
+        ]
+
+    def _states(self, settings: GapSettings) -> NDArray[np.int64]:
+        """Per part of the wall: 1 open, -1 wall, 0 unknown; short unknown parts take their neighbors' state."""
+        enough = self._passed + self._ended > settings.rays / 3.0
+        opened = enough & (self._passed > self._ended) & (self._low_hits <= 0.5 * self._passed)
+        state = np.where(opened, 1, np.where(enough, -1, 0))
+        known = np.flatnonzero(state)
+        for before, after in zip(known[:-1], known[1:], strict=True):
+            if 1 < after - before <= settings.bridge_m / _BIN_M and state[before] == state[after]:
+                state[before:after] = state[before]
+        return state
+
+    def _wall_beside(
+        self, state: NDArray[np.int64], edge: int, step: int, settings: GapSettings
+    ) -> float | None:
+        """Station of the wall, or its corner, seen nearest beside a gap's last open part."""
+        for distance in range(1, int(np.ceil(settings.post_m / _BIN_M)) + 1):
+            beside = edge + step * distance
+            if not 0 <= beside < len(state):
+                return 0.0 if step < 0 else self.length_m
+            if state[beside] == -1:
+                return (beside + (0 if step > 0 else 1)) * _BIN_M
+        return None
+
+    def samples(self, station_m: float, window_m: float) -> WallRays | None:
+        """The kept rays within ``window_m`` of a station, or ``None``."""
+        parts = []
+        for rays in self._scans:
+            near = (np.abs(rays.station_m - station_m) < window_m) & (rays.distance_m < _FARTHEST_SAMPLE_M)
+            parts.append((rays, near))
+        if not any(near.any() for _, near in parts):
+            return None
+        return WallRays(
+            station_m=np.concatenate([rays.station_m[near] for rays, near in parts]),
+            depth_m=np.concatenate([rays.depth_m[near] for rays, near in parts]),
+            slope=np.concatenate([rays.slope[near] for rays, near in parts]),
+            distance_m=np.concatenate([rays.distance_m[near] for rays, near in parts]),
+            passed=np.concatenate([rays.passed[near] for rays, near in parts]),
+            on_face=np.concatenate([rays.on_face[near] for rays, near in parts]),
+            low_hit=np.concatenate([rays.low_hit[near] for rays, near in parts]),
+            blocked_m=np.empty(0),
+        )
+
+
+def _runs(mask: NDArray[np.bool_]) -> list[tuple[int, int]]:
+    """Start and end (exclusive) of the runs of true."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], mask, [False]]).astype(np.int8)))
+    return [(int(start), int(end)) for start, end in zip(edges[::2], edges[1::2], strict=True)]

@@ -1,0 +1,65 @@
+"""What the parts of the door concept work on in one step: the room, its evidence, and the doors known in it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from majordomo.perception.doors.evidence import Gap
+from majordomo.perception.doors.insertion import wall_id_of
+from majordomo.perception.doors.room_watch import RoomWatch, Span
+from majordomo.perception.localization.landmarks import RoomModel
+from majordomo.scene_graph.nodes import DoorNode
+from majordomo.scene_graph.snapshot import Snapshot
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Scene:
+    """The current room with everything its walls have shown so far."""
+
+    snapshot: Snapshot
+    room: RoomModel
+    watch: RoomWatch
+    stamp_s: float
+
+    def wall_length_m(self, wall: int) -> float:
+        return float(self.watch.walls.length_m[wall])
+
+    def wall_exists(self, wall: int) -> bool:
+        """Whether the wall is in the graph: of a partial room, unseen walls are not."""
+        return wall_id_of(self.room.room_id, wall) in self.snapshot
+
+    def doors(self) -> list[tuple[DoorNode, int, Span]]:
+        """Known doors of the room, each with its wall's index and its place in the wall."""
+        found: list[tuple[DoorNode, int, Span]] = []
+        for wall in range(len(self.room.polygon)):
+            wall_id = wall_id_of(self.room.room_id, wall)
+            if wall_id not in self.snapshot:
+                continue
+            for child in self.snapshot.children(wall_id):
+                door, edge = self.snapshot.get(child), self.snapshot.parent(child)
+                if isinstance(door, DoorNode) and edge is not None:
+                    center_m = edge.T_source_target.x_m + self.wall_length_m(wall) / 2.0
+                    found.append((door, wall, Span(center_m=center_m, width_m=door.width_m)))
+        return found
+
+    def unexplained(self) -> list[tuple[int, Gap]]:
+        """Gaps that are none of the known doors, with the index of their wall."""
+        known = self.doors()
+        return [
+            (wall, gap)
+            for wall in range(len(self.room.polygon))
+            if self.wall_exists(wall)
+            for gap in self.watch.gaps(wall)
+            if not any(other == wall and span.overlaps(gap) for _, other, span in known)
+        ]
+
+    def unseen(self) -> list[tuple[int, Gap]]:
+        """Stretches of wall that could hide a door, with the index of their wall."""
+        known = self.doors()
+        return [
+            (wall, stretch)
+            for wall in range(len(self.room.polygon))
+            if self.wall_exists(wall)
+            for stretch in self.watch.unseen(wall)
+            if not any(other == wall and span.overlaps(stretch) for _, other, span in known)
+        ]

@@ -1,0 +1,117 @@
+"""Keeping known doors true: where they are, how wide, and whether they are open."""
+
+from __future__ import annotations
+
+import logging
+from dataclasses import dataclass, replace
+
+from majordomo.perception.crossing import DOOR_AGENT, given_up, match_of, uncrossed
+from majordomo.perception.doors.insertion import door_label, hang, is_suspicion, measured_confidence, wall_id_of
+from majordomo.perception.doors.posts import MeasuredGap
+from majordomo.perception.doors.room_watch import Span
+from majordomo.perception.doors.scene import Scene
+from majordomo.scene_graph.memory import WorkingMemory
+from majordomo.scene_graph.nodes import CrossingStatus, DoorNode, DoorState
+from majordomo.scene_graph.snapshot import Snapshot
+
+logger = logging.getLogger(__name__)
+
+CLOSED_REASON = "closed"
+
+
+@dataclass(frozen=True, kw_only=True)
+class UpkeepSettings:
+    """``votes``: scans in a row that change open to closed or back. ``refine_every_s``: between refinements.
+    ``changed_m``: least change worth writing. ``well_measured``: confidence from which a permanent door is left alone.
+    ``vanished_s``: how long a provisional door may show no gap."""
+
+    votes: int = 5
+    refine_every_s: float = 1.0
+    changed_m: float = 0.004
+    well_measured: float = 0.9
+    vanished_s: float = 4.0
+
+
+class DoorUpkeep:
+    """Refines doors that are not measured well yet, and follows their state."""
+
+    def __init__(self, memory: WorkingMemory, settings: UpkeepSettings | None = None) -> None:
+        self._memory = memory
+        self._settings = settings or UpkeepSettings()
+        self._votes: dict[str, int] = {}
+        self._refined_s: dict[str, float] = {}
+        self._gap_seen_s: dict[str, float] = {}
+
+    def run(self, scene: Scene) -> None:
+        """Look after every door of the room once."""
+        for door, wall, span in scene.doors():
+            if door.provisional or door.confidence < self._settings.well_measured:
+                self._refine(scene, door, wall, span)
+            if not door.provisional:
+                self._follow_state(scene, door, wall, span)
+
+    def _refine(self, scene: Scene, door: DoorNode, wall: int, span: Span) -> None:
+        settings = self._settings
+        if scene.stamp_s < self._refined_s.get(door.id, -1e9) + settings.refine_every_s - 1e-6:
+            return
+        self._refined_s[door.id] = scene.stamp_s
+        gap = scene.watch.gap_at(wall, span)
+        if gap is None and is_suspicion(door):
+            if not any(span.overlaps(hidden) for hidden in scene.watch.unseen(wall)):
+                self._remove(door, scene.stamp_s)
+            return
+        if gap is None:
+            seen_s = self._gap_seen_s.setdefault(door.id, scene.stamp_s)
+            if door.provisional and scene.stamp_s > seen_s + settings.vanished_s:
+                self._remove(door, scene.stamp_s)
+            return
+        self._gap_seen_s[door.id] = scene.stamp_s
+        measured = scene.watch.measure(wall, gap)
+        if door.provisional or measured.posts == 2:
+            self._write(scene, door, wall, span, measured)
+
+    def _write(self, scene: Scene, door: DoorNode, wall: int, span: Span, measured: MeasuredGap) -> None:
+        confidence = 0.4 + 0.2 * measured.posts if door.provisional else measured_confidence(measured)
+        change_m = max(abs(measured.center_m - span.center_m), abs(measured.width_m - span.width_m))
+        if change_m < self._settings.changed_m and confidence == door.confidence:
+            return
+        edge = hang(door.id, wall_id_of(scene.room.room_id, wall), scene.wall_length_m(wall), measured, scene.stamp_s)
+        label = door_label(measured.width_m)
+        with self._memory.edit(DOOR_AGENT, scene.stamp_s) as tx:
+            state = DoorState.OPEN if is_suspicion(door) else door.state
+            tx.put(replace(door, width_m=measured.width_m, confidence=confidence, label=label, state=state), edge)
+
+    def _remove(self, door: DoorNode, stamp_s: float) -> None:
+        logger.info("%s is no door", door.id, extra={"door": door.id})
+        with self._memory.edit(DOOR_AGENT, stamp_s) as tx:
+            tx.remove(door.id)
+
+    def _follow_state(self, scene: Scene, door: DoorNode, wall: int, span: Span) -> None:
+        looks_open = scene.watch.looks_open(wall, span)
+        if looks_open is None:
+            return
+        seen = DoorState.OPEN if looks_open else DoorState.CLOSED
+        self._votes[door.id] = 0 if seen is door.state else self._votes.get(door.id, 0) + 1
+        if self._votes[door.id] < self._settings.votes:
+            return
+        self._votes[door.id] = 0
+        logger.info("%s is %s", door.id, seen, extra={"door": door.id})
+        with self._memory.edit(DOOR_AGENT, scene.stamp_s) as tx:
+            for same in _both_sides(tx.snapshot, door.id):
+                tx.put(_in_state(same, seen))
+
+
+def _both_sides(snapshot: Snapshot, door_id: str) -> list[DoorNode]:
+    """The door as known from this room and, when it is, from the other."""
+    other = match_of(snapshot, door_id)
+    return [snapshot.door(door_id), *([snapshot.door(other)] if other is not None else [])]
+
+
+def _in_state(door: DoorNode, state: DoorState) -> DoorNode:
+    """The door in a new state. A closed door that nobody crossed is given up until it opens again."""
+    door = replace(door, state=state)
+    if state is DoorState.CLOSED and door.crossing is CrossingStatus.UNCROSSED:
+        return given_up(door, CLOSED_REASON)
+    if state is DoorState.OPEN and door.crossing is CrossingStatus.GIVEN_UP and door.crossing_reason == CLOSED_REASON:
+        return uncrossed(door)
+    return door

@@ -1,0 +1,188 @@
+"""What a room is for, from what stands in it (design, section 7): naive Bayes over the things that tell.
+
+Each kind of thing counts once a room, weighted by its existence. A person's word stands above everything.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from majordomo.scene_graph.edits import PutNode
+from majordomo.scene_graph.memory import WorkingMemory
+from majordomo.scene_graph.nodes import DoorNode, ObjectNode, ObjectState, Point2, RoomNode, RoomStatus
+from majordomo.scene_graph.snapshot import Snapshot
+
+ROOM_LABELS = ("kitchen", "bedroom", "office", "living room", "dining room", "bathroom", "hall")
+_PRIOR = (0.16, 0.18, 0.13, 0.17, 0.10, 0.14, 0.12)
+
+# Chance to find at least one such thing in a room of each kind, in the order of ROOM_LABELS.
+_CHANCES: Mapping[str, tuple[float, ...]] = {
+    "fridge": (0.9, 0.02, 0.04, 0.03, 0.06, 0.01, 0.01),
+    "stove": (0.85, 0.01, 0.01, 0.01, 0.02, 0.01, 0.01),
+    "oven": (0.8, 0.01, 0.01, 0.01, 0.02, 0.01, 0.01),
+    "microwave": (0.65, 0.02, 0.06, 0.02, 0.05, 0.01, 0.01),
+    "dishwasher": (0.5, 0.01, 0.01, 0.01, 0.02, 0.01, 0.01),
+    "counter": (0.8, 0.02, 0.06, 0.04, 0.1, 0.2, 0.03),
+    "toaster": (0.4, 0.01, 0.02, 0.01, 0.05, 0.01, 0.01),
+    "sink": (0.8, 0.03, 0.02, 0.02, 0.02, 0.8, 0.01),
+    "bed": (0.01, 0.95, 0.03, 0.02, 0.01, 0.01, 0.01),
+    "nightstand": (0.01, 0.65, 0.02, 0.04, 0.01, 0.01, 0.02),
+    "wardrobe": (0.02, 0.65, 0.06, 0.05, 0.02, 0.03, 0.15),
+    "desk": (0.02, 0.2, 0.92, 0.08, 0.03, 0.01, 0.02),
+    "laptop": (0.05, 0.15, 0.7, 0.15, 0.06, 0.01, 0.01),
+    "keyboard": (0.01, 0.06, 0.6, 0.03, 0.01, 0.01, 0.01),
+    "monitor": (0.02, 0.12, 0.7, 0.15, 0.02, 0.01, 0.01),
+    "printer": (0.01, 0.04, 0.4, 0.03, 0.01, 0.01, 0.01),
+    "sofa": (0.03, 0.06, 0.08, 0.92, 0.05, 0.01, 0.04),
+    "tv": (0.08, 0.2, 0.06, 0.75, 0.06, 0.01, 0.01),
+    "armchair": (0.02, 0.12, 0.1, 0.5, 0.05, 0.01, 0.04),
+    "fireplace": (0.01, 0.02, 0.01, 0.3, 0.05, 0.01, 0.01),
+    "toilet": (0.01, 0.01, 0.01, 0.01, 0.01, 0.95, 0.01),
+    "bathtub": (0.01, 0.02, 0.01, 0.01, 0.01, 0.7, 0.01),
+    "shower": (0.01, 0.02, 0.01, 0.01, 0.01, 0.75, 0.01),
+    "toothbrush": (0.01, 0.02, 0.01, 0.01, 0.01, 0.6, 0.01),
+    "towel": (0.2, 0.1, 0.01, 0.02, 0.02, 0.7, 0.01),
+    "washing machine": (0.25, 0.02, 0.01, 0.01, 0.01, 0.4, 0.03),
+    "table": (0.45, 0.12, 0.25, 0.45, 0.95, 0.03, 0.12),
+    "dining table": (0.3, 0.01, 0.03, 0.1, 0.95, 0.01, 0.01),
+    "coffee table": (0.02, 0.04, 0.06, 0.8, 0.05, 0.01, 0.03),
+    "chairs": (0.3, 0.03, 0.15, 0.15, 0.92, 0.01, 0.04),
+    "chair": (0.45, 0.3, 0.8, 0.4, 0.92, 0.03, 0.12),
+    "shelf": (0.25, 0.35, 0.6, 0.5, 0.2, 0.15, 0.2),
+    "shoe": (0.02, 0.25, 0.02, 0.05, 0.01, 0.01, 0.5),
+    "umbrella": (0.01, 0.03, 0.03, 0.02, 0.01, 0.01, 0.4),
+    "pan": (0.6, 0.01, 0.01, 0.01, 0.08, 0.01, 0.01),
+}
+_SAME = {
+    "refrigerator": "fridge", "cooker": "stove", "couch": "sofa", "television": "tv", "screen": "monitor",
+    "computer": "laptop", "kitchen counter": "counter", "countertop": "counter", "worktop": "counter",
+    "kitchen island": "counter", "washbasin": "sink", "bedside table": "nightstand", "closet": "wardrobe",
+    "bath": "bathtub", "washer": "washing machine", "bookshelf": "shelf", "bookcase": "shelf", "shoes": "shoe",
+    "mouse": "keyboard", "office chair": "chair", "frying pan": "pan", "pot": "pan",
+}  # fmt: skip
+
+
+@dataclass(frozen=True, kw_only=True)
+class LabelSettings:
+    """``tell_from``: probability from which a label is said. ``switch_margin``: how much better a new one must be."""
+
+    period_s: float = 1.0
+    tell_from: float = 0.55
+    switch_margin: float = 0.1
+    floor: float = 0.01
+
+
+def room_label(
+    contents: Iterable[tuple[str, float]],
+    *,
+    polygon_m: tuple[Point2, ...] = (),
+    doors: int = 0,
+    settings: LabelSettings | None = None,
+) -> tuple[str, float]:
+    """The most likely use of a room and its probability; ``("", p)`` where it is not clear.
+
+    Args:
+        contents: (label, probability that it is there) of the things in the room.
+        polygon_m: inner faces of the walls; a long and narrow room is a hall more often than not.
+        doors: number of doors; many of them too.
+        settings: when a label is said.
+    """
+    settings = settings or LabelSettings()
+    log_odds = np.log(np.array(_PRIOR))
+    evidence = _evidence(contents)
+    for label, weight in sorted(evidence.items()):
+        chances = np.maximum(np.array(_CHANCES[label]), settings.floor)
+        log_odds = log_odds + weight * np.log(chances / chances.mean())
+    log_odds = log_odds + _shape_evidence(polygon_m, doors, bare=not evidence)
+    weights = np.exp(log_odds - log_odds.max())
+    probabilities = weights / weights.sum()
+    best = int(np.argmax(probabilities))
+    probability = float(probabilities[best])
+    return (ROOM_LABELS[best] if probability >= settings.tell_from else ""), probability
+
+
+def _evidence(contents: Iterable[tuple[str, float]]) -> dict[str, float]:
+    """Weight of each telling kind of thing: the largest probability among its members; two chairs or more are
+    ``chairs``.
+    """
+    weights: dict[str, float] = {}
+    chairs: list[float] = []
+    for name, probability in contents:
+        label = _SAME.get(name, name)
+        if label == "chair":
+            chairs.append(probability)
+        if label in _CHANCES:
+            weights[label] = max(weights.get(label, 0.0), probability)
+    if len(chairs) >= 2:
+        weights.pop("chair", None)
+        weights["chairs"] = sorted(chairs)[-2]
+    return weights
+
+
+def _shape_evidence(polygon_m: tuple[Point2, ...], doors: int, *, bare: bool) -> NDArray[np.float64]:
+    """Log likelihood ratio of shape and doors: only a hall is told by them."""
+    evidence = np.zeros(len(ROOM_LABELS))
+    hall = ROOM_LABELS.index("hall")
+    if len(polygon_m) >= 3:
+        sides = np.ptp(np.asarray(polygon_m), axis=0)
+        ratio = float(sides.max() / max(sides.min(), 0.1))
+        evidence[hall] += np.log(4.0) if ratio > 2.2 or sides.min() < 1.6 else np.log(0.7)
+    if doors >= 3:
+        evidence[hall] += np.log(2.5 if doors == 3 else 5.0)
+    elif doors == 1:
+        evidence[hall] += np.log(0.3)
+    if bare:
+        evidence[hall] += np.log(1.5)
+    return evidence
+
+
+class RoomLabels:
+    """Agent "room_labels": keeps the label of every permanent room in step with its contents, unless a person has
+    said it.
+    """
+
+    name = "room_labels"
+
+    def __init__(self, memory: WorkingMemory, settings: LabelSettings | None = None) -> None:
+        self._memory = memory
+        self._settings = settings or LabelSettings()
+        self.period_s = self._settings.period_s
+
+    async def step(self, stamp_s: float) -> None:
+        """Label the rooms whose contents say something new."""
+        snapshot = self._memory.snapshot()
+        contents = _contents(snapshot)
+        edits = []
+        for room in snapshot.of_type(RoomNode):
+            if room.label_taught or room.status is not RoomStatus.PERMANENT:
+                continue
+            label, probability = room_label(
+                contents.get(room.id, []),
+                polygon_m=room.polygon_m,
+                doors=sum(room.id == door.rooms[0] for door in snapshot.of_type(DoorNode)),
+                settings=self._settings,
+            )
+            changed = replace(room, label=label, label_probability=round(probability, 3) if label else 0.0)
+            if self._worth_writing(room, changed):
+                edits.append(PutNode(changed))
+        self._memory.commit(edits, agent=self.name, stamp_s=stamp_s)
+
+    def _worth_writing(self, before: RoomNode, after: RoomNode) -> bool:
+        if before.label == after.label:
+            return abs(before.label_probability - after.label_probability) > 0.02
+        losing = after.label_probability < before.label_probability + self._settings.switch_margin - 0.3
+        return not (before.label and after.label and losing)
+
+
+def _contents(snapshot: Snapshot) -> dict[str, list[tuple[str, float]]]:
+    """Things by room, each with the probability that it is there and is what it is called."""
+    contents: dict[str, list[tuple[str, float]]] = {}
+    for node in snapshot.of_type(ObjectNode):
+        room = snapshot.room_of(node.id)
+        if room is not None and node.state is ObjectState.PRESENT:
+            contents.setdefault(room, []).append((node.label, node.existence * node.confidence))
+    return contents

@@ -1,0 +1,145 @@
+"""The energy optimizer (Concepts, section 3.7): keeps the ``rt`` edge to the robot, ten times a second.
+
+Odometry ties successive poses. Where a room stands, the scan is aligned with its walls, and corners that pass the gate
+tie poses to nominal landmarks. Without a room, or outside of it, the pose is dead-reckoned and its covariance grows.
+"""
+
+from __future__ import annotations
+
+import logging
+
+import numpy as np
+from numpy.typing import NDArray
+
+from majordomo.perception.localization.alignment import (
+    Alignment,
+    AlignmentSettings,
+    align,
+    log_between,
+    odometry_covariance,
+)
+from majordomo.perception.localization.landmarks import RoomModel, match_corners, room_model
+from majordomo.perception.localization.planar import Pose2, planar_covariance, spatial_covariance
+from majordomo.perception.localization.window import LandmarkSighting, PoseWindow
+from majordomo.perception.ports import LidarScan
+from majordomo.perception.rooms.corners import corners_of, detect_lines
+from majordomo.perception.rooms.slice import OutlineSlicer
+from majordomo.perception.sensing import SensorBuffer
+from majordomo.scene_graph.edges import RtEdge
+from majordomo.scene_graph.errors import TransactionRejected
+from majordomo.scene_graph.memory import WorkingMemory
+from majordomo.scene_graph.nodes import ROBOT_ID
+from majordomo.scene_graph.snapshot import Snapshot
+
+Array = NDArray[np.float64]
+
+logger = logging.getLogger(__name__)
+
+_LEAST_MATCHED = 0.25
+_DOORSTEP_M = 0.05
+_INNOVATION_GATE = 30.0  # chi-square, three degrees of freedom, far beyond 99.99 %
+_START_STD = np.array([1e-3, 1e-3, 1e-3])
+_REPORTED_FLOOR = np.diag([0.003, 0.003, 0.001]) ** 2
+
+
+class EnergyOptimizer:
+    """Agent that localizes the robot in its parent frame."""
+
+    name = "energy_optimizer"
+
+    def __init__(self, memory: WorkingMemory, buffer: SensorBuffer, *, period_s: float = 0.1) -> None:
+        self.period_s = period_s
+        self._memory = memory
+        self._buffer = buffer
+        self._slicer = OutlineSlicer()
+        self._window: PoseWindow | None = None
+        self._model: RoomModel | None = None
+        self._model_revision = -1
+        self._own_revision = -1
+        self._odometry = Pose2.identity()
+        self._stamp_s = -np.inf
+
+    async def step(self, stamp_s: float) -> None:
+        """Add the newest scan or odometry to the window and write the pose."""
+        if not self._buffer.odometry:
+            return
+        snapshot = self._memory.snapshot()
+        edge = snapshot.parent(ROBOT_ID)
+        if edge is None:
+            return
+        newest_s = self._buffer.odometry[-1].stamp_s
+        scan = self._buffer.scan
+        measured_s = newest_s
+        if scan is not None and self._stamp_s < scan.stamp_s <= newest_s:
+            measured_s = scan.stamp_s
+        else:
+            scan = None
+        if self._window is None or snapshot.revision_of(edge.key) != self._own_revision:
+            self._restart(snapshot, edge)
+        if measured_s > self._stamp_s:
+            self._advance(measured_s, scan)
+        self._write(edge, snapshot, newest_s)
+
+    def _restart(self, snapshot: Snapshot, edge: RtEdge) -> None:
+        """Somebody else wrote the pose: believe it."""
+        oldest_s, newest_s = self._buffer.odometry[0].stamp_s, self._buffer.odometry[-1].stamp_s
+        self._stamp_s = float(np.clip(edge.stamp_s, oldest_s, newest_s))
+        self._odometry = Pose2.from_se3(self._buffer.odometry_at(self._stamp_s))
+        self._model = room_model(snapshot, edge.source)
+        covariance = planar_covariance(edge.covariance) + np.diag(_START_STD**2)
+        landmarks = self._model.polygon if self._model else None
+        self._window = PoseWindow(Pose2.from_se3(edge.T_source_target), covariance, landmarks)
+
+    def _advance(self, measured_s: float, scan: LidarScan | None) -> None:
+        assert self._window is not None
+        odometry = Pose2.from_se3(self._buffer.odometry_at(measured_s))
+        moved = self._odometry.inverse() @ odometry
+        noise = odometry_covariance(moved)
+        predicted, covariance = self._window.predict(moved, noise)
+        alignment, sightings = None, list[LandmarkSighting]()
+        if scan is not None and self._model is not None and self._model.depth_m(predicted.position_m) > -_DOORSTEP_M:
+            alignment, sightings = self._measure(scan, self._model, predicted, covariance)
+        self._window.advance(moved, noise, sightings, alignment)
+        self._odometry, self._stamp_s = odometry, measured_s
+
+    def _measure(
+        self, scan: LidarScan, model: RoomModel, predicted: Pose2, covariance: Array
+    ) -> tuple[Alignment | None, list[LandmarkSighting]]:
+        """What the scan says about the pose: alignment with the walls, and corners."""
+        outline = self._slicer.cut(scan)
+        if len(outline.points_base) < 20:
+            return None, []
+        reach_m = float(np.clip(4.0 * np.sqrt(np.trace(covariance[:2, :2])), 0.2, 0.8))
+        settings = AlignmentSettings(gates_m=(reach_m, 0.6 * reach_m, 0.12, 0.08, 0.08), floor_m=0.004)
+        found = align(outline.points_base, model.walls, predicted, np.linalg.inv(covariance), settings)
+        if found is None or found.matched < _LEAST_MATCHED or not _plausible(found, predicted, covariance):
+            return None, []
+        seen = corners_of(detect_lines(outline.points_base))
+        spread = np.linalg.inv(found.information + np.linalg.inv(covariance))
+        return found, match_corners(model.polygon, seen, found.pose, spread)
+
+    def _write(self, edge: RtEdge, snapshot: Snapshot, newest_s: float) -> None:
+        assert self._window is not None
+        moved = self._odometry.inverse() @ Pose2.from_se3(self._buffer.odometry_at(newest_s))
+        pose, covariance = self._window.predict(moved, odometry_covariance(moved))
+        written = RtEdge(
+            source=edge.source,
+            target=ROBOT_ID,
+            T_source_target=pose.to_se3(),
+            covariance=spatial_covariance(covariance + _REPORTED_FLOOR),
+            stamp_s=newest_s,
+        )
+        try:
+            with self._memory.edit(self.name, newest_s, expected={edge.key: snapshot.revision_of(edge.key)}) as tx:
+                tx.put(written)
+        except TransactionRejected as conflict:
+            logger.debug("pose not written: %s", conflict)
+            return
+        self._own_revision = tx.snapshot.revision_of(written.key)
+
+
+def _plausible(found: Alignment, predicted: Pose2, covariance: Array) -> bool:
+    """Mahalanobis gate on the innovation, with a tolerance for wheel slip."""
+    innovation = log_between(predicted, found.pose)
+    slack = covariance + np.diag([0.02, 0.02, 0.02]) ** 2
+    return float(innovation @ np.linalg.solve(slack, innovation)) < _INNOVATION_GATE

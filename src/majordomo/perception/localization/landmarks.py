@@ -1,0 +1,94 @@
+"""Nominal corners and door posts of the current room, and their association with what the scan shows."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from majordomo.perception.localization.alignment import Walls
+from majordomo.perception.localization.planar import Pose2
+from majordomo.perception.localization.window import LandmarkSighting
+from majordomo.perception.rooms.corners import CornerSighting
+from majordomo.scene_graph.nodes import RoomNode, RoomStatus
+from majordomo.scene_graph.snapshot import Snapshot
+
+Array = NDArray[np.float64]
+
+_GATE = 9.21  # chi-square, two degrees of freedom, 99 %
+_SIGHTING_FLOOR_M = 0.008
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class RoomModel:
+    """What the scan should show in a room: its wall faces and corners, room frame."""
+
+    room_id: str
+    polygon: Array
+    walls: Walls
+
+    def contains(self, point: Array) -> bool:
+        """Whether (2,) ``point`` lies inside the outline."""
+        return inside(self.polygon, point)
+
+    def depth_m(self, point: Array) -> float:
+        """Distance of (2,) ``point`` from the outline, positive inside."""
+        distance = distance_to_outline(self.polygon, point)
+        return distance if inside(self.polygon, point) else -distance
+
+
+def room_model(snapshot: Snapshot, room_id: str | None) -> RoomModel | None:
+    """The model of a room that stands in the graph; ``None`` for a room still being measured or none at all.
+
+    Of a partial room only the walls that are in the graph are used.
+    """
+    room = snapshot.get(room_id) if room_id is not None else None
+    if not isinstance(room, RoomNode) or room.status is RoomStatus.TEMPORARY or len(room.polygon_m) < 3:
+        return None
+    polygon = np.array(room.polygon_m)
+    number = room.id.rsplit("_", 1)[-1]
+    known = np.array([f"wall_{number}_{k}" in snapshot for k in range(len(polygon))])
+    return RoomModel(room_id=room.id, polygon=polygon, walls=Walls.of_polygon(polygon, known))
+
+
+def match_corners(
+    nominal: Array, sightings: Sequence[CornerSighting], pose: Pose2, covariance: Array
+) -> list[LandmarkSighting]:
+    """Sightings that pass the Mahalanobis gate of a nominal corner, at most one for each (Concepts, section 3.7)."""
+    matches: list[LandmarkSighting] = []
+    if len(sightings) == 0:
+        return matches
+    points = np.array([sighting.point for sighting in sightings])
+    predicted = pose.inverse().apply(nominal)
+    for index, expected in enumerate(predicted):
+        jacobian = np.array([[-1.0, 0.0, expected[1]], [0.0, -1.0, -expected[0]]])
+        spread = jacobian @ covariance @ jacobian.T
+        stds = np.hypot([sighting.std_m for sighting in sightings], _SIGHTING_FLOOR_M)
+        distances = [
+            float(offset @ np.linalg.solve((spread + np.eye(2) * std**2) / 2.0, offset))
+            for offset, std in zip(points - expected, stds, strict=True)
+        ]
+        best = int(np.argmin(distances))
+        if distances[best] < _GATE:
+            matches.append(LandmarkSighting(index=index, point=points[best], std_m=float(stds[best])))
+    return matches
+
+
+def inside(polygon: Array, point: Array) -> bool:
+    """Whether (2,) ``point`` lies in (N, 2) ``polygon``: even number of crossings to the right means outside."""
+    x, y = polygon[:, 0], polygon[:, 1]
+    x_next, y_next = np.roll(x, -1), np.roll(y, -1)
+    straddles = (y > point[1]) != (y_next > point[1])
+    with np.errstate(divide="ignore", invalid="ignore"):
+        crossing = x + (point[1] - y) / (y_next - y) * (x_next - x)
+    return bool(np.count_nonzero(straddles & (point[0] < crossing)) % 2)
+
+
+def distance_to_outline(polygon: Array, point: Array) -> float:
+    """Distance of (2,) ``point`` from the nearest edge of (N, 2) ``polygon``."""
+    edges = np.roll(polygon, -1, axis=0) - polygon
+    offset = point - polygon
+    station = np.clip((offset * edges).sum(axis=1) / (edges**2).sum(axis=1), 0.0, 1.0)
+    return float(np.linalg.norm(offset - station[:, None] * edges, axis=1).min())

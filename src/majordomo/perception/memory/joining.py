@@ -1,0 +1,75 @@
+"""The edits of long-term memory: joining two rooms by a door, removing a room that was another one."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from majordomo.perception.crossing import cross_affordance, match_key
+from majordomo.perception.doors.insertion import door_label, free_door_id, hang, wall_id_of
+from majordomo.perception.doors.posts import MeasuredGap
+from majordomo.perception.localization.landmarks import RoomModel
+from majordomo.perception.memory.dual import SeenFrom
+from majordomo.scene_graph.edges import ConnectsEdge, EdgeType, HasEdge, MatchEdge
+from majordomo.scene_graph.memory import Transaction
+from majordomo.scene_graph.nodes import AffordanceKind, AffordanceNode, CrossingStatus, DoorNode
+from majordomo.scene_graph.snapshot import Snapshot
+
+PREDICTED_CONFIDENCE = 0.7
+_PREDICTED_STD_M = 0.03
+
+
+def put_dual(tx: Transaction, door: DoorNode, room: RoomModel, place: SeenFrom, stamp_s: float) -> DoorNode:
+    """The far side of ``door`` in ``room``, where it was predicted; the door concept will measure it."""
+    door_id = free_door_id(tx.snapshot, room.room_id, place.wall)
+    length_m = float(np.linalg.norm(np.roll(room.polygon, -1, axis=0)[place.wall] - room.polygon[place.wall]))
+    center_m = float(np.clip(place.station_m, door.width_m / 2.0, length_m - door.width_m / 2.0))
+    gap = MeasuredGap(center_m=center_m, width_m=door.width_m, std_m=_PREDICTED_STD_M, posts=0)
+    dual = DoorNode(
+        id=door_id,
+        label=door_label(door.width_m),
+        confidence=PREDICTED_CONFIDENCE,
+        rooms=(room.room_id, None),
+        width_m=door.width_m,
+        height_m=door.height_m,
+        state=door.state,
+        provisional=False,
+    )
+    affordance_id = cross_affordance(door_id)
+    tx.put(
+        dual,
+        hang(door_id, wall_id_of(room.room_id, place.wall), length_m, gap, stamp_s),
+        AffordanceNode(id=affordance_id, kind=AffordanceKind.CROSS, target=door_id),
+        HasEdge(source=door_id, target=affordance_id),
+    )
+    return dual
+
+
+def join(tx: Transaction, first: DoorNode, second: DoorNode) -> None:
+    """Two door nodes are one physical door, and its two rooms are known."""
+    for door, other in ((first, second), (second, first)):
+        near, far = door.rooms[0], other.rooms[0]
+        tx.put(
+            replace(door, rooms=(near, far), crossing=CrossingStatus.CROSSED, crossing_reason=""),
+            ConnectsEdge(source=door.id, target=near),
+            ConnectsEdge(source=door.id, target=far),
+        )
+    key = match_key(first.id, second.id)
+    tx.put(MatchEdge(source=key.source, target=key.target))
+
+
+def remove_room(tx: Transaction, room_id: str) -> None:
+    """Remove a room with everything that hangs from it; the robot must hang elsewhere already."""
+    for node_id in _hanging(tx.snapshot, room_id):
+        tx.remove(node_id)
+
+
+def _hanging(snapshot: Snapshot, node_id: str) -> list[str]:
+    """The node and all below it in the tree of frames, affordances included, leaves first; never the robot."""
+    below: list[str] = []
+    for child in snapshot.children(node_id):
+        if child != "robot":
+            below += _hanging(snapshot, child)
+    below += [edge.target for edge in snapshot.edges_from(node_id, EdgeType.HAS)]
+    return [*below, node_id]

@@ -1,0 +1,147 @@
+"""Keeps ``rt`` root -> room for all rooms in step with what is known about the doors between them."""
+
+from __future__ import annotations
+
+import logging
+from dataclasses import dataclass
+
+import numpy as np
+
+from majordomo.perception.localization.planar import (
+    Pose2,
+    diagonal_covariance,
+    planar_covariance,
+    spatial_covariance,
+    wrap,
+)
+from majordomo.perception.memory.dual import back_to_back, root_pose
+from majordomo.perception.memory.layout import Passage, PlacedRoom, lay_out
+from majordomo.scene_graph.edges import EdgeKey, EdgeType, MatchEdge, RtEdge
+from majordomo.scene_graph.memory import WorkingMemory
+from majordomo.scene_graph.nodes import ROOT_ID, DoorNode
+from majordomo.scene_graph.snapshot import Snapshot
+
+logger = logging.getLogger(__name__)
+
+LAYOUT_AGENT = "long_term_memory"
+WALKED_STD_M = 0.012
+UNWALKED_STD_M = 0.05
+_POST_STD_M = 0.006
+_PARALLEL_STD_RAD = float(np.deg2rad(0.15))
+_NOT_PARALLEL_RAD = float(np.deg2rad(4.0))
+_WELL_MEASURED = 0.9
+_WORTH_WRITING_M = 5e-4
+_WORTH_WRITING_RAD = 1e-4
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Walk:
+    """``T_near_far`` of two rooms as first known, and the standard deviation of its translation."""
+
+    T_near_far: Pose2
+    std_m: float
+
+
+class RoomLayout:
+    """Recomputes the layout when a door was joined or measured anew."""
+
+    def __init__(self, memory: WorkingMemory) -> None:
+        self._memory = memory
+        self._walks: dict[tuple[str, str], _Walk] = {}
+        self._signature: tuple[tuple[str, str, int, int], ...] = ()
+
+    def remember(self, door_id: str, other_id: str, T_near_far: Pose2, *, std_m: float = WALKED_STD_M) -> None:
+        """How the far room lies in the near one by what was driven between them; gives the wall's thickness."""
+        self._walks[(door_id, other_id)] = _Walk(T_near_far=T_near_far, std_m=std_m)
+
+    def update(self, stamp_s: float) -> None:
+        """Lay the rooms out anew when any passage has changed since the last time."""
+        snapshot = self._memory.snapshot()
+        matches = _matches(snapshot)
+        signature = tuple(
+            (edge.source, edge.target, _revision(snapshot, edge.source), _revision(snapshot, edge.target))
+            for edge in matches
+        )
+        if signature == self._signature or not matches:
+            return
+        self._signature = signature
+        passages = [self._passage(snapshot, edge.source, edge.target) for edge in matches]
+        rooms = [child for child in snapshot.children(ROOT_ID) if child.startswith("room_")]
+        first = min(rooms, key=lambda room: (len(room), room))
+        anchor = snapshot.parent(first)
+        if anchor is None:
+            return
+        covariance = planar_covariance(anchor.covariance) + diagonal_covariance(1e-4, 1e-4, 1e-4)
+        placed = lay_out(
+            first,
+            PlacedRoom(T_root_room=root_pose(snapshot, first), covariance=covariance),
+            {room: root_pose(snapshot, room) for room in rooms},
+            passages,
+        )
+        placed.pop(first)
+        self._write(snapshot, placed, stamp_s)
+
+    def _passage(self, snapshot: Snapshot, door_id: str, other_id: str) -> Passage:
+        near, far = snapshot.door(door_id).rooms[0], snapshot.door(other_id).rooms[0]
+        T_near_door = Pose2.from_se3(snapshot.transform(near, door_id))
+        T_far_other = Pose2.from_se3(snapshot.transform(far, other_id))
+        walk = self._walk(snapshot, door_id, other_id, near, far)
+        walked = T_near_door.inverse() @ walk.T_near_far @ T_far_other
+        measured = min(snapshot.door(door_id).confidence, snapshot.door(other_id).confidence) >= _WELL_MEASURED
+        if not measured or abs(wrap(walked.yaw_rad - np.pi)) > _NOT_PARALLEL_RAD:
+            between, covariance = walked, diagonal_covariance(walk.std_m, walk.std_m, 0.01)
+        else:
+            between = back_to_back(-walked.y_m)
+            covariance = diagonal_covariance(_POST_STD_M, walk.std_m, _PARALLEL_STD_RAD)
+        return Passage(
+            first=near,
+            second=far,
+            T_first_door=T_near_door,
+            T_second_other=T_far_other,
+            T_door_other=between,
+            covariance=covariance,
+        )
+
+    def _walk(self, snapshot: Snapshot, door_id: str, other_id: str, near: str, far: str) -> _Walk:
+        """What was driven, in either direction; after a restart, what the stored layout says."""
+        if (door_id, other_id) in self._walks:
+            return self._walks[(door_id, other_id)]
+        if (other_id, door_id) in self._walks:
+            back = self._walks[(other_id, door_id)]
+            return _Walk(T_near_far=back.T_near_far.inverse(), std_m=back.std_m)
+        T_near_far = root_pose(snapshot, near).inverse() @ root_pose(snapshot, far)
+        self.remember(door_id, other_id, T_near_far)
+        return self._walks[(door_id, other_id)]
+
+    def _write(self, snapshot: Snapshot, placed: dict[str, PlacedRoom], stamp_s: float) -> None:
+        with self._memory.edit(LAYOUT_AGENT, stamp_s) as tx:
+            for room, place in placed.items():
+                change = root_pose(snapshot, room).inverse() @ place.T_root_room
+                if np.hypot(change.x_m, change.y_m) < _WORTH_WRITING_M and abs(change.yaw_rad) < _WORTH_WRITING_RAD:
+                    continue
+                logger.debug("%s moved by %.1f mm in the layout", room, 1e3 * np.hypot(change.x_m, change.y_m))
+                tx.put(
+                    RtEdge(
+                        source=ROOT_ID,
+                        target=room,
+                        T_source_target=place.T_root_room.to_se3(),
+                        covariance=spatial_covariance(place.covariance),
+                        stamp_s=stamp_s,
+                    )
+                )
+
+
+def _matches(snapshot: Snapshot) -> list[MatchEdge]:
+    """All match edges, in the order of their doors."""
+    return [
+        edge
+        for door in snapshot.of_type(DoorNode)
+        for edge in snapshot.edges_from(door.id, EdgeType.MATCH)
+        if isinstance(edge, MatchEdge)
+    ]
+
+
+def _revision(snapshot: Snapshot, door_id: str) -> int:
+    """When the door's place in its wall was last written."""
+    edge = snapshot.parent(door_id)
+    return -1 if edge is None else snapshot.revision_of(EdgeKey(EdgeType.RT, edge.source, door_id))

@@ -1,0 +1,213 @@
+"""The object memory agent: frame, network, tracks, graph; five times a second."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.random import Generator
+
+from majordomo.perception.errors import PerceptionError
+from majordomo.perception.objects.body import OwnBody
+from majordomo.perception.objects.detection import Detection, DetectionSettings, detections_of
+from majordomo.perception.objects.grip import GripSettings
+from majordomo.perception.objects.hand import Hand
+from majordomo.perception.objects.inspection import AGENT, Inspection, InspectionSettings
+from majordomo.perception.objects.membership import Surroundings
+from majordomo.perception.objects.people import People, PeopleSettings
+from majordomo.perception.objects.projection import View
+from majordomo.perception.objects.publication import (
+    PublicationSettings,
+    held_edits,
+    object_edits,
+    person_edits,
+    relation_edits,
+    robot_edits,
+)
+from majordomo.perception.objects.recollection import Recollection
+from majordomo.perception.objects.relations import RelationMemory, RelationSettings
+from majordomo.perception.objects.tracker import Sight, Tracker, TrackerSettings
+from majordomo.perception.objects.viewpoint import turning_radps, view_of
+from majordomo.perception.panoptic import PanopticModel, PanopticScene
+from majordomo.perception.ports import RgbdFrame
+from majordomo.perception.sensing import SensorBuffer
+from majordomo.scene_graph.edges import EdgeKey
+from majordomo.scene_graph.edits import Edit
+from majordomo.scene_graph.errors import TransactionRejected
+from majordomo.scene_graph.memory import WorkingMemory
+from majordomo.scene_graph.nodes import ObjectState
+from majordomo.scene_graph.snapshot import Snapshot
+
+logger = logging.getLogger(__name__)
+
+
+@dataclass(frozen=True, kw_only=True)
+class ObjectMemorySettings:
+    """Settings of every stage. ``silent_s``: age of the newest frame from which on the camera counts as silent."""
+
+    period_s: float = 0.2
+    silent_s: float = 2.0
+    inference_timeout_s: float = 10.0
+    depth_share_min: float = 0.05
+    in_hand_m: float = 0.12
+    detection: DetectionSettings = field(default_factory=DetectionSettings)
+    tracker: TrackerSettings = field(default_factory=TrackerSettings)
+    people: PeopleSettings = field(default_factory=PeopleSettings)
+    relations: RelationSettings = field(default_factory=RelationSettings)
+    inspection: InspectionSettings = field(default_factory=InspectionSettings)
+    grip: GripSettings = field(default_factory=GripSettings)
+    publication: PublicationSettings = field(default_factory=PublicationSettings)
+
+
+class ObjectMemory:
+    """Agent "objects": sees things, remembers them, doubts them, and asks to look.
+
+    Attributes:
+        degraded: why no frame is being used at the moment, ``None`` while all is well.
+    """
+
+    name = AGENT
+
+    def __init__(
+        self,
+        memory: WorkingMemory,
+        buffer: SensorBuffer,
+        model: PanopticModel,
+        *,
+        random: Generator,
+        settings: ObjectMemorySettings | None = None,
+    ) -> None:
+        self._settings = settings or ObjectMemorySettings()
+        self.period_s = self._settings.period_s
+        self.degraded: str | None = None
+        self._memory, self._buffer, self._model = memory, buffer, model
+        self._tracker = Tracker(settings=self._settings.tracker, random=random)
+        self._people = People(self._settings.people, self._settings.tracker.existence)
+        self._relations = RelationMemory(self._settings.relations)
+        self._recollection = Recollection(self._tracker, self._relations)
+        self._inspection = Inspection(self._settings.inspection)
+        self._hand = Hand(self._tracker, self._settings.grip)
+        self._published: set[EdgeKey] = set()
+        self._frame_s = -np.inf
+
+    async def step(self, stamp_s: float) -> None:
+        """One frame, if there is a new one; the hand and the intentions in any case."""
+        snapshot = self._memory.snapshot()
+        self._published |= self._recollection.sync(snapshot)
+        self._people.sync(snapshot)
+        placed = self._hand.update(snapshot, self._buffer.joints)
+        frame = self._new_frame(stamp_s)
+        scene = await self._infer(frame) if frame is not None else None
+        snapshot = self._memory.snapshot()
+        sight = view_of(frame, snapshot, self._buffer) if frame is not None and scene is not None else None
+        if frame is not None and scene is not None and sight is not None:
+            await asyncio.to_thread(self._see, frame, scene, sight, snapshot, placed, stamp_s)
+        elif placed and snapshot.current_room is not None:
+            self._relate(Surroundings(snapshot, snapshot.current_room), placed, None)
+        self._publish(stamp_s)
+
+    def _new_frame(self, stamp_s: float) -> RgbdFrame | None:
+        """The newest frame if it has not been used yet and shows depth."""
+        frame = self._buffer.frame
+        newest_s = frame.stamp_s if frame is not None else -np.inf
+        if stamp_s - newest_s > self._settings.silent_s:
+            self._mark("the camera is silent")
+            return None
+        if frame is None or newest_s <= self._frame_s:
+            return None
+        self._frame_s = newest_s
+        with np.errstate(invalid="ignore"):
+            share = float(np.mean(frame.depth_m > 0.0))
+        if share < self._settings.depth_share_min:
+            self._mark("the depth image is empty")
+            return None
+        return frame
+
+    async def _infer(self, frame: RgbdFrame) -> PanopticScene | None:
+        try:
+            async with asyncio.timeout(self._settings.inference_timeout_s):
+                scene = await self._model.infer(frame)
+        except (PerceptionError, TimeoutError, ConnectionError) as problem:
+            self._mark(f"the panoptic model failed: {problem or type(problem).__name__}")
+            return None
+        self._mark(None)
+        return scene
+
+    def _mark(self, problem: str | None) -> None:
+        if problem != self.degraded:
+            log = logger.info if problem is None else logger.warning
+            log("objects: %s", problem or "seeing again", extra={"agent": self.name, "degraded": problem})
+        self.degraded = problem
+
+    def _see(
+        self,
+        frame: RgbdFrame,
+        scene: PanopticScene,
+        view: View,
+        snapshot: Snapshot,
+        placed: frozenset[int],
+        stamp_s: float,
+    ) -> None:
+        """Everything that takes time; runs in a worker thread while nobody else touches the tracks."""
+        surroundings = Surroundings(snapshot, view.room)
+        joints = self._buffer.joints
+        body = OwnBody(joints) if joints is not None else None
+        things, persons = detections_of(scene, frame.rgb, view, self._settings.detection, body)
+        turning = turning_radps(self._buffer)
+        self._tracker.update(
+            Sight(
+                view=view,
+                detections=[thing for thing in things if not self._in_hand(thing, view)],
+                surroundings=surroundings,
+                turning_radps=turning,
+                looked_before=self._inspection.looked(snapshot, stamp_s),
+            )
+        )
+        self._people.update(persons, view, surroundings)
+        self._relate(surroundings, placed, scene)
+        self._inspection.watch(self._tracker.tracks, view, surroundings, turning, snapshot)
+
+    def _in_hand(self, thing: Detection, view: View) -> bool:
+        """Whether a detection is what the gripper holds."""
+        if self._hand.held is None:
+            return False
+        in_room = (view.T_room_base @ self._hand.T_robot_object(self._hand.held)).translation_m
+        near = np.linalg.norm(thing.cloud.points - in_room, axis=1) < self._settings.in_hand_m
+        return float(near.mean()) > 0.5
+
+    def _relate(self, surroundings: Surroundings, placed: frozenset[int], scene: PanopticScene | None) -> None:
+        seen = frozenset(track.number for track in self._tracker.matches.values()) if scene is not None else frozenset()
+        self._relations.update(
+            self._tracker.tracks,
+            surroundings.T_here_room,
+            seen | placed,
+            scene.relations if scene is not None else (),
+            self._tracker.matches if scene is not None else {},
+        )
+
+    def _publish(self, stamp_s: float) -> None:
+        """Write everything that changed in one transaction, on the newest snapshot."""
+        snapshot = self._memory.snapshot()
+        self._recollection.sync(snapshot)
+        tracks, settings = self._tracker.tracks, self._settings.publication
+        edits = self._inspection.edits(snapshot, stamp_s)
+        edits += object_edits(snapshot, tracks, self._inspection.inspected, stamp_s, settings)
+        held, room = self._hand.held, snapshot.current_room
+        node_id = held.track.node_id if held is not None and held.track.state is ObjectState.HELD else None
+        if held is not None and node_id is not None and room is not None:
+            held.track.room = room
+            edits.extend(held_edits(snapshot, node_id, self._hand.T_robot_object(held), room, stamp_s, settings))
+            edits.extend(robot_edits(snapshot, node_id))
+        else:
+            edits.extend(robot_edits(snapshot, None))
+        edits.extend(person_edits(snapshot, self._people.tracks, stamp_s, settings))
+        edits.extend(relation_edits(snapshot, self._relations.stated(), tracks, self._published, stamp_s, settings))
+        self._commit(edits, stamp_s)
+
+    def _commit(self, edits: list[Edit], stamp_s: float) -> None:
+        try:
+            self._memory.commit(edits, agent=self.name, stamp_s=stamp_s)
+        except TransactionRejected as problem:
+            logger.warning("objects: not written: %s", problem, extra={"agent": self.name})

@@ -1,0 +1,53 @@
+"""Where the robot's own body is in the image: what the camera sees there is no object."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from majordomo.perception.ports import JointState
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True)
+class BodyGeometry:
+    """Radii around the arm and hand, and of the base, in meters. ``fingers_m``: the free end of the hand, where
+    things are held.
+    """
+
+    base_radius_m: float = 0.25
+    arm_radius_m: float = 0.07
+    wrist_x_m: float = 0.10
+    fingers_m: float = 0.05
+
+
+class OwnBody:
+    """The volume of base, telescope and hand for one joint state, in the base frame."""
+
+    def __init__(self, joints: JointState, geometry: BodyGeometry | None = None) -> None:
+        geometry = geometry or BodyGeometry()
+        self._geometry = geometry
+        grip = joints.T_base_gripper
+        wrist = np.array((geometry.wrist_x_m + joints.extension_m, 0.0, joints.lift_m))
+        shoulder = np.array((0.0, 0.0, joints.lift_m))
+        palm = grip.translation_m - geometry.fingers_m * grip.rotation()[:, 0]
+        self._segments = ((shoulder, wrist), (wrist, palm))
+        self.grip = grip.translation_m
+
+    def covers(self, points_base: Array) -> NDArray[np.bool_]:
+        """Which of the points (N, 3) belong to the robot."""
+        inside = np.hypot(points_base[:, 0], points_base[:, 1]) < self._geometry.base_radius_m
+        for start, end in self._segments:
+            inside |= _distance(points_base, start, end) < self._geometry.arm_radius_m
+        return np.asarray(inside)
+
+
+def _distance(points: Array, start: Array, end: Array) -> Array:
+    """Distances of points (N, 3) from a segment."""
+    axis = end - start
+    along = np.clip((points - start) @ axis / max(float(axis @ axis), 1e-12), 0.0, 1.0)
+    distances: Array = np.linalg.norm(points - start - along[:, None] * axis, axis=1)
+    return distances

@@ -1,0 +1,78 @@
+"""The color of a thing in common words, under whatever light falls on it.
+
+Shading scales all three channels alike: hue and saturation stay, value falls. So hue names the color, and value only
+decides where a name depends on it (black, gray, white; brown is dark orange, pink is pale red).
+"""
+
+from __future__ import annotations
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+PALETTE = (
+    "red", "orange", "yellow", "green", "cyan", "blue", "purple", "pink", "brown", "beige", "black", "gray", "white",
+)  # fmt: skip
+_HUE_EDGES_DEG = (13.0, 42.0, 68.0, 165.0, 198.0, 258.0, 298.0, 342.0)
+_HUE_NAMES = ("red", "orange", "yellow", "green", "cyan", "blue", "purple", "pink", "red")
+_MINIMUM_PIXELS = 6
+_MAXIMUM_PIXELS = 400
+
+Array = NDArray[np.float64]
+
+
+def color_votes(rgb: NDArray[np.uint8], mask: NDArray[np.bool_]) -> dict[str, float]:
+    """Share of each palette color among the pixels of ``mask``; empty where there are too few.
+
+    Args:
+        rgb: (H, W, 3) image.
+        mask: (H, W); its rim is left out because neighbors shine in there.
+    """
+    x, y, width, height = cv2.boundingRect(mask.astype(np.uint8))
+    if width * height < _MINIMUM_PIXELS:
+        return {}
+    rows, columns = slice(y, y + height), slice(x, x + width)
+    inside = np.ascontiguousarray(mask[rows, columns]).view(np.uint8)
+    core = cv2.erode(inside, np.ones((3, 3), np.uint8), borderType=cv2.BORDER_CONSTANT, borderValue=0) > 0
+    if np.count_nonzero(core) < _MINIMUM_PIXELS:
+        core = inside > 0
+    pixels = rgb[rows, columns][core]
+    if len(pixels) < _MINIMUM_PIXELS:
+        return {}
+    pixels = pixels[:: -(-len(pixels) // _MAXIMUM_PIXELS)]
+    return _shares(pixels)
+
+
+def named_color(red: float, green: float, blue: float) -> str:
+    """The palette name of one color, channels 0 to 255."""
+    pixel = np.array(((red, green, blue),), dtype=np.uint8)
+    votes = _shares(np.repeat(pixel, _MINIMUM_PIXELS, axis=0))
+    return max(votes, key=lambda name: votes[name])
+
+
+def _shares(pixels: NDArray[np.uint8]) -> dict[str, float]:
+    hsv = cv2.cvtColor(pixels.astype(np.float32)[None] / 255.0, cv2.COLOR_RGB2HSV)[0].astype(np.float64)
+    hue_deg, saturation, value = hsv[:, 0], hsv[:, 1], hsv[:, 2]
+    lit = float(np.quantile(value, 0.8))
+    index = np.searchsorted(_HUE_EDGES_DEG, hue_deg)
+    names = np.array(_HUE_NAMES, dtype=object)[index]
+    pale_red = (names == "red") & (saturation < 0.55) & (lit > 0.6)
+    names[pale_red] = "pink"
+    dark_orange = ((names == "orange") | ((names == "red") & (hue_deg > 8.0) & (hue_deg < 20.0))) & (
+        (lit < 0.5) | ((lit < 0.68) & (saturation < 0.88)) | ((lit < 0.8) & (saturation < 0.62))
+    )
+    names[dark_orange] = "brown"
+    names[(names == "yellow") & (lit < 0.42) & (hue_deg < 50.0)] = "brown"
+    names[(names == "yellow") & (lit < 0.56) & (hue_deg >= 50.0)] = "green"
+    names[(hue_deg > 18.0) & (hue_deg < 65.0) & (saturation < 0.35) & (lit > 0.55)] = "beige"
+    colorless = (saturation < 0.15) | (value < 0.08) | ((saturation < 0.3) & (value < 0.15))
+    names[colorless] = _shade(lit)
+    found, counts = np.unique(names.astype(str), return_counts=True)
+    return {str(name): float(count) / len(names) for name, count in zip(found, counts, strict=True)}
+
+
+def _shade(lit: float) -> str:
+    """Black, gray or white by the value of the brighter faces."""
+    if lit < 0.2:
+        return "black"
+    return "white" if lit > 0.6 else "gray"

@@ -1,0 +1,77 @@
+"""What a stable new sighting is: a further part of known furniture, a known thing that moved, or something new."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from majordomo.perception.objects.identity import IdentitySettings, likeness, same_thing_moved
+from majordomo.perception.objects.relations import support_probability
+from majordomo.perception.objects.track import Track
+from majordomo.perception.vocabulary import carries_things
+from majordomo.scene_graph.nodes import ObjectState
+
+Array = NDArray[np.float64]
+Places = Mapping[int, tuple[str, Array]]
+"""Track number -> room and position (3,) from which a thing was taken into the hand."""
+_SAME_PLACE_M = 0.12
+
+
+def known_as(
+    sighting: Track,
+    known: Sequence[Track],
+    *,
+    taken_from: Places,
+    looked_before: Mapping[str, float],
+    settings: IdentitySettings,
+) -> Track | None:
+    """The known thing that a sighting is, if any.
+
+    ``looked_before``: when each room and support was first inspected, by node.
+    """
+    for track in known:
+        if is_fragment(sighting, track) or _never_taken(sighting, track, taken_from, settings):
+            return track
+    place = _place_of(sighting, known) or sighting.room
+    place_known = looked_before.get(place, np.inf) < sighting.first_seen_s - 1.0
+    return same_thing_moved(sighting, known, place_known=place_known, settings=settings)
+
+
+def undecided(sighting: Track, known: Sequence[Track], settings: IdentitySettings) -> bool:
+    """Whether a look-alike is just being missed at its place: a few more frames will tell whether it has moved here."""
+    return any(
+        track.state is ObjectState.PRESENT
+        and track.misses > 0
+        and track.last_seen_s < sighting.first_seen_s
+        and likeness(sighting, track) >= settings.likeness_min
+        for track in known
+    )
+
+
+def is_fragment(sighting: Track, track: Track) -> bool:
+    """Whether new furniture is a part of known furniture of the same kind: it lies within its box."""
+    if not (sighting.is_furniture and track.is_furniture and track.room == sighting.room):
+        return False
+    if track.label.best != sighting.label.best or track.state is not ObjectState.PRESENT:
+        return False
+    points = sighting.surface_points
+    return len(points) > 0 and float(track.box.contains(points, 0.1).mean()) > 0.3
+
+
+def _never_taken(sighting: Track, track: Track, taken_from: Places, settings: IdentitySettings) -> bool:
+    """Whether a thing said to be in the hand is seen where it was before: the grasp was a phantom."""
+    if track.state is not ObjectState.HELD or track.number not in taken_from:
+        return False
+    room, position = taken_from[track.number]
+    near = float(np.linalg.norm(position - sighting.position)) < _SAME_PLACE_M
+    return room == sighting.room and near and likeness(sighting, track) >= settings.likeness_min
+
+
+def _place_of(sighting: Track, known: Sequence[Track]) -> str | None:
+    """The node of what carries the sighting, ``None`` for one on the floor."""
+    carriers = [t for t in known if t.room == sighting.room and carries_things(t.label.best, t.box.size_m)]
+    chances = [(support_probability(sighting.box, t.box, t.category, sigma_m=0.04, rim_m=0.02)[1], t) for t in carriers]
+    best = max(chances, key=lambda pair: (pair[0], -pair[1].number), default=None)
+    return best[1].node_id if best is not None and best[0] > 0.2 else None

@@ -1,0 +1,117 @@
+"""One frame's detections: every instance the network found, measured in three dimensions."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from majordomo.perception.objects.beliefs import LabelDistribution
+from majordomo.perception.objects.body import OwnBody
+from majordomo.perception.objects.color import color_votes
+from majordomo.perception.objects.projection import Cloud, ProjectionSettings, View, cloud_of
+from majordomo.perception.objects.shape import Shape, measure_shape
+from majordomo.perception.panoptic import Instance, PanopticScene
+from majordomo.perception.vocabulary import category_of, is_person
+
+_SAME_MASK_IOU = 0.6
+_OWN_BODY_SHARE = 0.5
+_HIDDEN_SHARE = 0.4
+
+
+@dataclass(frozen=True, kw_only=True)
+class DetectionSettings:
+    """What of a frame is believed. Beyond ``range_limit_m`` things keep existing but are not measured."""
+
+    projection: ProjectionSettings = field(default_factory=ProjectionSettings)
+    range_limit_m: float = 4.5
+    minimum_score: float = 0.3
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Detection:
+    """An instance with its points and measures, in the room frame of the view.
+
+    ``index`` is its place in the scene's instance list. ``measurable``: near, not cut by the image
+    border and not mostly hidden, so that its center counts.
+    """
+
+    index: int
+    label: str
+    distribution: LabelDistribution
+    mask: NDArray[np.bool_]
+    cloud: Cloud
+    shape: Shape
+    colors: Mapping[str, float]
+    in_range: bool
+
+    @property
+    def measurable(self) -> bool:
+        return self.in_range and not self.cloud.truncated and self.cloud.occluded < _HIDDEN_SHARE
+
+    @property
+    def weight(self) -> float:
+        """How good the view is, 0.2 to 1: small and cut things are told apart badly."""
+        size = min(1.0, np.sqrt(self.cloud.pixels) / 20.0)
+        return float(max(0.2, size * (1.0 if self.shape.complete else 0.6)))
+
+
+def detections_of(
+    scene: PanopticScene, rgb: NDArray[np.uint8], view: View, settings: DetectionSettings, own_body: OwnBody | None
+) -> tuple[list[Detection], list[Detection]]:
+    """Things and persons of one frame; background, doubles and the robot's own arm are left out."""
+    things: list[Detection] = []
+    persons: list[Detection] = []
+    for index in _without_doubles(scene.instances, settings.minimum_score):
+        detection = _measure(index, scene.instances[index], rgb, view, settings)
+        if detection is None or (own_body is not None and _is_own(detection, view, own_body)):
+            continue
+        (persons if is_person(detection.label) else things).append(detection)
+    return things, persons
+
+
+def _measure(
+    index: int, instance: Instance, rgb: NDArray[np.uint8], view: View, settings: DetectionSettings
+) -> Detection | None:
+    cloud = cloud_of(instance.mask, view, settings.projection)
+    if cloud is None:
+        return None
+    category = category_of(instance.label)
+    shape = measure_shape(cloud, view, category, depth_noise_per_m=settings.projection.depth_noise_per_m)
+    return Detection(
+        index=index,
+        label=instance.label,
+        distribution=instance.label_distribution or ((instance.label, 1.0),),
+        mask=instance.mask,
+        cloud=cloud,
+        shape=shape,
+        colors=color_votes(rgb, instance.mask),
+        in_range=cloud.range_m <= settings.range_limit_m,
+    )
+
+
+def _is_own(detection: Detection, view: View, own_body: OwnBody) -> bool:
+    points_base = view.T_room_base.inverse().apply(detection.cloud.points)
+    return float(own_body.covers(points_base).mean()) > _OWN_BODY_SHARE
+
+
+def _without_doubles(instances: tuple[Instance, ...], minimum_score: float) -> list[int]:
+    """Indices of instances that count; of two masks of the same pixels the surer one."""
+    counted = [
+        i
+        for i, instance in enumerate(instances)
+        if instance.score >= minimum_score and not category_of(instance.label).background and instance.mask.any()
+    ]
+    if not counted:
+        return []
+    masks = np.stack([instances[i].mask[::2, ::2].ravel() for i in counted]).astype(np.float32)
+    shared = masks @ masks.T
+    areas = np.diag(shared)
+    iou = shared / np.maximum(areas[:, None] + areas[None, :] - shared, 1.0)
+    kept: list[int] = []
+    for a in sorted(range(len(counted)), key=lambda a: (-instances[counted[a]].score, a)):
+        if all(iou[a, b] < _SAME_MASK_IOU for b in kept):
+            kept.append(a)
+    return [counted[a] for a in sorted(kept)]

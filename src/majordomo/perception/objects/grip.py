@@ -1,0 +1,88 @@
+"""What the fingers feel: taken, let go, or lost (contracts, pattern 7).
+
+Sight cannot follow a thing into the hand. The skills say what they try in the robot's status (``grasping bottle_3``,
+``releasing bottle_3 table_1``), the fingers say whether it worked.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+from majordomo.perception.ports import JointState
+
+
+class GripChange(StrEnum):
+    """What has just happened to the thing in the hand."""
+
+    TAKEN = "taken"
+    RELEASED = "released"
+    LOST = "lost"
+
+
+@dataclass(frozen=True, kw_only=True)
+class GripEvent:
+    """A change of the grip. ``place``: where a released thing was meant to go, if that was said."""
+
+    change: GripChange
+    object_id: str
+    place: str | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class GripSettings:
+    """``steady_s``: how long contact, or its loss, must last. ``memory_s``: how long an announcement holds.
+
+    ``opening_m``: fingers farther open or closed than this hold nothing.
+    """
+
+    steady_s: float = 0.15
+    memory_s: float = 4.0
+    opening_m: tuple[float, float] = (0.003, 0.117)
+
+
+class Grip:
+    """Turns announcements and finger contacts into events."""
+
+    def __init__(self, settings: GripSettings) -> None:
+        self._settings = settings
+        self._announced: tuple[str, str, str | None, float] | None = None
+        self._since_s: float | None = None
+
+    def update(self, joints: JointState, status: str, holding: str | None) -> GripEvent | None:
+        """The event of this step, if any. ``holding``: what the graph believes to be in the hand."""
+        self._listen(status, joints.stamp_s)
+        low_m, high_m = self._settings.opening_m
+        closed_on_something = all(joints.finger_contacts) and low_m < joints.gripper_opening_m < high_m
+        free = not any(joints.finger_contacts) or joints.gripper_opening_m <= low_m
+        if holding is None:
+            return self._taken(joints.stamp_s) if self._lasting(closed_on_something, joints.stamp_s) else None
+        return self._let_go(holding, joints.stamp_s) if self._lasting(free, joints.stamp_s) else None
+
+    def _listen(self, status: str, stamp_s: float) -> None:
+        words = status.split()
+        if len(words) >= 2 and words[0] in {"grasping", "releasing"}:
+            self._announced = (words[0], words[1], words[2] if len(words) > 2 else None, stamp_s)
+
+    def _lasting(self, condition: bool, stamp_s: float) -> bool:
+        if not condition:
+            self._since_s = None
+            return False
+        if self._since_s is None:
+            self._since_s = stamp_s
+        return stamp_s - self._since_s >= self._settings.steady_s
+
+    def _taken(self, stamp_s: float) -> GripEvent | None:
+        announced = self._recent("grasping", stamp_s)
+        return GripEvent(change=GripChange.TAKEN, object_id=announced[0]) if announced is not None else None
+
+    def _let_go(self, holding: str, stamp_s: float) -> GripEvent:
+        announced = self._recent("releasing", stamp_s)
+        if announced is not None and announced[0] == holding:
+            return GripEvent(change=GripChange.RELEASED, object_id=holding, place=announced[1])
+        return GripEvent(change=GripChange.LOST, object_id=holding)
+
+    def _recent(self, word: str, stamp_s: float) -> tuple[str, str | None] | None:
+        if self._announced is None or self._announced[0] != word:
+            return None
+        return self._announced[1:3] if stamp_s - self._announced[3] <= self._settings.memory_s else None

@@ -1,0 +1,92 @@
+"""Is a new sighting a new thing, or a known one that was moved while nobody looked?
+
+Decided once, when the sighting is confirmed, by the odds
+
+    P(old one has left its place) x likeness
+    ----------------------------------------
+    P(a look-alike nobody has seen before is here)
+
+The old one has left with ``1 - existence exp(-age / tau)``: certain when it is missing, growing with the time since
+it was last seen. A look-alike is unlikely where one has looked before and seen nothing (``look_alike_known``), and
+quite possible in a place seen for the first time (``look_alike_new``). Two that were seen at the same time are two.
+With several candidates the best wins; several *present* look-alikes make neither of them unique, and then only a
+missing one is taken for the moved one. Identifiers that have been published are never merged afterwards.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+
+from majordomo.perception.objects.beliefs import agreement, share_agreement
+from majordomo.perception.objects.track import Track
+from majordomo.scene_graph.nodes import ObjectState, Point3
+
+
+@dataclass(frozen=True, kw_only=True)
+class IdentitySettings:
+    """``tau_s``: mean time after which people have moved a thing. ``odds``: needed to say it is the same one."""
+
+    tau_s: float = 900.0
+    look_alike_known: float = 0.02
+    look_alike_new: float = 0.25
+    odds: float = 2.0
+    likeness_min: float = 0.35
+    furniture_reach_m: float = 1.5
+
+
+def likeness(a: Track, b: Track) -> float:
+    """How far label, color and size agree, 0 to 1."""
+    label = agreement(a.label.distribution, b.label.distribution)
+    color = share_agreement(a.color.shares, b.color.shares)
+    return label * color * _size_agreement(a.box.size_m, b.box.size_m)
+
+
+def same_thing_moved(
+    sighting: Track, known: Iterable[Track], *, place_known: bool, settings: IdentitySettings
+) -> Track | None:
+    """The known thing that ``sighting`` is, or ``None`` if it is a new one.
+
+    ``place_known``: whether one had looked at the place of the sighting before, and seen nothing there.
+    """
+    alike = [
+        (likeness(sighting, track), track)
+        for track in known
+        if track.state is not ObjectState.HELD and _could_be(sighting, track, settings)
+    ]
+    alike = [(value, track) for value, track in alike if value >= settings.likeness_min]
+    missing = [pair for pair in alike if pair[1].state is ObjectState.MISSING]
+    if len(alike) > 1 and missing:
+        alike = missing
+    elif len(alike) > 1:
+        return None
+    if not alike:
+        return None
+    value, best = max(alike, key=lambda pair: (pair[0], pair[1].last_seen_s, -pair[1].number))
+    look_alike = settings.look_alike_known if place_known else settings.look_alike_new
+    return best if departed(best, sighting.first_seen_s, settings) * value / look_alike >= settings.odds else None
+
+
+def departed(track: Track, stamp_s: float, settings: IdentitySettings) -> float:
+    """Probability that a thing has left the place it was last seen at."""
+    age_s = max(stamp_s - track.last_seen_s, 0.0)
+    return 1.0 - track.existence * float(np.exp(-age_s / settings.tau_s))
+
+
+def _could_be(sighting: Track, track: Track, settings: IdentitySettings) -> bool:
+    """Not seen at the same time, of the same kind; furniture is not carried far."""
+    if track.last_seen_s >= sighting.first_seen_s or track.is_furniture is not sighting.is_furniture:
+        return False
+    if not track.is_furniture:
+        return True
+    near = np.linalg.norm((track.position - sighting.position)[:2]) < settings.furniture_reach_m
+    return track.room == sighting.room and bool(near)
+
+
+def _size_agreement(a_m: Point3, b_m: Point3) -> float:
+    """1 for equal sizes, falling with the ratio of sorted sides; two centimeters are never held against it."""
+    sides = zip(sorted(a_m), sorted(b_m), strict=True)
+    worst = max(max(abs(a - b) - 0.02, 0.0) / max(a, b, 1e-3) for a, b in sides)
+    return float(np.exp(-0.5 * (worst / 0.2) ** 2))

@@ -1,0 +1,86 @@
+"""Which room a thing belongs to: exactly one, by the polygons of the robot's room and of the rooms behind its doors."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from majordomo.scene_graph.errors import FramesNotConnected
+from majordomo.scene_graph.nodes import DoorNode, Point2, RoomNode, RoomStatus
+from majordomo.scene_graph.se3 import SE3
+from majordomo.scene_graph.snapshot import Snapshot
+
+Array = NDArray[np.float64]
+MARGIN_M = 0.15
+"""How far outside the inner face of a wall the center of a thing may be measured and still belong to the room."""
+
+
+def outside_distance_m(polygon_m: tuple[Point2, ...], point: Array) -> float:
+    """Signed distance of a point (2,) from a simple polygon: negative inside, positive outside."""
+    corners = np.asarray(polygon_m, dtype=np.float64)
+    ends = np.roll(corners, -1, axis=0)
+    sides = ends - corners
+    lengths = np.maximum((sides**2).sum(axis=1), 1e-12)
+    along = np.clip(((point - corners) * sides).sum(axis=1) / lengths, 0.0, 1.0)
+    distance = float(np.linalg.norm(corners + along[:, None] * sides - point, axis=1).min())
+    straddles = (corners[:, 1] > point[1]) != (ends[:, 1] > point[1])
+    rise = np.where(straddles, ends[:, 1] - corners[:, 1], 1.0)
+    crossing_x = corners[:, 0] + (point[1] - corners[:, 1]) / rise * sides[:, 0]
+    inside = np.count_nonzero(straddles & (point[0] < crossing_x)) % 2 == 1
+    return -distance if inside else distance
+
+
+class Surroundings:
+    """The robot's room and its neighbors, with their polygons, at one revision.
+
+    Attributes:
+        room: the robot's room.
+        T_here_room: room -> ``T_here_room`` for the robot's room and each neighbor.
+    """
+
+    def __init__(self, snapshot: Snapshot, room: str) -> None:
+        self.room = room
+        self.T_here_room: dict[str, SE3] = {room: SE3.identity()}
+        self._polygons: dict[str, tuple[Point2, ...]] = {room: snapshot.room(room).polygon_m}
+        for neighbor in _neighbors(snapshot, room):
+            try:
+                self.T_here_room[neighbor] = snapshot.transform(room, neighbor)
+            except FramesNotConnected:
+                continue
+            self._polygons[neighbor] = snapshot.room(neighbor).polygon_m
+
+    def room_of(self, point_here: Array) -> str | None:
+        """The room that a point (3,) in the robot's room frame lies in, or ``None`` for one in no known room.
+
+        A point in two polygons is the robot's room's; one in a wall is of the room it is nearest to.
+        """
+        distances = {
+            room: outside_distance_m(polygon, self.T_here_room[room].inverse().apply(point_here)[:2])
+            for room, polygon in self._polygons.items()
+            if polygon
+        }
+        if self.room not in distances or distances[self.room] <= 0.0:
+            return self.room
+        nearest = min(distances, key=lambda room: (distances[room], room))
+        return nearest if distances[nearest] <= MARGIN_M else None
+
+    def settled_room(self, room: str, point_room: Array) -> str:
+        """The room of a thing so far held to be in ``room`` at ``point_room`` (3,): changed only for a point clearly
+        outside.
+        """
+        polygon = self._polygons[room]
+        if not polygon or outside_distance_m(polygon, point_room[:2]) <= MARGIN_M:
+            return room
+        return self.room_of(self.T_here_room[room].apply(point_room)) or room
+
+
+def _neighbors(snapshot: Snapshot, room: str) -> list[str]:
+    found: dict[str, None] = {}
+    for door in snapshot.of_type(DoorNode):
+        pair = door.rooms
+        other = pair[1] if pair[0] == room else pair[0]
+        if room in pair and other is not None and other != room:
+            node = snapshot.get(other)
+            if isinstance(node, RoomNode) and node.status is not RoomStatus.TEMPORARY and node.polygon_m:
+                found[other] = None
+    return list(found)

@@ -1,0 +1,216 @@
+"""Tracks to nodes and edges: only what has changed enough to matter is written.
+
+Always computed from the newest snapshot, so that what others wrote (a name, a status) is kept.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from majordomo.perception.objects.people import PersonTrack
+from majordomo.perception.objects.relations import Key
+from majordomo.perception.objects.track import Track
+from majordomo.perception.vocabulary import carries_things, category_of, is_graspable
+from majordomo.scene_graph.edges import EdgeKey, EdgeType, InEdge, RelationEdge, RtEdge
+from majordomo.scene_graph.edits import Edit, PutEdge, PutNode, RemoveEdge, RemoveNode
+from majordomo.scene_graph.nodes import ROBOT_ID, ObjectNode, ObjectState, PersonNode, RobotNode
+from majordomo.scene_graph.se3 import SE3
+from majordomo.scene_graph.snapshot import Snapshot
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True)
+class PublicationSettings:
+    """Smaller changes than these are not written; ``seen_s`` bounds how stale ``last_seen_s`` may get."""
+
+    moved_m: float = 0.004
+    turned_rad: float = 0.03
+    sigma_ratio: float = 1.3
+    size_m: float = 0.006
+    probability: float = 0.05
+    seen_s: float = 0.35
+
+
+def node_of(node_id: str, track: Track, before: ObjectNode | None, inspected_s: float | None) -> ObjectNode:
+    """The node that says what ``track`` believes; fields that others own are kept from ``before``."""
+    label = track.label.best
+    sides = tuple(round(float(side), 4) for side in track.box.size_m)
+    size_m = (sides[0], sides[1], sides[2])
+    return ObjectNode(
+        id=node_id,
+        label=label,
+        confidence=track.label.confidence,
+        label_distribution=track.label.distribution,
+        color=track.color.best,
+        categories=category_of(label, size_m).tags,
+        name=before.name if before is not None else "",
+        size_m=size_m,
+        first_seen_s=track.first_seen_s,
+        last_seen_s=track.last_seen_s,
+        state=track.state,
+        existence=track.existence,
+        graspable=is_graspable(label, size_m),
+        support=carries_things(label, size_m),
+        inspected_s=inspected_s if inspected_s is not None or before is None else before.inspected_s,
+        observations=track.hits,
+    )
+
+
+def object_edits(
+    snapshot: Snapshot,
+    tracks: Sequence[Track],
+    inspected: Mapping[str, float],
+    stamp_s: float,
+    settings: PublicationSettings,
+) -> list[Edit]:
+    """Nodes, rt and in edges of every confirmed thing whose room is in working memory."""
+    edits: list[Edit] = []
+    for track in tracks:
+        if track.node_id is None or track.room not in snapshot:
+            continue
+        before = snapshot.get(track.node_id)
+        before = before if isinstance(before, ObjectNode) else None
+        node = node_of(track.node_id, track, before, inspected.get(track.node_id))
+        if before is None or _worth_writing(before, node, settings):
+            edits.append(PutNode(node))
+        if track.state is not ObjectState.HELD:
+            edits.extend(_placed(snapshot, track.node_id, track, stamp_s, settings))
+        edits.extend(_in_room(snapshot, track.node_id, track.room))
+    return edits
+
+
+def held_edits(
+    snapshot: Snapshot, node_id: str, T_robot_object: SE3, room: str, stamp_s: float, settings: PublicationSettings
+) -> list[Edit]:
+    """What hangs from the gripper: rt robot -> object, in the robot's room."""
+    edits: list[Edit] = []
+    parent = snapshot.parent(node_id)
+    if (
+        parent is None
+        or parent.source != ROBOT_ID
+        or not parent.T_source_target.is_close(T_robot_object, settings.moved_m)
+    ):
+        edits.extend(_hang(parent, ROBOT_ID, node_id, T_robot_object, np.diag([1e-4] * 3 + [1e-2] * 3), stamp_s))
+    return edits + _in_room(snapshot, node_id, room)
+
+
+def robot_edits(snapshot: Snapshot, holding: str | None) -> list[Edit]:
+    """The robot's hand, everything else of the robot as it is."""
+    robot = snapshot.robot
+    if not isinstance(robot, RobotNode) or robot.holding == holding:
+        return []
+    return [PutNode(replace(robot, holding=holding))]
+
+
+def person_edits(
+    snapshot: Snapshot, persons: Sequence[PersonTrack], stamp_s: float, settings: PublicationSettings
+) -> list[Edit]:
+    """Nodes and edges of persons; unnamed ones that have gone are removed."""
+    edits: list[Edit] = []
+    for person in persons:
+        if person.node_id is None or person.room not in snapshot:
+            continue
+        before = snapshot.get(person.node_id)
+        if person.gone:
+            edits.extend([RemoveNode(person.node_id)] if before is not None else [])
+            continue
+        name = before.name if isinstance(before, PersonNode) else ""
+        node = PersonNode(id=person.node_id, confidence=person.confidence, name=name, last_seen_s=person.last_seen_s)
+        if (
+            not isinstance(before, PersonNode)
+            or abs(before.confidence - node.confidence) > settings.probability
+            or node.last_seen_s - before.last_seen_s > settings.seen_s
+        ):
+            edits.append(PutNode(node))
+        parent = snapshot.parent(person.node_id)
+        T_room_person = SE3.from_xyz_yaw(float(person.position[0]), float(person.position[1]), 0.0, 0.0)
+        moved = (
+            parent is None or parent.source != person.room or not parent.T_source_target.is_close(T_room_person, 0.03)
+        )
+        if moved:
+            covariance = np.diag([0.1**2, 0.1**2, 1e-4, 1e-4, 1e-4, 10.0])
+            edits.extend(_hang(parent, person.room, person.node_id, T_room_person, covariance, stamp_s))
+        edits.extend(_in_room(snapshot, person.node_id, person.room))
+    return edits
+
+
+def relation_edits(
+    snapshot: Snapshot,
+    stated: Mapping[Key, float],
+    tracks: Sequence[Track],
+    published: set[EdgeKey],
+    stamp_s: float,
+    settings: PublicationSettings,
+) -> list[Edit]:
+    """Relations to put and to take back. ``published``: those written by this agent, kept up to date here."""
+    node_of_number = {track.number: track.node_id for track in tracks}
+    wanted: dict[EdgeKey, float] = {}
+    for (a, b, predicate), probability in stated.items():
+        source, target = node_of_number.get(a), node_of_number.get(b)
+        if source is not None and target is not None:
+            wanted[EdgeKey(EdgeType.RELATION, source, target, predicate)] = round(probability, 4)
+    edits: list[Edit] = [RemoveEdge(key) for key in sorted(published - wanted.keys()) if key in snapshot.edges]
+    for key, probability in wanted.items():
+        old = snapshot.edges.get(key)
+        if not isinstance(old, RelationEdge) or abs(old.probability - probability) > settings.probability:
+            edge = RelationEdge(
+                source=key.source, target=key.target, predicate=key.label, probability=probability, stamp_s=stamp_s
+            )
+            edits.append(PutEdge(edge))
+    published.clear()
+    published.update(wanted)
+    return edits
+
+
+def _worth_writing(before: ObjectNode, after: ObjectNode, settings: PublicationSettings) -> bool:
+    return (
+        (before.label, before.color, before.state, before.graspable, before.support, before.inspected_s)
+        != (after.label, after.color, after.state, after.graspable, after.support, after.inspected_s)
+        or abs(before.confidence - after.confidence) > settings.probability
+        or abs(before.existence - after.existence) > settings.probability
+        or after.last_seen_s - before.last_seen_s > settings.seen_s
+        or float(np.abs(np.subtract(before.size_m, after.size_m)).max()) > settings.size_m
+    )
+
+
+def _placed(
+    snapshot: Snapshot, node_id: str, track: Track, stamp_s: float, settings: PublicationSettings
+) -> list[Edit]:
+    parent = snapshot.parent(node_id)
+    T_room_object = track.T_room_object
+    R = T_room_object.rotation()
+    covariance = np.zeros((6, 6))
+    covariance[:3, :3] = R.T @ track.covariance @ R
+    covariance[3:, 3:] = np.diag((1e-4, 1e-4, 0.03 if track.box.size_m[0] > 1.15 * track.box.size_m[1] else 1.0))
+    covariance = (covariance + covariance.T) / 2.0
+    if parent is not None and parent.source == track.room:
+        change = parent.T_source_target.inverse() @ T_room_object
+        still = (
+            float(np.linalg.norm(change.translation_m)) <= settings.moved_m
+            and abs(change.yaw_rad) <= settings.turned_rad
+        )
+        old, new = (float(np.sqrt(max(np.trace(C[:3, :3]), 1e-12))) for C in (parent.covariance, covariance))
+        if still and 1.0 / settings.sigma_ratio < new / old < settings.sigma_ratio:
+            return []
+    return _hang(parent, track.room, node_id, T_room_object, covariance, stamp_s)
+
+
+def _hang(
+    parent: RtEdge | None, source: str, target: str, T_source_target: SE3, covariance: Array, stamp_s: float
+) -> list[Edit]:
+    edits: list[Edit] = [RemoveEdge(parent.key)] if parent is not None and parent.source != source else []
+    edge = RtEdge(source=source, target=target, T_source_target=T_source_target, covariance=covariance, stamp_s=stamp_s)
+    return [*edits, PutEdge(edge)]
+
+
+def _in_room(snapshot: Snapshot, node_id: str, room: str) -> list[Edit]:
+    stated = snapshot.edges_from(node_id, EdgeType.IN) if node_id in snapshot else ()
+    if any(edge.target == room for edge in stated):
+        return []
+    removed: list[Edit] = [RemoveEdge(edge.key) for edge in stated]
+    return [*removed, PutEdge(InEdge(source=node_id, target=room))]

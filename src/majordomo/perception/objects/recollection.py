@@ -1,0 +1,68 @@
+"""Keeps tracks and nodes in step: what the graph brings back is adopted, what it unloads is let go, what people teach
+is believed.
+"""
+
+from __future__ import annotations
+
+from majordomo.perception.objects.relations import RelationMemory
+from majordomo.perception.objects.track import Track
+from majordomo.perception.objects.tracker import Tracker
+from majordomo.scene_graph.edges import EdgeKey
+from majordomo.scene_graph.errors import FramesNotConnected
+from majordomo.scene_graph.nodes import ObjectNode
+from majordomo.scene_graph.snapshot import Snapshot
+
+
+class Recollection:
+    """Synchronizes the tracker with the graph at the start of every step."""
+
+    def __init__(self, tracker: Tracker, relations: RelationMemory) -> None:
+        self._tracker = tracker
+        self._relations = relations
+        self._labels: dict[str, str] = {}
+        self._written: set[str] = set()
+
+    def sync(self, snapshot: Snapshot) -> set[EdgeKey]:
+        """Bring the tracks in line with ``snapshot``; the relation edges of things that were adopted."""
+        nodes = {node.id: node for node in snapshot.of_type(ObjectNode)}
+        self._tracker.taken.update(nodes)
+        tracks = {track.node_id: track for track in self._tracker.tracks if track.node_id is not None}
+        for node_id, track in tracks.items():
+            if node_id in self._written and node_id not in nodes:
+                self._tracker.drop(track)
+        self._written = set(nodes)
+        new = [self._adopt(node, snapshot) for node in nodes.values() if node.id not in tracks]
+        adopted = [track for track in new if track is not None]
+        for node in nodes.values():
+            self._listen(node, tracks.get(node.id))
+        return self._adopt_relations(adopted, snapshot) if adopted else set()
+
+    def _adopt(self, node: ObjectNode, snapshot: Snapshot) -> Track | None:
+        room, parent = snapshot.room_of(node.id), snapshot.parent(node.id)
+        if room is None or parent is None:
+            return None
+        try:
+            T_room_object = snapshot.transform(room, node.id)
+        except FramesNotConnected:
+            return None
+        R = T_room_object.rotation()
+        track = self._tracker.new_track(room)
+        track.adopt(node, T_room_object, R @ parent.covariance[:3, :3] @ R.T)
+        return track
+
+    def _listen(self, node: ObjectNode, track: Track | None) -> None:
+        """A label that is neither what we wrote last nor what we believe was taught by somebody."""
+        ours = self._labels.get(node.id)
+        if track is not None and ours is not None and node.label not in {ours, track.label.best}:
+            track.label.teach(node.label)
+        self._labels[node.id] = node.label
+
+    def _adopt_relations(self, adopted: list[Track], snapshot: Snapshot) -> set[EdgeKey]:
+        number_of = {t.node_id: t.number for t in self._tracker.tracks if t.node_id is not None}
+        keys: set[EdgeKey] = set()
+        for track in adopted:
+            for edge in snapshot.relations(source=track.node_id):
+                if edge.target in number_of:
+                    self._relations.remember((track.number, number_of[edge.target], edge.predicate), edge.probability)
+                    keys.add(edge.key)
+        return keys

@@ -1,0 +1,184 @@
+"""What has been seen of one piece of furniture, from all sides: a small voxel memory in the room frame.
+
+Furniture seldom fits into one image. Its size is the box around everything seen of it so far.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from majordomo.perception.objects.shape import Rectangle, bounding_rectangle
+from majordomo.perception.vocabulary import Category
+from majordomo.scene_graph.se3 import SE3
+
+Array = NDArray[np.float64]
+_OFFSET = 1 << 20
+_SIGMA_M = 0.02
+
+
+class Box:
+    """An upright box: center (3,), size along its own axes, yaw."""
+
+    __slots__ = ("center", "size_m", "yaw_rad")
+
+    def __init__(self, center: Array, size_m: tuple[float, float, float], yaw_rad: float) -> None:
+        self.center = center
+        self.size_m = size_m
+        self.yaw_rad = yaw_rad
+
+    def contains(self, points: Array, margin_m: float = 0.0) -> NDArray[np.bool_]:
+        """Which of the points (N, 3) lie inside, with ``margin_m`` to spare."""
+        half = np.array(self.size_m) / 2.0 + margin_m
+        return np.asarray((np.abs(self.local(points)) <= half).all(axis=1))
+
+    def local(self, points: Array) -> Array:
+        """Points (N, 3) in the box's own axes, from its center."""
+        cos, sin = np.cos(self.yaw_rad), np.sin(self.yaw_rad)
+        x, y, z = (points - self.center).T
+        return np.stack((cos * x + sin * y, cos * y - sin * x, z), axis=1)
+
+    def place(self, local: Array) -> Array:
+        """Inverse of ``local``."""
+        cos, sin = np.cos(self.yaw_rad), np.sin(self.yaw_rad)
+        x, y, z = local.T
+        return np.stack((cos * x - sin * y, sin * x + cos * y, z), axis=1) + self.center
+
+
+class SurfaceMemory:
+    """Mean point and number of frames of each voxel.
+
+    Attributes:
+        points: (V, 3) mean of what fell into each voxel.
+        hits: (V,) frames that saw it.
+    """
+
+    def __init__(self, *, voxel_m: float = 0.03, capacity: int = 6000) -> None:
+        self._voxel_m = voxel_m
+        self._capacity = capacity
+        self._keys = np.zeros(0, dtype=np.int64)
+        self.points = np.zeros((0, 3))
+        self.hits = np.zeros(0)
+
+    def add(self, points: Array, *, frames: float = 1.0) -> None:
+        """Points (N, 3) that count as ``frames`` frames."""
+        if len(points) == 0:
+            return
+        cells = np.floor(points / self._voxel_m).astype(np.int64) + _OFFSET
+        keys = (cells[:, 0] << 42) | (cells[:, 1] << 21) | cells[:, 2]
+        new_keys, inverse, counts = np.unique(keys, return_inverse=True, return_counts=True)
+        sums = np.stack([np.bincount(inverse, points[:, axis]) for axis in range(3)], axis=1)
+        means = sums / counts[:, None]
+        place = np.atleast_1d(np.searchsorted(self._keys, new_keys))
+        inside = place < len(self._keys)
+        known = np.zeros(len(new_keys), dtype=bool)
+        known[inside] = self._keys[place[inside]] == new_keys[inside]
+        self._blend(place[known], means[known], frames)
+        self._append(new_keys[~known], means[~known], frames)
+
+    def _blend(self, index: NDArray[np.intp], means: Array, frames: float) -> None:
+        self.hits[index] += frames
+        gain = frames / np.minimum(self.hits[index], 30.0)
+        self.points[index] += gain[:, None] * (means - self.points[index])
+
+    def _append(self, keys: NDArray[np.int64], means: Array, frames: float) -> None:
+        room = max(self._capacity - len(self._keys), 0)
+        all_keys = np.concatenate((self._keys, keys[:room]))
+        order = np.argsort(all_keys, kind="stable")
+        self._keys = all_keys[order]
+        self.points = np.concatenate((self.points, means[:room]))[order]
+        self.hits = np.concatenate((self.hits, np.full(len(keys[:room]), frames)))[order]
+
+    @property
+    def reliable(self) -> Array:
+        """(V, 3) points seen in at least two frames, or all while hardly any are."""
+        often = self.hits >= 2.0
+        return self.points[often] if np.count_nonzero(often) >= 20 else self.points
+
+
+def furniture_box(memory: SurfaceMemory, category: Category, camera: Array) -> Box:
+    """The box of a piece of furniture from its surface.
+
+    What stands on the floor reaches down to it. Of a tall one only the front shows: its depth is then the usual one,
+    away from ``camera`` (3,).
+    """
+    points = memory.reliable
+    low_z, high_z = (float(z) for z in np.quantile(points[:, 2], (0.02, 0.985)))
+    low_z = 0.0 if category.floor else low_z
+    rectangle = bounding_rectangle(points[:, :2], align_to_room=True)
+    rectangle = _deepened(rectangle, category, camera, top_hidden=high_z > camera[2] - 0.05)
+    center = np.array((rectangle.center_x_m, rectangle.center_y_m, (low_z + high_z) / 2.0))
+    return Box(center, (rectangle.x_m, rectangle.y_m, max(high_z - low_z, 0.01)), rectangle.yaw_rad)
+
+
+def _deepened(rectangle: Rectangle, category: Category, camera: Array, *, top_hidden: bool) -> Rectangle:
+    usual_m = min(category.size_m[:2]) or min(rectangle.x_m, 0.4)
+    if not top_hidden or rectangle.y_m >= 0.6 * usual_m:
+        return rectangle
+    missing_m = usual_m - rectangle.y_m
+    normal = np.array((-np.sin(rectangle.yaw_rad), np.cos(rectangle.yaw_rad)))
+    outward = np.array((rectangle.center_x_m, rectangle.center_y_m)) - camera[:2]
+    shift = normal * (np.sign(normal @ outward) or 1.0) * missing_m / 2.0
+    return Rectangle(
+        center_x_m=float(rectangle.center_x_m + shift[0]),
+        center_y_m=float(rectangle.center_y_m + shift[1]),
+        x_m=max(rectangle.x_m, usual_m) if rectangle.x_m < usual_m else rectangle.x_m,
+        y_m=usual_m,
+        yaw_rad=rectangle.yaw_rad,
+    )
+
+
+class SurfaceBelief:
+    """Belief about place and size of one piece of furniture, in the frame of its room.
+
+    Attributes:
+        memory: what has been seen of it.
+        box: the box around it.
+    """
+
+    def __init__(self) -> None:
+        self.memory = SurfaceMemory()
+        self.box = Box(np.zeros(3), (0.1, 0.1, 0.1), 0.0)
+        self._pose_covariance: Array | None = None
+
+    @classmethod
+    def of(cls, box: Box) -> SurfaceBelief:
+        """A belief that starts from a remembered box."""
+        belief = cls()
+        belief.memory.add(_faces(box), frames=2.0)
+        belief.box = box
+        return belief
+
+    @property
+    def covariance(self) -> Array:
+        """(3, 3) of the center."""
+        pose = self._pose_covariance if self._pose_covariance is not None else np.zeros((3, 3))
+        return pose + np.eye(3) * _SIGMA_M**2
+
+    def observe(self, points: Array, pose_covariance: Array, category: Category, camera: Array) -> None:
+        """Take in the points (N, 3) of one frame, seen from ``camera`` (3,)."""
+        if self._pose_covariance is None or np.trace(pose_covariance) < np.trace(self._pose_covariance):
+            self._pose_covariance = pose_covariance
+        self.memory.add(points)
+        self.box = furniture_box(self.memory, category, camera)
+
+    def put_at(self, position: Array, sigma_m: float, yaw_rad: float | None) -> None:
+        """Place it where it must be now, other than by sight."""
+        turned = self.box.yaw_rad if yaw_rad is None else yaw_rad
+        self.box = Box(np.asarray(position), self.box.size_m, turned)
+        self.memory = SurfaceBelief.of(self.box).memory
+        self._pose_covariance = np.eye(3) * sigma_m**2
+
+    def change_frame(self, T_new_old: SE3) -> None:
+        """Express it in another room's frame."""
+        seen, self.memory = self.memory, SurfaceMemory()
+        self.memory.add(T_new_old.apply(seen.reliable), frames=2.0)
+        self.box = Box(T_new_old.apply(self.box.center), self.box.size_m, self.box.yaw_rad + T_new_old.yaw_rad)
+
+
+def _faces(box: Box) -> Array:
+    """(M, 3) points on the faces of a box."""
+    ticks = np.linspace(-0.5, 0.5, 9)
+    grid = np.stack(np.meshgrid(ticks, ticks, ticks, indexing="ij"), axis=-1).reshape(-1, 3)
+    faces = grid[(np.abs(grid) == 0.5).any(axis=1)]
+    return box.place(faces * np.array(box.size_m))

@@ -1,0 +1,192 @@
+"""One thing the robot knows of: tentative, confirmed, then a node of the graph, and never deleted from there.
+
+What it is and where it is are beliefs of their own; a track adds its life. Everything is in the frame of its room.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.random import Generator
+from numpy.typing import NDArray
+
+from majordomo.perception.objects.beliefs import ColorBelief, LabelBelief, is_taught
+from majordomo.perception.objects.center import CenterBelief, CenterSettings
+from majordomo.perception.objects.detection import Detection
+from majordomo.perception.objects.projection import View
+from majordomo.perception.objects.shape import measure_shape, point_covariance
+from majordomo.perception.objects.surface import Box, SurfaceBelief
+from majordomo.perception.vocabulary import Category, category_of
+from majordomo.scene_graph.nodes import ObjectNode, ObjectState
+from majordomo.scene_graph.se3 import SE3
+
+Array = NDArray[np.float64]
+_STORED_FRAMES = 5
+"""A stored label counts as much as so many frames that say the same."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class TrackSettings:
+    """``log_odds``: of existence at birth."""
+
+    center: CenterSettings = field(default_factory=CenterSettings)
+    log_odds: float = 1.0
+
+
+class Track:
+    """Belief about one thing.
+
+    Attributes:
+        number: running number; order of birth. node_id: its node, once confirmed. room: room whose frame holds it.
+            place: a ``CenterBelief`` for what can be carried, a ``SurfaceBelief`` for furniture, ``None`` before the
+            first sight. state, log_odds: whether it still is where it is said to be. hits: frames that saw it;
+            ``misses``: frames in a row that should have and did not.
+    """
+
+    def __init__(self, number: int, room: str, *, settings: TrackSettings, random: Generator) -> None:
+        self.number = number
+        self.room = room
+        self.node_id: str | None = None
+        self.label = LabelBelief()
+        self.color = ColorBelief()
+        self.place: CenterBelief | SurfaceBelief | None = None
+        self.state = ObjectState.PRESENT
+        self.log_odds = settings.log_odds
+        self.hits = 0
+        self.misses = 0
+        self.first_seen_s = 0.0
+        self.last_seen_s = 0.0
+        self._settings = settings
+        self._random = random
+
+    @property
+    def is_furniture(self) -> bool:
+        """Whether its surface is kept rather than its center."""
+        return isinstance(self.place, SurfaceBelief)
+
+    @property
+    def category(self) -> Category:
+        """What is known of its kind."""
+        return category_of(self.label.best, self.box.size_m)
+
+    @property
+    def existence(self) -> float:
+        """Probability that it is where it is said to be."""
+        return float(1.0 / (1.0 + np.exp(-self.log_odds)))
+
+    @property
+    def box(self) -> Box:
+        """Center, size and direction in the room frame."""
+        return self.place.box if self.place is not None else Box(np.zeros(3), (0.1, 0.1, 0.1), 0.0)
+
+    @property
+    def position(self) -> Array:
+        """(3,) center in the room frame."""
+        return self.box.center
+
+    @property
+    def covariance(self) -> Array:
+        """(3, 3) of the center."""
+        return self.place.covariance if self.place is not None else np.eye(3)
+
+    @property
+    def surface_points(self) -> Array:
+        """(V, 3) reliable points of a piece of furniture; none of other things."""
+        return self.place.memory.reliable if isinstance(self.place, SurfaceBelief) else np.zeros((0, 3))
+
+    @property
+    def T_room_object(self) -> SE3:
+        """Pose of its own frame in the room."""
+        x_m, y_m, z_m = self.box.center.tolist()
+        return SE3.from_xyz_yaw(x_m, y_m, z_m, self.box.yaw_rad)
+
+    def observe(self, detection: Detection, view: View, T_room_view: SE3) -> None:
+        """Take in a detection that is this thing."""
+        self.label.update(detection.distribution, detection.weight)
+        self.color.update(detection.colors, detection.weight)
+        self.hits += 1
+        self.misses = 0
+        self.first_seen_s = self.first_seen_s if self.hits > 1 else view.stamp_s
+        self.last_seen_s = view.stamp_s
+        R = T_room_view.rotation()
+        pose_covariance = R @ point_covariance(view, detection.shape.center) @ R.T
+        size_m = self.box.size_m if self.place is not None else detection.shape.size_m
+        if category_of(self.label.best, size_m).furniture:
+            self._observe_surface(detection, view, T_room_view, pose_covariance)
+        else:
+            self._observe_center(detection, view, T_room_view, pose_covariance)
+
+    def _observe_surface(self, detection: Detection, view: View, T_room_view: SE3, pose_covariance: Array) -> None:
+        if not isinstance(self.place, SurfaceBelief):
+            self.place = SurfaceBelief()
+        elif not detection.in_range:
+            return
+        camera = T_room_view.apply(view.T_room_camera.translation_m)
+        points = T_room_view.apply(detection.cloud.points)
+        self.place.observe(points, pose_covariance, category_of(self.label.best), camera)
+
+    def _observe_center(self, detection: Detection, view: View, T_room_view: SE3, pose_covariance: Array) -> None:
+        if isinstance(self.place, CenterBelief) and not detection.measurable:
+            return
+        shape = detection.shape
+        if detection.label != self.label.best:
+            shape = measure_shape(detection.cloud, view, category_of(self.label.best, shape.size_m))
+        if not isinstance(self.place, CenterBelief):
+            R = T_room_view.rotation()
+            box = Box(T_room_view.apply(shape.center), shape.size_m, 0.0)
+            self.place = self._center(box, R @ shape.covariance @ R.T)
+        else:
+            self.place.observe(shape, T_room_view, pose_covariance)
+
+    def _center(self, box: Box, covariance: Array) -> CenterBelief:
+        return CenterBelief(box, covariance, settings=self._settings.center, random=self._random)
+
+    def put_at(self, room: str, position: Array, sigma_m: float, yaw_rad: float | None = None) -> None:
+        """Place it where it must be now, other than by sight: released there or dropped there."""
+        self.room = room
+        if self.place is not None:
+            self.place.put_at(position, sigma_m, yaw_rad)
+
+    def change_room(self, room: str, T_new_old: SE3) -> None:
+        """Express it in the frame of another room."""
+        self.room = room
+        if self.place is not None:
+            self.place.change_frame(T_new_old)
+
+    def become(self, other: Track) -> None:
+        """Take over the place of ``other``, a newer sighting of this very thing; identity and history stay."""
+        self.room, self.place, self.color = other.room, other.place, other.color
+        self.state, self.log_odds = ObjectState.PRESENT, other.log_odds
+        self.label.update(other.label.distribution)
+        self.hits += other.hits
+        self.misses = 0
+        self.last_seen_s = other.last_seen_s
+
+    def absorb(self, part: Track) -> None:
+        """Take in a piece of furniture that turned out to be a part of this one."""
+        if isinstance(self.place, SurfaceBelief) and isinstance(part.place, SurfaceBelief):
+            self.place.memory.add(part.place.memory.reliable)
+        self.hits += part.hits
+        self.misses = 0
+        self.last_seen_s = max(self.last_seen_s, part.last_seen_s)
+
+    def adopt(self, node: ObjectNode, T_room_object: SE3, covariance: Array) -> None:
+        """Start from what the graph remembers, after a restart or when memory brings a room back."""
+        self.node_id = node.id
+        if is_taught(node.label, node.label_distribution):
+            self.label.teach(node.label)
+        for _ in range(_STORED_FRAMES):
+            self.label.update(node.label_distribution or ((node.label, 0.9),))
+        if node.color:
+            self.color.update({node.color: 1.0})
+        self.state = node.state
+        existence = float(np.clip(node.existence, 0.01, 0.99))
+        self.log_odds = float(np.log(existence / (1.0 - existence)))
+        self.hits, self.first_seen_s, self.last_seen_s = node.observations, node.first_seen_s, node.last_seen_s
+        size_m = node.size_m if min(node.size_m) > 0.0 else (0.1, 0.1, 0.1)
+        box = Box(T_room_object.translation_m, size_m, T_room_object.yaw_rad)
+        if category_of(node.label, node.size_m).furniture:
+            self.place = SurfaceBelief.of(box)
+        else:
+            self.place = self._center(box, covariance + np.eye(3) * 1e-6)

@@ -1,0 +1,253 @@
+"""All known things and one update per frame: associate, observe, doubt, found, confirm (Filtering, algorithm 1)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.random import Generator
+from numpy.typing import NDArray
+
+from majordomo.perception.objects.association import (
+    AssociationSettings,
+    assign,
+    cost_matrix,
+    iou_matrix,
+    label_image,
+    warp_labels,
+)
+from majordomo.perception.objects.beliefs import agreement
+from majordomo.perception.objects.confirmation import is_fragment, known_as, undecided
+from majordomo.perception.objects.detection import Detection
+from majordomo.perception.objects.existence import (
+    ExistenceSettings,
+    absence_evidence,
+    bounded,
+    surface_absent,
+    visibility,
+)
+from majordomo.perception.objects.identity import IdentitySettings
+from majordomo.perception.objects.membership import Surroundings
+from majordomo.perception.objects.projection import View
+from majordomo.perception.objects.surface import Box
+from majordomo.perception.objects.track import Track, TrackSettings
+from majordomo.perception.vocabulary import category_of
+from majordomo.scene_graph.identifiers import next_id
+from majordomo.scene_graph.nodes import ObjectState
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True)
+class TrackerSettings:
+    """``confirm_hits`` sightings with ``confirm_label`` certainty (or twice as many sightings) make a thing a node.
+
+    ``patience_hits``: how many sightings to wait for a look-alike that is just being missed.
+    """
+
+    association: AssociationSettings = field(default_factory=AssociationSettings)
+    existence: ExistenceSettings = field(default_factory=ExistenceSettings)
+    identity: IdentitySettings = field(default_factory=IdentitySettings)
+    track: TrackSettings = field(default_factory=TrackSettings)
+    confirm_hits: int = 3
+    confirm_label: float = 0.6
+    patience_hits: int = 15
+    tentative_life_s: float = 2.0
+    furniture_min_px: int = 150
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Sight:
+    """One frame as the tracker sees it.
+
+    ``turning_radps``: how fast the robot turns. ``looked_before``: when each room and support
+    was first inspected.
+    """
+
+    view: View
+    detections: Sequence[Detection]
+    surroundings: Surroundings
+    turning_radps: float = 0.0
+    looked_before: Mapping[str, float] = field(default_factory=dict)
+
+
+class Tracker:
+    """Keeps every track; deterministic for a given generator.
+
+    Attributes:
+        tracks: all things, tentative ones included, in order of birth.
+        taken: every identifier ever seen; none is given twice.
+        places_before: where things in the hand were taken from.
+        matches: instance index -> track, of the newest frame.
+    """
+
+    def __init__(self, *, settings: TrackerSettings, random: Generator) -> None:
+        self._settings = settings
+        self._random = random
+        self._born = 0
+        self._previous: tuple[View, NDArray[np.int16], list[int]] | None = None
+        self.tracks: list[Track] = []
+        self.taken: set[str] = set()
+        self.matches: dict[int, Track] = {}
+        self.places_before: dict[int, tuple[str, Array]] = {}
+
+    def new_track(self, room: str) -> Track:
+        """A track without any observation, kept."""
+        self._born += 1
+        track = Track(self._born, room, settings=self._settings.track, random=self._random)
+        self.tracks.append(track)
+        return track
+
+    def of_node(self, node_id: str) -> Track | None:
+        """The track behind a node."""
+        return next((track for track in self.tracks if track.node_id == node_id), None)
+
+    def drop(self, track: Track) -> None:
+        """Forget a track altogether."""
+        self.tracks = [other for other in self.tracks if other is not track]
+
+    def update(self, sight: Sight) -> None:
+        """One frame."""
+        scope = [t for t in self.tracks if t.room in sight.surroundings.T_here_room and t.state is not ObjectState.HELD]
+        iou = self._mask_overlap(scope, sight)
+        costs = cost_matrix(scope, sight.detections, iou, sight.surroundings.T_here_room, self._settings.association)
+        pairs = assign(costs, self._settings.association.limit)
+        self.matches = {}
+        for i, j in pairs:
+            self._observe(scope[i], sight.detections[j], sight)
+        matched = {j for _, j in pairs}
+        unmatched = [d for j, d in enumerate(sight.detections) if j not in matched]
+        unmatched = [d for d in unmatched if not self._absorb(d, scope, sight)]
+        self._doubt_unseen(scope, sight)
+        for detection in unmatched:
+            self._found(detection, sight)
+        self._confirm(sight)
+        self._forget_tentative(sight.view.stamp_s)
+        self._remember_masks(sight)
+
+    def _mask_overlap(self, scope: list[Track], sight: Sight) -> Array:
+        """(T, M) IoU of each track's previous mask, moved by the camera's motion, with each new mask."""
+        iou = np.zeros((len(scope), len(sight.detections)))
+        if self._previous is None or not sight.detections or self._previous[0].room != sight.view.room:
+            return iou
+        view, labels, numbers = self._previous
+        warped = warp_labels(labels, view, sight.view)
+        by_label = iou_matrix(warped, len(numbers), [d.mask for d in sight.detections])
+        row_of = {number: row for row, number in enumerate(numbers)}
+        for i, track in enumerate(scope):
+            if track.number in row_of:
+                iou[i] = by_label[row_of[track.number]]
+        return iou
+
+    def _remember_masks(self, sight: Sight) -> None:
+        seen = [(d.mask, self.matches[d.index].number) for d in sight.detections if d.index in self.matches]
+        labels = label_image([mask for mask, _ in seen], sight.view.depth_m.shape)
+        self._previous = (sight.view, labels, [number for _, number in seen])
+
+    def _observe(self, track: Track, detection: Detection, sight: Sight) -> None:
+        track.observe(detection, sight.view, sight.surroundings.T_here_room[track.room].inverse())
+        self.matches[detection.index] = track
+        track.log_odds = bounded(track.log_odds + self._settings.existence.hit, self._settings.existence)
+        if track.state is ObjectState.MISSING:
+            track.state = ObjectState.PRESENT
+            track.log_odds = max(track.log_odds, 1.0)
+        home = sight.surroundings.settled_room(track.room, track.position)
+        if home != track.room:
+            T_here_room = sight.surroundings.T_here_room
+            track.change_room(home, T_here_room[home].inverse() @ T_here_room[track.room])
+
+    def _absorb(self, detection: Detection, scope: list[Track], sight: Sight) -> bool:
+        """Whether the detection is a further part of a piece of furniture that something in front cuts in two."""
+        for track in scope:
+            if not track.is_furniture or agreement(track.label.distribution, detection.distribution) < 0.5:
+                continue
+            T_room_view = sight.surroundings.T_here_room[track.room].inverse()
+            if float(track.box.contains(T_room_view.apply(detection.cloud.points), 0.1).mean()) > 0.6:
+                self._observe(track, detection, sight)
+                return True
+        return False
+
+    def _doubt_unseen(self, scope: list[Track], sight: Sight) -> None:
+        """Take existence from what should have been seen and was not."""
+        if sight.turning_radps > self._settings.existence.speed_limit_radps:
+            return
+        seen = {track.number for track in self.matches.values()}
+        for track in scope:
+            if track.number in seen or track.state is not ObjectState.PRESENT:
+                continue
+            change = self._absence(track, sight)
+            if change < 0.0:
+                track.misses += 1
+                track.log_odds = bounded(track.log_odds + change, self._settings.existence)
+            if track.existence < self._settings.existence.missing_below:
+                track.state = ObjectState.MISSING
+
+    def _absence(self, track: Track, sight: Sight) -> float:
+        T_here_room = sight.surroundings.T_here_room[track.room]
+        settings = self._settings.existence
+        if track.is_furniture:
+            points = T_here_room.apply(track.surface_points)
+            share = surface_absent(points, sight.view, settings)
+            return -settings.through_limit * share if share > 0.6 else 0.0
+        box = Box(T_here_room.apply(track.position), track.box.size_m, track.box.yaw_rad + T_here_room.yaw_rad)
+        seen = visibility(box, sight.view, settings)
+        replaced = any(
+            detection.index in self.matches
+            and not self.matches[detection.index].is_furniture
+            and not self.matches[detection.index].category.container
+            and bool(box.contains(detection.shape.center[None])[0])
+            for detection in sight.detections
+        )
+        return absence_evidence(seen, replaced=replaced, settings=settings)
+
+    def _found(self, detection: Detection, sight: Sight) -> None:
+        """Start a new, tentative thing."""
+        furniture = category_of(detection.label, detection.shape.size_m).furniture
+        enough = detection.cloud.pixels >= self._settings.furniture_min_px if furniture else detection.measurable
+        if not detection.in_range or not enough:
+            return
+        room = sight.surroundings.room_of(detection.shape.center)
+        if room is not None:
+            self._observe(self.new_track(room), detection, sight)
+
+    def _confirm(self, sight: Sight) -> None:
+        """Name what has been seen often enough, or recognize it."""
+        identity = self._settings.identity
+        for track in [t for t in self.tracks if t.node_id is None and self._is_stable(t)]:
+            known = [t for t in self.tracks if t.node_id is not None]
+            same = known_as(
+                track,
+                known,
+                taken_from=self.places_before,
+                looked_before=sight.looked_before,
+                settings=identity,
+            )
+            if same is not None:
+                self._recognize(track, same)
+            elif track.hits >= self._settings.patience_hits or not undecided(track, known, identity):
+                track.node_id = next_id(self.taken, track.label.best)
+                self.taken.add(track.node_id)
+
+    def _is_stable(self, track: Track) -> bool:
+        hits = self._settings.confirm_hits
+        sure = track.label.confidence >= self._settings.confirm_label or track.hits >= 2 * hits
+        return track.hits >= hits and sure
+
+    def _recognize(self, sighting: Track, known: Track) -> None:
+        """The sighting is a thing we know: it goes on under that name."""
+        self.places_before.pop(known.number, None)
+        if is_fragment(sighting, known):
+            known.absorb(sighting)
+        else:
+            known.become(sighting)
+        self.matches = {index: known if t is sighting else t for index, t in self.matches.items()}
+        self.drop(sighting)
+
+    def _forget_tentative(self, stamp_s: float) -> None:
+        self.tracks = [
+            t
+            for t in self.tracks
+            if t.node_id is not None
+            or (t.state is ObjectState.PRESENT and stamp_s - t.last_seen_s <= self._settings.tentative_life_s)
+        ]

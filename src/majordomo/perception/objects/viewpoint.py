@@ -1,0 +1,40 @@
+"""From where a frame was taken: the robot's pose in its room, carried to the time of the frame by odometry."""
+
+from __future__ import annotations
+
+from majordomo.perception.errors import OdometryUnavailable
+from majordomo.perception.objects.projection import View
+from majordomo.perception.ports import RgbdFrame
+from majordomo.perception.sensing import SensorBuffer
+from majordomo.scene_graph.errors import FramesNotConnected
+from majordomo.scene_graph.nodes import ROBOT_ID, RoomNode, RoomStatus
+from majordomo.scene_graph.se3 import SE3
+from majordomo.scene_graph.snapshot import Snapshot
+
+
+def view_of(frame: RgbdFrame, snapshot: Snapshot, buffer: SensorBuffer) -> View | None:
+    """The frame in the robot's room, ``None`` while there is no room to see it in."""
+    room_id = snapshot.current_room
+    room = snapshot.get(room_id) if room_id is not None else None
+    parent = snapshot.parent(ROBOT_ID)
+    if not isinstance(room, RoomNode) or room.status is RoomStatus.TEMPORARY or parent is None:
+        return None
+    try:
+        T_room_robot, covariance = snapshot.transform_with_covariance(room.id, ROBOT_ID)
+    except FramesNotConnected:
+        return None
+    T_room_base = T_room_robot @ _motion(buffer, parent.stamp_s, frame.stamp_s)
+    return View.of(frame, room=room.id, T_room_base=T_room_base, pose_covariance=covariance)
+
+
+def turning_radps(buffer: SensorBuffer) -> float:
+    """How fast the robot turns, without sign."""
+    return abs(buffer.odometry[-1].angular_radps) if buffer.odometry else 0.0
+
+
+def _motion(buffer: SensorBuffer, from_s: float, to_s: float) -> SE3:
+    """How the base moved between the time of its pose in the graph and the time of the frame."""
+    try:
+        return buffer.odometry_at(from_s).inverse() @ buffer.odometry_at(to_s)
+    except OdometryUnavailable:
+        return SE3.identity()

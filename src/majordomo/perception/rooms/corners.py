@@ -1,0 +1,202 @@
+"""Corner detector (Concepts, algorithm 1): Hough lines in the slice above furniture, crossing at right angles."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import combinations
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+_RAY_STEP_RAD = float(np.deg2rad(0.4))
+
+
+@dataclass(frozen=True, kw_only=True)
+class CornerSettings:
+    """Lengths in meters, angles in radians.
+
+    ``shortest_line_m``: shortest run of returns that counts as a wall (``L_min`` of the paper). ``reach_m``: how far
+    from the end of a wall's returns its corner may be. ``right_angle_rad``: how far from square a corner may be.
+    """
+
+    shortest_line_m: float = 0.6
+    hough_rho_m: float = 0.06
+    hough_theta_rad: float = float(np.deg2rad(1.5))
+    fewest_votes: int = 8
+    candidates: int = 30
+    passes: int = 3
+    gate_m: float = 0.07
+    widest_gap_m: float = 0.7
+    reach_m: float = 0.35
+    right_angle_rad: float = float(np.deg2rad(2.5))
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class WallLine:
+    """A straight run of wall returns: ``normal · p = offset_m`` between stations ``span_m`` along ``direction``.
+
+    ``sigma_m``: spread of the returns about the line; ``offset_std_m`` and ``angle_std_rad``: of the fit.
+    """
+
+    normal: Array
+    offset_m: float
+    span_m: tuple[float, float]
+    support: int
+    sigma_m: float
+    offset_std_m: float
+    angle_std_rad: float
+
+    @property
+    def direction(self) -> Array:
+        return np.array([-self.normal[1], self.normal[0]])
+
+    @property
+    def length_m(self) -> float:
+        return self.span_m[1] - self.span_m[0]
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class CornerSighting:
+    """Two walls crossing at a right angle. ``point``: (2,) meters, frame of the points; ``std_m`` of each coordinate."""
+
+    point: Array
+    std_m: float
+
+
+def detect_lines(points: Array, settings: CornerSettings | None = None) -> list[WallLine]:
+    """Wall lines in (N, 2) ``points`` seen from the origin: Hough candidates, each refined by total least squares.
+
+    A return belongs to the strongest line that explains it. Later passes find the weaker lines, whose votes drown beside
+    a long wall.
+    """
+    settings = settings or CornerSettings()
+    free = np.ones(len(points), dtype=bool)
+    lines: list[WallLine] = []
+    for _ in range(settings.passes):
+        known = len(lines)
+        for rho, theta in _hough(points[free], settings):
+            line, claimed = _refine(points, free, rho, theta, settings)
+            if line is not None:
+                lines.append(line)
+                free &= ~claimed
+        if len(lines) == known:
+            break
+    return lines
+
+
+def _hough(points: Array, settings: CornerSettings) -> Array:
+    """(K, 2) candidates (rho, theta), most votes first."""
+    if len(points) < settings.fewest_votes:
+        return np.empty((0, 2))
+    farthest = float(np.linalg.norm(points, axis=1).max()) + settings.hough_rho_m
+    found = cv2.HoughLinesPointSet(
+        points.astype(np.float32).reshape(-1, 1, 2),
+        settings.candidates,
+        settings.fewest_votes,
+        -farthest,
+        farthest,
+        settings.hough_rho_m,
+        0.0,
+        np.pi,
+        settings.hough_theta_rad,
+    )
+    if found is None:
+        return np.empty((0, 2))
+    return np.asarray(found, dtype=np.float64).reshape(-1, 3)[:, 1:]
+
+
+def _refine(
+    points: Array, free: NDArray[np.bool_], rho: float, theta: float, settings: CornerSettings
+) -> tuple[WallLine | None, NDArray[np.bool_]]:
+    """Fit the returns near a candidate, twice, with a narrowing gate; keep its longest unbroken run."""
+    normal, offset = np.array([np.cos(theta), np.sin(theta)]), rho
+    inliers = np.zeros(len(points), dtype=bool)
+    for gate_m in (2.0 * settings.gate_m, settings.gate_m, settings.gate_m):
+        inliers = free & (np.abs(points @ normal - offset) < gate_m)
+        if inliers.sum() < settings.fewest_votes:
+            return None, inliers
+        normal, offset = _total_least_squares(points[inliers])
+    inliers = _longest_run(points, inliers, normal, offset, settings.widest_gap_m)
+    if inliers.sum() < settings.fewest_votes:
+        return None, inliers
+    normal, offset = _total_least_squares(points[inliers])
+    line = _measured_line(points[inliers], normal, offset)
+    return (line if line.length_m >= settings.shortest_line_m else None), inliers
+
+
+def _total_least_squares(points: Array) -> tuple[Array, float]:
+    """Normal and offset of the line that minimizes squared perpendicular distances."""
+    center = points.mean(axis=0)
+    _, vectors = np.linalg.eigh((points - center).T @ (points - center))
+    normal = vectors[:, 0]
+    return normal, float(normal @ center)
+
+
+def _longest_run(
+    points: Array, inliers: NDArray[np.bool_], normal: Array, offset: float, widest_gap_m: float
+) -> NDArray[np.bool_]:
+    """The inliers of the longest run without a gap wider than the spacing of rays at that place explains."""
+    index = np.flatnonzero(inliers)
+    stations = points[index] @ np.array([-normal[1], normal[0]])
+    order = np.argsort(stations, kind="stable")
+    breaks = np.flatnonzero(np.diff(stations[order]) > _widest_gap(stations[order], offset, widest_gap_m)) + 1
+    runs = np.split(order, breaks)
+    longest = max(runs, key=lambda run: float(stations[run[-1]] - stations[run[0]]))
+    kept = np.zeros(len(points), dtype=bool)
+    kept[index[longest]] = True
+    return kept
+
+
+def _widest_gap(stations: Array, offset: float, widest_gap_m: float) -> Array:
+    """(N - 1,) gap allowed between neighbors: rays from the origin meet a far wall at a grazing angle, far apart."""
+    nearer = np.minimum(np.abs(stations[1:]), np.abs(stations[:-1]))
+    return widest_gap_m + 2.0 * _ray_spacing(nearer, offset)
+
+
+def _ray_spacing(station: Array, offset: float) -> Array:
+    """Distance between neighboring rays of the origin on a line at ``offset``, at ``station`` along it."""
+    return np.asarray(_RAY_STEP_RAD * (station**2 + offset**2) / max(abs(offset), 0.1))
+
+
+def _measured_line(points: Array, normal: Array, offset: float) -> WallLine:
+    stations = points @ np.array([-normal[1], normal[0]])
+    residuals = points @ normal - offset
+    sigma = float(max(1.4826 * np.median(np.abs(residuals)), 1e-3))
+    spread = float(np.sqrt(((stations - stations.mean()) ** 2).sum()))
+    return WallLine(
+        normal=normal,
+        offset_m=offset,
+        span_m=(float(stations.min()), float(stations.max())),
+        support=len(points),
+        sigma_m=sigma,
+        offset_std_m=sigma / np.sqrt(len(points)),
+        angle_std_rad=sigma / max(spread, 1e-6),
+    )
+
+
+def corners_of(lines: list[WallLine], settings: CornerSettings | None = None) -> list[CornerSighting]:
+    """Where two ``lines`` cross at a right angle close to the ends of both (algorithm 1, lines 8 to 10)."""
+    settings = settings or CornerSettings()
+    sightings: list[CornerSighting] = []
+    for first, second in combinations(lines, 2):
+        if abs(float(first.normal @ second.normal)) > np.sin(settings.right_angle_rad):
+            continue
+        point = np.linalg.solve(np.stack([first.normal, second.normal]), [first.offset_m, second.offset_m])
+        if _ends_near(first, point, settings.reach_m) and _ends_near(second, point, settings.reach_m):
+            sightings.append(CornerSighting(point=point, std_m=float(np.hypot(_std_at(first, point), _std_at(second, point)))))
+    return sightings
+
+
+def _ends_near(line: WallLine, point: Array, reach_m: float) -> bool:
+    station = float(line.direction @ point)
+    reach_m += 1.5 * float(_ray_spacing(np.array(station), line.offset_m))
+    return min(abs(station - line.span_m[0]), abs(station - line.span_m[1])) < reach_m
+
+
+def _std_at(line: WallLine, point: Array) -> float:
+    """Standard deviation of the line's position where it passes ``point``."""
+    lever_m = float(line.direction @ point) - sum(line.span_m) / 2.0
+    return float(np.hypot(line.offset_std_m, lever_m * line.angle_std_rad))

@@ -1,0 +1,208 @@
+"""The rectilinear outline of a room: its polygon, how well each wall was seen, and where it is still open."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from majordomo.perception.localization.planar import Pose2
+from majordomo.perception.rooms.arrangement import Arrangement, ArrangementSettings, arrange
+from majordomo.perception.rooms.facets import Facets, longest_gap, sort_by_axis
+from majordomo.perception.rooms.views import View, dominant_direction
+
+Array = NDArray[np.float64]
+
+_CORNER_CLEARANCE_M = 0.10
+_HARMLESS_GAP_M = 0.4
+_RECTILINEAR = 0.9
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Outline:
+    """Rectilinear polygon of inner wall faces.
+
+    ``polygon``: (N, 2) counter-clockwise, meters, frame of the views; wall k runs from corner k to k + 1.
+    ``support``: (N,) share of each wall's length that returned rays. ``gap_m``: (N,) its longest stretch that did not,
+    about ``gap_center``: (N, 2). ``sigma_m``: spread of returns about the walls; ``offset_std_m``: (N,) of each wall's
+    position. ``direction_rad``: of the walls, modulo a quarter turn. ``rectilinear``: share of seen wall length along
+    the two axes.
+    """
+
+    polygon: Array
+    support: Array
+    gap_m: Array
+    gap_center: Array
+    offset_std_m: Array
+    sigma_m: float
+    direction_rad: float
+    rectilinear: float
+
+    @property
+    def closed(self) -> bool:
+        """Whether walls were seen all around, without a stretch that could hide another part of the room."""
+        return bool(self.rectilinear > _RECTILINEAR and (self.gap_m < _HARMLESS_GAP_M).all() and (self.support > 0.5).all())
+
+    def frontiers(self) -> list[tuple[Array, Array]]:
+        """Unseen stretches of wall, longest first: middle point and unit normal into the room."""
+        starts, ends = self.polygon, np.roll(self.polygon, -1, axis=0)
+        order = [int(k) for k in np.argsort(-self.gap_m, kind="stable") if self.gap_m[k] >= _HARMLESS_GAP_M]
+        return [(self.gap_center[k], inward_normal(starts[k], ends[k])) for k in order]
+
+
+def wall_lengths(polygon: Array) -> Array:
+    """(N,) length of each wall."""
+    return np.asarray(np.linalg.norm(np.roll(polygon, -1, axis=0) - polygon, axis=1))
+
+
+def inward_normal(start: Array, end: Array) -> Array:
+    """Unit normal to the left of the way from ``start`` to ``end``: into a counter-clockwise polygon."""
+    along = (end - start) / np.linalg.norm(end - start)
+    return np.array([-along[1], along[0]])
+
+
+def find_outline(views: Sequence[View], settings: ArrangementSettings | None = None) -> Outline | None:
+    """The outline of the room in which the last view was taken, or ``None`` when too few walls are seen."""
+    settings = settings or ArrangementSettings()
+    direction_rad, rectilinear = dominant_direction(views)
+    x_facing, y_facing = sort_by_axis(views, direction_rad)
+    arrangement = arrange(views, x_facing, y_facing, direction_rad, settings)
+    if arrangement is None:
+        return None
+    polygon = trace(arrangement)
+    walls = _refine(polygon, x_facing, y_facing, settings)
+    turn = Pose2(0.0, 0.0, direction_rad)
+    return Outline(
+        polygon=turn.apply(_intersections(polygon, walls)),
+        support=np.array([wall.support for wall in walls]),
+        gap_m=np.array([wall.gap_m for wall in walls]),
+        gap_center=turn.apply(np.array([wall.gap_center for wall in walls])),
+        offset_std_m=np.array([wall.offset_std_m for wall in walls]),
+        sigma_m=float(np.median([wall.sigma_m for wall in walls])),
+        direction_rad=direction_rad,
+        rectilinear=rectilinear,
+    )
+
+
+def trace(arrangement: Arrangement) -> Array:
+    """Outer boundary of the inside cells, (N, 2) counter-clockwise, without corners in straight walls."""
+    following = _boundary_steps(arrangement.inside)
+    loops: list[list[tuple[int, int]]] = []
+    while following:
+        start = min(following)
+        loops.append(_walk(following, start))
+    xs, ys = arrangement.xs, arrangement.ys
+    polygons = [np.array([(xs[i], ys[j]) for i, j in _without_straight(loop)]) for loop in loops]
+    return max(polygons, key=signed_area)
+
+
+def _boundary_steps(inside: NDArray[np.bool_]) -> dict[tuple[int, int], list[tuple[int, int]]]:
+    """Directed steps between grid vertices that keep inside cells on their left."""
+    steps: dict[tuple[int, int], list[tuple[int, int]]] = {}
+    padded = np.pad(inside, 1)
+    for i, j in zip(*np.nonzero(inside), strict=True):
+        a, b = int(i), int(j)
+        if not padded[a + 1, b]:
+            steps.setdefault((a, b), []).append((a + 1, b))
+        if not padded[a + 2, b + 1]:
+            steps.setdefault((a + 1, b), []).append((a + 1, b + 1))
+        if not padded[a + 1, b + 2]:
+            steps.setdefault((a + 1, b + 1), []).append((a, b + 1))
+        if not padded[a, b + 1]:
+            steps.setdefault((a, b + 1), []).append((a, b))
+    return steps
+
+
+def _walk(following: dict[tuple[int, int], list[tuple[int, int]]], start: tuple[int, int]) -> list[tuple[int, int]]:
+    """Follow and use up steps from ``start`` until back; where two loops touch in a point, turn left."""
+    loop, here, heading = [start], start, (0, 0)
+    while True:
+        choices = following[here]
+        turns = [heading[0] * (c[1] - here[1]) - heading[1] * (c[0] - here[0]) for c in choices]
+        step = choices.pop(turns.index(max(turns)))
+        if not choices:
+            del following[here]
+        heading, here = (step[0] - here[0], step[1] - here[1]), step
+        if here == start:
+            return loop
+        loop.append(here)
+
+
+def _without_straight(loop: list[tuple[int, int]]) -> list[tuple[int, int]]:
+    kept: list[tuple[int, int]] = []
+    for before, here, after in zip(loop[-1:] + loop[:-1], loop, loop[1:] + loop[:1], strict=True):
+        if (here[0] - before[0]) * (after[1] - here[1]) != (here[1] - before[1]) * (after[0] - here[0]):
+            kept.append(here)
+    return kept
+
+
+def signed_area(polygon: Array) -> float:
+    """Area in square meters, positive when counter-clockwise."""
+    x, y = polygon[:, 0], polygon[:, 1]
+    return float(0.5 * (x * np.roll(y, -1) - np.roll(x, -1) * y).sum())
+
+
+@dataclass(frozen=True, kw_only=True)
+class _MeasuredWall:
+    """One wall of the traced polygon: the axis it lies ``across``, its offset there, and how well it was seen."""
+
+    across: int
+    offset_m: float
+    offset_std_m: float
+    sigma_m: float
+    support: float
+    gap_m: float
+    gap_center: tuple[float, float]
+
+
+def _refine(
+    polygon: Array, x_facing: Facets, y_facing: Facets, settings: ArrangementSettings
+) -> list[_MeasuredWall]:
+    """Put each wall at the mean of the returns along it."""
+    return [
+        _measure(start, end, (x_facing, y_facing), settings)
+        for start, end in zip(polygon, np.roll(polygon, -1, axis=0), strict=True)
+    ]
+
+
+def _measure(start: Array, end: Array, facets_by_axis: tuple[Facets, Facets], settings: ArrangementSettings) -> _MeasuredWall:
+    across = 0 if abs(start[0] - end[0]) < abs(start[1] - end[1]) else 1
+    nominal = float(start[across])
+    low, high = sorted((float(start[1 - across]), float(end[1 - across])))
+    clearance = min(_CORNER_CLEARANCE_M, 0.3 * (high - low))
+    low, high = low + clearance, high - clearance
+    facets = facets_by_axis[across].near(nominal, 1.5 * settings.gate_m).between(low, high)
+    seen = facets.seen(low, high)
+    first, count = longest_gap(seen)
+    bin_m = (high - low) / len(seen)
+    gap_station = low + (first + count / 2.0) * bin_m
+    offset_m, sigma_m = _center(facets.offset_m, nominal, settings.gate_m)
+    return _MeasuredWall(
+        across=across,
+        offset_m=offset_m,
+        offset_std_m=sigma_m / float(np.sqrt(max(len(facets.offset_m), 1))),
+        sigma_m=sigma_m,
+        support=float(seen.mean()),
+        gap_m=count * bin_m,
+        gap_center=(nominal, gap_station) if across == 0 else (gap_station, nominal),
+    )
+
+
+def _intersections(polygon: Array, walls: list[_MeasuredWall]) -> Array:
+    """Corners of the polygon where its refined walls meet."""
+    refined = polygon.copy()
+    for k, wall in enumerate(walls):
+        refined[k, wall.across] = wall.offset_m
+        refined[(k + 1) % len(polygon), wall.across] = wall.offset_m
+    return refined
+
+
+def _center(offsets: Array, nominal: float, gate_m: float) -> tuple[float, float]:
+    """Mean and spread of the offsets about their median, outliers left out."""
+    if len(offsets) < 5:
+        return nominal, gate_m
+    center = float(np.median(offsets))
+    near = offsets[np.abs(offsets - center) < gate_m]
+    return float(near.mean()), float(near.std())

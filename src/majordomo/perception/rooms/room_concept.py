@@ -1,0 +1,210 @@
+"""The room concept agent (Concepts, section 3.5.1): from "no room explains what I see" to a room that stands."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+
+import numpy as np
+from numpy.typing import NDArray
+
+from majordomo.perception.crossing import door_being_crossed, given_up, uncrossed
+from majordomo.perception.lifecycle import LifeCycle, Verdict
+from majordomo.perception.localization.landmarks import room_model
+from majordomo.perception.localization.robot_pose import RobotPose, robot_pose_at
+from majordomo.perception.rooms.insertion import insert_room, propose_visit, withdraw
+from majordomo.perception.rooms.slice import OutlineSlicer
+from majordomo.perception.rooms.survey import Survey, SurveySettings
+from majordomo.perception.sensing import SensorBuffer, scan_points_base
+from majordomo.scene_graph.edges import HasIntentionEdge, IntentionStatus
+from majordomo.scene_graph.identifiers import next_id
+from majordomo.scene_graph.memory import WorkingMemory
+from majordomo.scene_graph.nodes import ROBOT_ID, RoomNode, RoomStatus
+from majordomo.scene_graph.snapshot import Snapshot
+
+Array = NDArray[np.float64]
+
+logger = logging.getLogger(__name__)
+
+OUTDOORS = "nothing behind it looks like a room"
+UNMEASURABLE = "the room behind it could not be measured"
+_ATTEMPTS = 8
+_LOOK_S = 1.5
+_WELL_INSIDE_M = 0.35
+
+
+class RoomConcept:
+    """Agent that measures a room where none explains the scan, and puts it into the graph."""
+
+    name = "room_concept"
+
+    def __init__(
+        self,
+        memory: WorkingMemory,
+        buffer: SensorBuffer,
+        *,
+        settings: SurveySettings | None = None,
+        period_s: float = 0.1,
+    ) -> None:
+        self.period_s = period_s
+        self._memory = memory
+        self._buffer = buffer
+        self._settings = settings or SurveySettings()
+        self._slicer = OutlineSlicer()
+        self._survey = Survey(self._settings)
+        self._scan_stamp_s = -np.inf
+        self._stamp_s = 0.0
+        self._arrived_s: dict[float, float] = {}
+        self._life = LifeCycle(
+            "room",
+            explain=self._explain,
+            initialize=self._initialize,
+            maintain=self._maintain,
+            affordances=self._affordances,
+        )
+
+    async def step(self, stamp_s: float) -> None:
+        """Take in the newest scan, fit when enough is new, and live one tick."""
+        self._stamp_s = stamp_s
+        self._observe(self._memory.snapshot())
+        if _room_needed(self._memory.snapshot()) and self._survey.due(stamp_s):
+            await asyncio.to_thread(self._survey.solve, stamp_s)
+        self._life.tick()
+
+    def _observe(self, snapshot: Snapshot) -> None:
+        """Collect a view when the robot stands in no known room: before the first, or beyond the walls of the current."""
+        scan = self._buffer.scan
+        if scan is None or scan.stamp_s <= self._scan_stamp_s:
+            return
+        self._scan_stamp_s = scan.stamp_s
+        pose = robot_pose_at(snapshot, self._buffer, scan.stamp_s)
+        if pose is None:
+            return
+        if self._survey.started and self._survey.parent != pose.parent:
+            self._survey = Survey(self._settings)
+        model = room_model(snapshot, pose.parent)
+        if model is None or not model.contains(pose.T_parent_base.position_m):
+            self._survey.add(self._slicer.cut(scan), pose)
+        elif self._survey.started and model.depth_m(pose.T_parent_base.position_m) > _WELL_INSIDE_M:
+            self._abandon(snapshot)
+
+    # The four stages of the life cycle.
+
+    def _explain(self) -> Verdict:
+        return Verdict.NO if _room_needed(self._memory.snapshot()) else Verdict.DONE
+
+    def _initialize(self) -> Verdict:
+        snapshot = self._memory.snapshot()
+        pose = robot_pose_at(snapshot, self._buffer, self._scan_stamp_s)
+        if pose is None or not self._survey.started:
+            return Verdict.BUSY
+        if self._survey.sufficient:
+            return self._conclude(snapshot, pose)
+        intention = own_intention(snapshot)
+        if intention is None:
+            return self._begin(snapshot, pose)
+        if intention.status in (IntentionStatus.DONE, IntentionStatus.FAILED):
+            return self._arrived(snapshot, pose, intention)
+        return Verdict.BUSY
+
+    def _maintain(self) -> Verdict:
+        """A room that stands is kept; what contradicts it is left to the survey of the next visit."""
+        return Verdict.DONE
+
+    def _affordances(self) -> Verdict:
+        """Withdraw a visit to a room that needs no measuring any more."""
+        snapshot = self._memory.snapshot()
+        intention = own_intention(snapshot)
+        if intention is not None and not _room_needed(snapshot):
+            self._abandon(snapshot)
+        return Verdict.DONE
+
+    # Steps of the initialization.
+
+    def _begin(self, snapshot: Snapshot, pose: RobotPose) -> Verdict:
+        """Propose to visit what looks like a room; give the door up when it leads outdoors."""
+        if self._survey.outdoors:
+            return self._give_up(snapshot, OUTDOORS)
+        return self._propose(snapshot, pose, next_id(snapshot, "room")) or Verdict.BUSY
+
+    def _arrived(self, snapshot: Snapshot, pose: RobotPose, intention: HasIntentionEdge) -> Verdict:
+        """At a vantage point, or unable to get there: take the room as it is now, or look from elsewhere."""
+        arrived_s = self._arrived_s.setdefault(intention.proposed_s, self._stamp_s)
+        if self._survey.closed:
+            return self._conclude(snapshot, pose)
+        if self._stamp_s < arrived_s + _LOOK_S:
+            return Verdict.BUSY
+        if len(self._survey.places) >= _ATTEMPTS:
+            return self._conclude(snapshot, pose)
+        return self._propose(snapshot, pose, intention.target) or self._conclude(snapshot, pose)
+
+    def _propose(self, snapshot: Snapshot, pose: RobotPose, room_id: str) -> Verdict | None:
+        place = self._survey.next_place(self._obstacles_base(), pose)
+        if place is None:
+            return None
+        with self._memory.edit(self.name, self._stamp_s) as tx:
+            propose_visit(tx, room_id, parent=pose.parent, T_parent_place=pose.T_parent_base @ place, stamp_s=self._stamp_s)
+        logger.info("looks like a room; going to measure it", extra={"room": room_id})
+        return Verdict.BUSY
+
+    def _conclude(self, snapshot: Snapshot, pose: RobotPose) -> Verdict:
+        """The room stands, as permanent when it is closed, else as partial; nothing at all gives the door up."""
+        room = self._survey.measured(pose)
+        if room is None:
+            return self._give_up(snapshot, OUTDOORS if self._survey.outdoors else UNMEASURABLE)
+        intention = own_intention(snapshot)
+        room_id = intention.target if intention else next_id(snapshot, "room")
+        status = RoomStatus.PERMANENT if self._survey.closed else RoomStatus.PARTIAL
+        height_m = self._slicer.ceiling_m or self._slicer.wall_top_m or 2.5
+        with self._memory.edit(self.name, self._stamp_s) as tx:
+            insert_room(tx, room, room_id, status=status, height_m=height_m, stamp_s=self._scan_stamp_s)
+        sides = np.ptp(room.polygon, axis=0)
+        logger.info(
+            "%s stands: %.2f m x %.2f m, %d walls, %s", room_id, sides[0], sides[1], len(room.polygon), status,
+            extra={"room": room_id, "views": len(self._survey.fit.views) if self._survey.fit else 0},
+        )
+        self._survey = Survey(self._settings)
+        return Verdict.DONE
+
+    def _give_up(self, snapshot: Snapshot, reason: str) -> Verdict:
+        door = door_being_crossed(snapshot)
+        if door is None:
+            return Verdict.BUSY
+        with self._memory.edit(self.name, self._stamp_s) as tx:
+            tx.put(given_up(door, reason))
+            withdraw(tx)
+        logger.info("gave up on %s: %s", door.id, reason, extra={"door": door.id})
+        self._survey = Survey(self._settings)
+        return Verdict.NO
+
+    def _abandon(self, snapshot: Snapshot) -> None:
+        """The robot is back in a known room: what was begun is forgotten, and the door may be crossed again."""
+        door = door_being_crossed(snapshot)
+        with self._memory.edit(self.name, self._stamp_s) as tx:
+            withdraw(tx)
+            if door is not None:
+                tx.put(uncrossed(door))
+        self._survey = Survey(self._settings)
+
+    def _obstacles_base(self) -> Array:
+        """(N, 2) returns at the height of the robot's body."""
+        if self._buffer.scan is None:
+            return np.empty((0, 2))
+        points = scan_points_base(self._buffer.scan)
+        return np.asarray(points[(points[:, 2] > 0.10) & (points[:, 2] < 1.7), :2])
+
+
+def own_intention(snapshot: Snapshot) -> HasIntentionEdge | None:
+    """The room concept's visit, if it has proposed one."""
+    return next((edge for edge in snapshot.intentions() if edge.agent == RoomConcept.name), None)
+
+
+def _room_needed(snapshot: Snapshot) -> bool:
+    """Whether the robot is where no room stands: at the very start, or behind a door that is being crossed."""
+    edge = snapshot.parent(ROBOT_ID)
+    if edge is None:
+        return False
+    room = snapshot.get(edge.source)
+    if not isinstance(room, RoomNode):
+        return True
+    return door_being_crossed(snapshot) is not None

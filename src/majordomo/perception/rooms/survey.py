@@ -1,0 +1,138 @@
+"""One attempt to measure a room: the views, the fits so far, whether they suffice, and where to look from next."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from majordomo.perception.localization.planar import Pose2
+from majordomo.perception.localization.robot_pose import RobotPose
+from majordomo.perception.rooms.instance import MeasuredRoom, measured_room
+from majordomo.perception.rooms.measurement import Fit, RoomMeasurement
+from majordomo.perception.rooms.slice import OutlineScan
+from majordomo.perception.rooms.vantage import next_vantage
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True)
+class SurveySettings:
+    """Priors and patience.
+
+    ``shortest_side_m``, ``longest_side_m``: of the bounding rectangle. ``views``: least number for a room. ``agree_m``:
+    two successive fits must agree this well. ``wall_std_m``: of every wall. ``coverage``: share of directions with walls
+    below which the robot stands outdoors. ``least_matched``: share of returns on the outline in a view
+    that may tie the room to where the robot came from; in a doorway about half of them are.
+    """
+
+    shortest_side_m: float = 0.9
+    longest_side_m: float = 45.0
+    views: int = 8
+    agree_m: float = 0.012
+    wall_std_m: float = 0.004
+    coverage: float = 0.6
+    least_matched: float = 0.3
+    solve_every_s: float = 0.5
+
+
+class Survey:
+    """Collects views of the room that the robot stands in and judges them.
+
+    Attributes:
+        fit: newest fit whose size is that of a room, in the frame of the first view.
+        places: vantage points proposed so far, same frame.
+    """
+
+    def __init__(self, settings: SurveySettings | None = None) -> None:
+        self.settings = settings or SurveySettings()
+        self.fit: Fit | None = None
+        self.places: list[Array] = []
+        self._previous: Fit | None = None
+        self._measurement = RoomMeasurement()
+        self._first: RobotPose | None = None
+        self._solved_s = -np.inf
+        self._solved_views = 0
+        self._added = 0
+        self._coverage: list[float] = []
+
+    @property
+    def started(self) -> bool:
+        return self._first is not None
+
+    @property
+    def parent(self) -> str | None:
+        """The frame in which the robot was when the survey began."""
+        return self._first.parent if self._first else None
+
+    def add(self, scan: OutlineScan, pose: RobotPose) -> None:
+        """Take in a view."""
+        self._first = self._first or pose
+        self._added += 1
+        self._coverage.append(scan.coverage)
+        self._measurement.add(scan, pose.T_odom_base, pose.T_parent_base)
+
+    def due(self, stamp_s: float) -> bool:
+        """Whether enough is new since the last fit."""
+        period_s = self.settings.solve_every_s * (1.0 + len(self._measurement.views) / 20.0)
+        return self._added >= 3 and self._added > self._solved_views and stamp_s >= self._solved_s + period_s
+
+    def solve(self, stamp_s: float) -> None:
+        """Fit all views (tens to hundreds of milliseconds)."""
+        self._solved_s, self._solved_views = stamp_s, self._added
+        fit = self._measurement.solve()
+        self._previous = self.fit
+        self.fit = fit if fit is not None and self._room_sized(fit) else None
+
+    def _room_sized(self, fit: Fit) -> bool:
+        polygon = Pose2(0.0, 0.0, -fit.outline.direction_rad).apply(fit.outline.polygon)
+        sides = np.ptp(polygon, axis=0)
+        return bool(sides.min() > self.settings.shortest_side_m and sides.max() < self.settings.longest_side_m)
+
+    @property
+    def closed(self) -> bool:
+        """Whether the newest fit has walls all around."""
+        return self.fit is not None and self.fit.outline.closed and self._added >= self.settings.views
+
+    @property
+    def sufficient(self) -> bool:
+        """Whether going on would not make the room better: closed, sharp, and the same as last time."""
+        if self.fit is None or self._previous is None or not self.closed:
+            return False
+        now, before = self.fit.outline.polygon, self._previous.outline.polygon
+        if now.shape != before.shape:
+            return False
+        change = np.linalg.norm(now[:, None] - before[None], axis=2).min(axis=1).max()
+        return bool(change < self.settings.agree_m and self.fit.outline.offset_std_m.max() < self.settings.wall_std_m)
+
+    @property
+    def outdoors(self) -> bool:
+        """Whether what is around looks like no room: too few walls within range in the last views."""
+        recent = self._coverage[-5:]
+        return not self.closed and len(recent) == 5 and max(recent) < self.settings.coverage
+
+    def next_place(self, obstacles_base: Array, pose: RobotPose) -> Pose2 | None:
+        """The next vantage point as a place in the robot's base frame; remembered as proposed."""
+        if self.fit is None:
+            return None
+        T_frame_base = self._now(self.fit, pose)
+        obstacles = T_frame_base.apply(obstacles_base)
+        place = next_vantage(self.fit.outline, obstacles, self.places, T_frame_base.position_m)
+        if place is None:
+            return None
+        self.places.append(place)
+        local = T_frame_base.inverse().apply(place)
+        return Pose2(float(local[0]), float(local[1]), 0.0)
+
+    def measured(self, pose: RobotPose) -> MeasuredRoom | None:
+        """The room in its own frame, with the robot at ``pose`` in it."""
+        if self.fit is None or self._first is None:
+            return None
+        T_view_base = self.fit.views[-1].T_odom_base.inverse() @ pose.T_odom_base
+        return measured_room(self.fit, self._first.covariance, T_view_base, least_matched=self.settings.least_matched)
+
+    @staticmethod
+    def _now(fit: Fit, pose: RobotPose) -> Pose2:
+        newest = fit.views[-1]
+        return newest.T_frame_base @ newest.T_odom_base.inverse() @ pose.T_odom_base

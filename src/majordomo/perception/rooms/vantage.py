@@ -1,0 +1,75 @@
+"""Where to look at a room from."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from majordomo.perception.localization.landmarks import distance_to_outline, inside
+from majordomo.perception.rooms.outline import Outline
+
+Array = NDArray[np.float64]
+
+_CLEARANCE_M = 0.45
+_STEP_BACK_M = 0.6
+_VISITED_M = 0.5
+
+
+def next_vantage(outline: Outline, obstacles: Array, visited: Sequence[Array], robot: Array) -> Array | None:
+    """A free place to measure from, frame of the outline, or ``None`` when all useful ones were visited.
+
+    Args:
+        outline: what is known so far.
+        obstacles: (N, 2) returns at the height of the robot's body.
+        visited: (2,) places that were tried.
+        robot: (2,) where the robot is.
+
+    With an open outline it is a place before an unseen stretch, longest first; else the middle of the room.
+    """
+    if outline.closed:
+        wishes = [_middle(outline.polygon)]
+    else:
+        wishes = [center + _STEP_BACK_M * normal for center, normal in outline.frontiers()]
+        wishes.append(_middle(outline.polygon))
+    for wish in wishes:
+        place = _clear_place(wish, outline.polygon, obstacles, robot)
+        if place is not None and all(np.linalg.norm(place - other) > _VISITED_M for other in visited):
+            return place
+    return None
+
+
+def _middle(polygon: Array) -> Array:
+    """Center of the bounding rectangle, or the inner point farthest from the walls where that is not well inside."""
+    low, high = polygon.min(axis=0), polygon.max(axis=0)
+    center = (low + high) / 2.0
+    if inside(polygon, center) and distance_to_outline(polygon, center) > 2.0 * _CLEARANCE_M:
+        return np.asarray(center)
+    grid = np.stack(np.meshgrid(*np.linspace(low, high, 15).T, indexing="ij"), axis=-1).reshape(-1, 2)
+    room = [point for point in grid if inside(polygon, point)]
+    return np.asarray(max(room, key=lambda point: distance_to_outline(polygon, point), default=center))
+
+
+def _clear_place(wish: Array, polygon: Array, obstacles: Array, robot: Array) -> Array | None:
+    """The place nearest to ``wish`` where the robot can stand; nearer to the robot first among equals."""
+    angles = np.arange(0.0, 2.0 * np.pi, np.pi / 6.0)
+    circle = np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    for radius_m in (0.0, 0.3, 0.6, 0.9, 1.3):
+        places = wish + radius_m * (circle if radius_m > 0.0 else np.zeros((1, 2)))
+        places = places[np.argsort(np.linalg.norm(places - robot, axis=1), kind="stable")]
+        for place in places:
+            if _stands(place, polygon, obstacles):
+                return np.asarray(place)
+    return None
+
+
+def _stands(place: Array, polygon: Array, obstacles: Array) -> bool:
+    if not inside(polygon, place) or distance_to_outline(polygon, place) < min(_CLEARANCE_M, 0.35 * _width(polygon)):
+        return False
+    return len(obstacles) == 0 or float(np.linalg.norm(obstacles - place, axis=1).min()) > _CLEARANCE_M - 0.05
+
+
+def _width(polygon: Array) -> float:
+    """Shortest wall: in a narrow room the robot cannot keep its distance."""
+    return float(np.linalg.norm(np.roll(polygon, -1, axis=0) - polygon, axis=1).min())

@@ -1,0 +1,166 @@
+"""The newest measurements of the robot, kept where every perception agent finds them.
+
+``Sensing`` is the only agent that talks to the sensor port. What a step of any other agent sees is therefore one
+consistent set of measurements, and a sensor that fails is marked in one place.
+"""
+
+from __future__ import annotations
+
+import logging
+from bisect import bisect_left
+from collections import deque
+from collections.abc import Awaitable, Callable
+from typing import TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from majordomo.perception.errors import OdometryUnavailable, SensorSilent
+from majordomo.perception.ports import JointState, LidarScan, Odometry, RgbdFrame, SensorPort
+from majordomo.scene_graph.se3 import SE3, wrap_angle
+
+logger = logging.getLogger(__name__)
+
+Measurement = TypeVar("Measurement")
+_EXTRAPOLATION_LIMIT_S = 0.5
+
+
+def ray_directions_base(scan: LidarScan) -> NDArray[np.float64]:
+    """(rings, azimuths, 3) unit vectors of all rays in the base frame; they start at ``scan.T_base_lidar``'s origin."""
+    cos_elevation = np.cos(scan.elevations_rad)[:, None]
+    directions_lidar = np.stack(
+        np.broadcast_arrays(
+            cos_elevation * np.cos(scan.azimuths_rad),
+            cos_elevation * np.sin(scan.azimuths_rad),
+            np.sin(scan.elevations_rad)[:, None],
+        ),
+        axis=-1,
+    )
+    return np.asarray(directions_lidar @ scan.T_base_lidar.rotation().T, dtype=np.float64)
+
+
+def scan_points_base(scan: LidarScan) -> NDArray[np.float64]:
+    """(N, 3) points of all rays that returned, base frame at ``scan.stamp_s``."""
+    returned = np.isfinite(scan.ranges_m)
+    directions = ray_directions_base(scan)[returned]
+    points = directions * scan.ranges_m[returned].astype(np.float64)[:, None] + scan.T_base_lidar.translation_m
+    return np.asarray(points, dtype=np.float64)
+
+
+class SensorBuffer:
+    """Newest measurement of each sensor, a short history of odometry, and which sensors are silent.
+
+    Attributes:
+        odometry: recent odometry, oldest first.
+        scan, frame, joints: newest of each, ``None`` until the first arrives.
+        silent: sensor name -> time in seconds since which it has been silent.
+    """
+
+    def __init__(self, port: SensorPort, *, history: int = 600) -> None:
+        self.port = port
+        self.odometry: deque[Odometry] = deque(maxlen=history)
+        self.scan: LidarScan | None = None
+        self.frame: RgbdFrame | None = None
+        self.joints: JointState | None = None
+        self.silent: dict[str, float] = {}
+
+    def add_odometry(self, sample: Odometry) -> None:
+        """Append ``sample`` unless its time has been recorded already."""
+        if not self.odometry or sample.stamp_s > self.odometry[-1].stamp_s:
+            self.odometry.append(sample)
+
+    def odometry_at(self, stamp_s: float) -> SE3:
+        """Pose of the base in the odometry frame at ``stamp_s``.
+
+        Interpolates linearly between samples and extrapolates with the newest velocity for at most half a second.
+
+        Raises:
+            OdometryUnavailable: no sample yet, or ``stamp_s`` lies outside the recorded span.
+        """
+        x_m, y_m, yaw_rad = self._planar_odometry_at(stamp_s)
+        return SE3.from_xyz_yaw(x_m, y_m, 0.0, yaw_rad)
+
+    def odometry_near(self, stamp_s: float) -> SE3:
+        """As ``odometry_at``, at the recorded time nearest to ``stamp_s``.
+
+        Raises:
+            OdometryUnavailable: no sample yet.
+        """
+        if not self.odometry:
+            raise OdometryUnavailable(stamp_s, None)
+        oldest_s, newest_s = self.odometry[0].stamp_s, self.odometry[-1].stamp_s
+        return self.odometry_at(min(max(stamp_s, oldest_s), newest_s))
+
+    def _planar_odometry_at(self, stamp_s: float) -> tuple[float, float, float]:
+        samples = self.odometry
+        if not samples:
+            raise OdometryUnavailable(stamp_s, None)
+        oldest, newest = samples[0], samples[-1]
+        if stamp_s < oldest.stamp_s - 1e-6 or stamp_s > newest.stamp_s + _EXTRAPOLATION_LIMIT_S:
+            raise OdometryUnavailable(stamp_s, (oldest.stamp_s, newest.stamp_s))
+        if stamp_s >= newest.stamp_s:
+            return _extrapolate(newest, stamp_s - newest.stamp_s)
+        index = max(1, bisect_left(samples, stamp_s, key=lambda sample: sample.stamp_s))
+        return _interpolate(samples[index - 1], samples[index], stamp_s)
+
+
+def _extrapolate(sample: Odometry, duration_s: float) -> tuple[float, float, float]:
+    """Drive on along a circle with the velocity of ``sample``."""
+    turned_rad = sample.angular_radps * duration_s
+    heading_rad = sample.yaw_rad + turned_rad / 2.0
+    driven_m = sample.linear_mps * duration_s
+    return (
+        sample.x_m + driven_m * float(np.cos(heading_rad)),
+        sample.y_m + driven_m * float(np.sin(heading_rad)),
+        sample.yaw_rad + turned_rad,
+    )
+
+
+def _interpolate(before: Odometry, after: Odometry, stamp_s: float) -> tuple[float, float, float]:
+    fraction = (stamp_s - before.stamp_s) / (after.stamp_s - before.stamp_s)
+    fraction = min(max(fraction, 0.0), 1.0)
+    return (
+        before.x_m + fraction * (after.x_m - before.x_m),
+        before.y_m + fraction * (after.y_m - before.y_m),
+        before.yaw_rad + fraction * float(wrap_angle(after.yaw_rad - before.yaw_rad)),
+    )
+
+
+class Sensing:
+    """Agent that fetches measurements: odometry, LiDAR and joints each step, the camera at its own period."""
+
+    name = "sensing"
+
+    def __init__(self, buffer: SensorBuffer, *, period_s: float = 0.1, camera_period_s: float | None = 0.2) -> None:
+        """``camera_period_s``: time between camera frames, ``None`` leaves the camera alone (``--no-camera``)."""
+        self.period_s = period_s
+        self._buffer = buffer
+        self._camera_period_s = camera_period_s
+        self._next_frame_s = -np.inf
+
+    async def step(self, stamp_s: float) -> None:
+        """Fetch what is due at ``stamp_s``."""
+        buffer, port = self._buffer, self._buffer.port
+        odometry = await self._fetch("odometry", port.odometry, stamp_s)
+        if odometry is not None:
+            buffer.add_odometry(odometry)
+        buffer.scan = await self._fetch("scan", port.scan, stamp_s) or buffer.scan
+        buffer.joints = await self._fetch("joints", port.joints, stamp_s) or buffer.joints
+        if self._camera_period_s is not None and stamp_s >= self._next_frame_s - 1e-6:
+            self._next_frame_s = stamp_s + self._camera_period_s
+            buffer.frame = await self._fetch("frame", port.frame, stamp_s) or buffer.frame
+
+    async def _fetch(
+        self, sensor: str, read: Callable[[], Awaitable[Measurement]], stamp_s: float
+    ) -> Measurement | None:
+        silent = self._buffer.silent
+        try:
+            measurement = await read()
+        except SensorSilent as problem:
+            if sensor not in silent:
+                logger.warning("%s", problem, extra={"sensor": sensor})
+            silent.setdefault(sensor, stamp_s)
+            return None
+        if silent.pop(sensor, None) is not None:
+            logger.info("sensor '%s' is back", sensor, extra={"sensor": sensor})
+        return measurement

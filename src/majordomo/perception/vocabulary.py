@@ -1,0 +1,120 @@
+"""What is known of a thing by its name alone: can it be grasped, does it carry other things, how large is it usually.
+
+Names come from whatever network is plugged in, so an unknown name is normal: it gets defaults from its measured size.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+from types import MappingProxyType
+
+from majordomo.perception.vocabulary_table import ROWS
+from majordomo.scene_graph.nodes import Point3
+
+GRIPPER_OPENING_M = 0.12
+_GRIPPER_MARGIN_M = 0.01
+_FURNITURE_FROM_M = 0.5
+
+
+@dataclass(frozen=True, kw_only=True)
+class Category:
+    """Prior knowledge of one kind of thing.
+
+    ``size_m``: usual extent, long side, short side, height. ``round``: rotationally symmetric about the vertical.
+    ``levels``: carries things below its top (shelf boards, a seat). ``floor``: stands on the floor. ``background``:
+    part of the building.
+    """
+
+    label: str
+    graspable: bool = False
+    support: bool = False
+    container: bool = False
+    furniture: bool = False
+    round: bool = False
+    levels: bool = False
+    floor: bool = False
+    background: bool = False
+    known: bool = True
+    size_m: Point3 = (0.0, 0.0, 0.0)
+    tags: tuple[str, ...] = ()
+
+
+def category_of(label: str, size_m: Point3 | None = None) -> Category:
+    """What is known of ``label``; an unknown one is judged by its measured ``size_m``.
+
+    A large unknown thing is taken for furniture that stands where it is, a small one for something to carry.
+    """
+    category = CATEGORIES.get(_normal(label))
+    return category if category is not None else _unknown(label, size_m)
+
+
+def fits_gripper(size_m: Point3, opening_m: float = GRIPPER_OPENING_M) -> bool:
+    """Whether the hand can close on the thing from above or from the side: one horizontal side or, lying flat, its
+    height.
+    """
+    return 0.0 < min(size_m[:2]) <= opening_m - _GRIPPER_MARGIN_M
+
+
+def is_graspable(label: str, size_m: Point3) -> bool:
+    """By name and by geometry."""
+    return category_of(label, size_m).graspable and fits_gripper(size_m)
+
+
+def carries_things(label: str, size_m: Point3, *, reachable_top_m: float = 1.25) -> bool:
+    """Whether things are put on or in it: a support, or a container that is open; not one whose top is out of sight."""
+    category = category_of(label, size_m)
+    open_container = category.container and "appliance" not in category.tags
+    return (category.support and (category.levels or size_m[2] <= reachable_top_m)) or open_container
+
+
+def is_person(label: str) -> bool:
+    """Whether ``label`` names a human being."""
+    return "person" in category_of(label).tags
+
+
+@lru_cache(maxsize=4096)
+def _normal(label: str) -> str:
+    return re.sub(r"[\s_]+", " ", label.strip().lower())
+
+
+def _unknown(label: str, size_m: Point3 | None) -> Category:
+    if size_m is None or max(size_m) <= 0.0:
+        return Category(label=label, graspable=True, known=False)
+    furniture = max(size_m) > _FURNITURE_FROM_M
+    return Category(
+        label=label,
+        graspable=not furniture,
+        support=furniture and min(size_m[:2]) > GRIPPER_OPENING_M,
+        furniture=furniture,
+        known=False,
+        size_m=size_m,
+    )
+
+
+def _parse(rows: str) -> Mapping[str, Category]:
+    categories: dict[str, Category] = {}
+    for row in filter(None, rows.splitlines()):
+        names, flags, size, tags = (cell.strip() for cell in row.split("|"))
+        x_m, y_m, z_m = (float(number) for number in size.split())
+        for name in names.split(", "):
+            categories[name] = Category(
+                label=name,
+                graspable="g" in flags,
+                support="s" in flags,
+                container="c" in flags,
+                furniture="f" in flags,
+                round="r" in flags,
+                levels="l" in flags,
+                floor="f" in flags and "w" not in flags,
+                background="x" in flags,
+                size_m=(x_m, y_m, z_m),
+                tags=tuple(tags.split()),
+            )
+    return MappingProxyType(categories)
+
+
+CATEGORIES: Mapping[str, Category] = _parse(ROWS)
+"""Every known name, other names of the same thing included."""

@@ -1,0 +1,196 @@
+"""House, robot and sensors in one physics client, and simulated time (design, section 5)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pybullet as p
+
+from majordomo.perception.ports import JointState, LidarScan, Odometry, RgbdFrame
+from majordomo.scene_graph.se3 import SE3
+from majordomo.simulation.camera import INTRINSICS, Picture, T_base_camera, render
+from majordomo.simulation.child import STEP_S
+from majordomo.simulation.house import House, parse_disturbance
+from majordomo.simulation.lidar import AZIMUTHS_RAD, ELEVATIONS_RAD, scan_ranges
+from majordomo.simulation.messages import Segment
+from majordomo.simulation.noise import NoisyOdometry, noisy_depth, noisy_ranges
+from majordomo.simulation.robot import RobotBody, T_base_gripper
+from majordomo.simulation.segmentation import segments
+from majordomo.simulation.world import World
+from majordomo.skills.ports import ArmTarget, BodyState
+
+HARMLESS = frozenset({"floor"})
+
+
+class Engine:
+    """One simulated house with its robot. Not thread-safe; ``stop_latched`` is asked before every physics step."""
+
+    def __init__(self, house: House, seed: int, stop_latched: Callable[[], bool]) -> None:
+        self._house, self._stop_latched = house, stop_latched
+        self._client = p.connect(p.DIRECT)
+        p.setPhysicsEngineParameter(
+            fixedTimeStep=STEP_S, numSolverIterations=60, deterministicOverlappingPairs=1, physicsClientId=self._client
+        )
+        world_seed, *sensor_seeds = np.random.SeedSequence(seed).spawn(4)
+        self._world = World(house, client=self._client, rng=np.random.default_rng(world_seed))
+        self._world.move_robot = self._carry
+        self._robot = RobotBody(self._client, house.robot.pose)
+        odometry, lidar, depth = (np.random.default_rng(child) for child in sensor_seeds)
+        self._odometry = NoisyOdometry(house.noise, odometry, self._robot.pose)
+        self._lidar_rng, self._depth_rng = lidar, depth
+        self._steps = 0
+        self._collisions = 0
+        self._colliding: frozenset[int] = frozenset()
+        self._last_picture: tuple[float, Picture] | None = None
+
+    @property
+    def now_s(self) -> float:
+        """Simulated time in seconds."""
+        return self._steps * STEP_S
+
+    def advance(self, duration_s: float) -> float:
+        """Step physics for ``duration_s``; the new time."""
+        for _ in range(round(duration_s / STEP_S)):
+            self._robot.advance(STEP_S, stopped=self._stop_latched())
+            self._world.advance(STEP_S, self.now_s)
+            p.stepSimulation(physicsClientId=self._client)
+            self._steps += 1
+            if self._steps % 12 == 0:
+                self._odometry.advance(self._robot.pose)
+                self._count_collisions()
+        return self.now_s
+
+    def odometry(self) -> Odometry:
+        """Dead reckoning as the wheels tell it."""
+        self._odometry.advance(self._robot.pose)
+        x_m, y_m, yaw_rad = self._odometry.pose
+        linear, angular = self._robot.velocity
+        return Odometry(stamp_s=self.now_s, x_m=x_m, y_m=y_m, yaw_rad=yaw_rad, linear_mps=linear, angular_radps=angular)
+
+    def scan(self) -> LidarScan:
+        """One LiDAR revolution, taken at this instant."""
+        x_m, y_m, yaw_rad = self._robot.pose
+        height_m = self._robot.geometry.lidar_height_m
+        ranges_m = scan_ranges(self._world.solids.now(self._gripped()), (x_m, y_m, height_m), yaw_rad)
+        return LidarScan(
+            stamp_s=self.now_s,
+            ranges_m=noisy_ranges(ranges_m, self._house.noise.lidar_range_std_m, self._lidar_rng),
+            elevations_rad=ELEVATIONS_RAD,
+            azimuths_rad=AZIMUTHS_RAD,
+            T_base_lidar=SE3.from_xyz_yaw(0.0, 0.0, height_m, 0.0),
+        )
+
+    def frame(self) -> RgbdFrame:
+        """Color and depth as the camera sees now."""
+        T_camera = T_base_camera(self._robot.joints(), self._robot.geometry)
+        x_m, y_m, yaw_rad = self._robot.pose
+        picture = render(SE3.from_xyz_yaw(x_m, y_m, 0.0, yaw_rad) @ T_camera, self._client)
+        self._last_picture = (self.now_s, picture)
+        depth_m = noisy_depth(picture.depth_m, self._house.noise.depth_std_m_per_m2, self._depth_rng)
+        return RgbdFrame(
+            stamp_s=self.now_s, rgb=picture.rgb, depth_m=depth_m, intrinsics=INTRINSICS, T_base_camera=T_camera
+        )
+
+    def segmentation(self, stamp_s: float) -> tuple[Segment, ...]:
+        """Who is where in the frame of ``stamp_s``; for the stand-in only. Empty unless that frame is the last one."""
+        if self._last_picture is None or self._last_picture[0] != stamp_s:
+            return ()
+        return segments(self._last_picture[1], self._world)
+
+    def joints(self) -> JointState:
+        """Arm, gripper and camera as measured."""
+        joints, touched = self._robot.joints(), self._finger_contacts()
+        return JointState(
+            stamp_s=self.now_s,
+            lift_m=joints.lift_m,
+            extension_m=joints.extension_m,
+            wrist_pitch_rad=joints.wrist_pitch_rad,
+            wrist_roll_rad=joints.wrist_roll_rad,
+            gripper_opening_m=joints.gripper_opening_m,
+            pan_rad=joints.pan_rad,
+            tilt_rad=joints.tilt_rad,
+            finger_contacts=touched,
+            T_base_gripper=T_base_gripper(joints, self._robot.geometry),
+        )
+
+    def body_state(self) -> BodyState:
+        """The same for skills."""
+        joints = self.joints()
+        linear, angular = self._robot.velocity
+        return BodyState(
+            stamp_s=joints.stamp_s,
+            linear_mps=linear,
+            angular_radps=angular,
+            arm=ArmTarget(
+                lift_m=joints.lift_m,
+                extension_m=joints.extension_m,
+                wrist_pitch_rad=joints.wrist_pitch_rad,
+                wrist_roll_rad=joints.wrist_roll_rad,
+            ),
+            gripper_opening_m=joints.gripper_opening_m,
+            finger_contacts=joints.finger_contacts,
+            pan_rad=joints.pan_rad,
+            tilt_rad=joints.tilt_rad,
+            bumped=bool(self._colliding),
+            stopped=self._stop_latched(),
+            T_base_gripper=joints.T_base_gripper,
+        )
+
+    def drive(self, linear_mps: float, angular_radps: float) -> None:
+        """Set the base's velocity."""
+        self._robot.command_drive(linear_mps, angular_radps)
+
+    def look(self, pan_rad: float, tilt_rad: float) -> None:
+        """Aim the camera."""
+        self._robot.command_look(pan_rad, tilt_rad)
+
+    def move_arm(self, target: ArmTarget) -> None:
+        """Move the arm."""
+        self._robot.command_arm(target)
+
+    def grip(self, opening_m: float, effort_n: float) -> None:
+        """Move the fingers."""
+        self._robot.command_grip(opening_m, effort_n)
+
+    def truth(self) -> dict[str, Any]:
+        """The simulator's truth, for scoring."""
+        held = [name for body in sorted(self._gripped()) if (name := self._world.id_of(body)) is not None]
+        return self._world.truth(
+            stamp_s=self.now_s,
+            robot_pose=self._robot.pose,
+            holding=held[0] if held else None,
+            collisions=self._collisions,
+        )
+
+    def disturb(self, event: dict[str, Any]) -> None:
+        """Carry out one disturbance at once."""
+        self._world.apply(parse_disturbance(event))
+
+    def close(self) -> None:
+        """Release the physics client."""
+        p.disconnect(physicsClientId=self._client)
+
+    def _carry(self, pose: tuple[float, float, float]) -> None:
+        self._robot.set_pose(pose)
+        self._odometry.jump(pose)
+
+    def _finger_contacts(self) -> tuple[bool, bool]:
+        left, right = self._robot.finger_bodies()
+        return bool(left), bool(right)
+
+    def _gripped(self) -> set[int]:
+        left, right = self._robot.finger_bodies()
+        return left & right
+
+    def _count_collisions(self) -> None:
+        """Count each new contact of the robot with anything but the floor and what its fingers touch."""
+        touching = set()
+        for body, link in self._robot.bodies_touched():
+            carried = body in self._gripped()
+            if carried or self._robot.is_finger(link) or self._world.category_of(body) in HARMLESS:
+                continue
+            touching.add(body)
+        self._collisions += len(touching - self._colliding)
+        self._colliding = frozenset(touching)

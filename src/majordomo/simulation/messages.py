@@ -1,0 +1,52 @@
+"""What the service and the simulator's process say to each other."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+class Mode(StrEnum):
+    """``lockstep``: time moves only when told. ``real``: the simulator follows the wall clock."""
+
+    LOCKSTEP = "lockstep"
+    REAL = "real"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Start:
+    """How the child begins. ``house``: its JSON text. ``speed``: simulated seconds per wall second in real mode."""
+
+    house: str
+    seed: int
+    mode: Mode
+    speed: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Request:
+    """Call ``method`` of the engine."""
+
+    method: str
+    args: tuple[Any, ...] = ()
+
+
+@dataclass(frozen=True, kw_only=True)
+class Reply:
+    """What came of it. ``problem`` is set, and ``value`` is not, when the engine refused."""
+
+    value: Any = None
+    problem: str = ""
+    now_s: float = 0.0
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Segment:
+    """One body in an image: its category and mask (H, W) bool. For the stand-in model only."""
+
+    category: str
+    mask: NDArray[np.bool_]

@@ -1,0 +1,132 @@
+"""Choosing where to stand to reach something, and driving there."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import pi
+
+import numpy as np
+from py_trees.common import Status
+
+from majordomo.scene_graph.nodes import ObjectNode, ObjectState
+from majordomo.scene_graph.snapshot import Snapshot
+from majordomo.skills.action import RobotContext
+from majordomo.skills.actions.driving import DriveTo
+from majordomo.skills.anchor import AnchorSource, resolved
+from majordomo.skills.failures import FailureCode
+from majordomo.skills.geometry import Point2, Points
+from majordomo.skills.navigation.driver import DriverConfig
+from majordomo.skills.navigation.plan import Goal
+from majordomo.skills.navigation.pose import robot_frame
+from majordomo.skills.navigation.route import Routes
+
+RADII_M = (0.40, 0.45, 0.50, 0.55, 0.60, 0.65, 0.70)
+BEST_RADIUS_M = 0.52
+ANGLES = 36
+RADIUS_WEIGHT = 1.5
+CLEARANCE_WEIGHT = 1.0
+IN_THE_WAY_COST_M = 3.0
+ARM_HALF_WIDTH_M = 0.09
+TRIES = 3
+
+
+class ApproachForReach(DriveTo):
+    """Drives to a place from which the arm, reaching straight ahead, gets to a point; tries a few before UNREACHABLE.
+
+    Places lie on rings around the point. Their cost is the way there, the distance from the best reach, little room
+    around the base, and things that the arm would have to pass over.
+    """
+
+    def __init__(self, context: RobotContext, target: str, where: AnchorSource) -> None:
+        super().__init__(context, target, self._goals_around, config=DriverConfig(position_m=0.04))
+        self.name = f"approach {target}"
+        self._where = where
+        self._failed: list[Point2] = []
+
+    def begin(self) -> None:
+        """No place has failed yet."""
+        self._failed = []
+        super().begin()
+
+    def step(self) -> Status:
+        """Stay when the arm already reaches from here, else drive on."""
+        if self.context.stamp_s == self.started_s and self._reaches_from_here():
+            return Status.SUCCESS
+        return super().step()
+
+    def blocked(self, obstacle: Point2, *, no_way: bool) -> Status:
+        """Try another place unless there was none or enough were tried."""
+        goal = self._driver.goal
+        if not no_way and goal is not None and len(self._failed) + 1 < TRIES:
+            self._failed.append(goal.point)
+            self._driver = self.new_driver()
+            return Status.RUNNING
+        if not no_way:
+            return super().blocked(obstacle, no_way=no_way)
+        x_m, y_m, _ = resolved(self._where).position(self.context.snapshot, robot_frame(self.context.snapshot))
+        message = f"there is no free place from which the arm reaches {self.target}."
+        where = f"point ({x_m:.2f}, {y_m:.2f}) m, {len(RADII_M) * ANGLES} places tried"
+        return self.fail(FailureCode.UNREACHABLE, message, (self.target,), where)
+
+    def _goals_around(self, routes: Routes | None) -> list[Goal]:
+        snapshot = self.context.snapshot
+        frame = robot_frame(snapshot)
+        target = resolved(self._where).position(snapshot, frame)
+        points, radii = ring(target[:2])
+        if routes is None:
+            return [Goal(point=(float(target[0]), float(target[1])))]
+        costs = RADIUS_WEIGHT * np.abs(radii - BEST_RADIUS_M)
+        costs += CLEARANCE_WEIGHT * np.clip(0.6 - routes.grid.clearance_at(points), 0.0, None)
+        costs += IN_THE_WAY_COST_M * _arm_passes_over(snapshot, frame, target, points, self._spared())
+        for failed in self._failed:
+            costs += np.where(np.hypot(*(points - failed).T) < 0.25, np.inf, 0.0)
+        yaws = np.arctan2(target[1] - points[:, 1], target[0] - points[:, 0])
+        return [
+            Goal(point=(float(x), float(y)), yaw_rad=float(yaw), cost_m=float(cost))
+            for (x, y), yaw, cost in zip(points, yaws, costs, strict=True)
+            if np.isfinite(cost)
+        ]
+
+    def _reaches_from_here(self) -> bool:
+        anchor = resolved(self._where)
+        if anchor.node_id not in self.context.snapshot:
+            return False
+        x_m, y_m, _ = anchor.in_base(self.context)
+        return RADII_M[0] < float(np.hypot(x_m, y_m)) < RADII_M[-2]
+
+    def _spared(self) -> set[str]:
+        """Nodes that are no obstacle to the arm: the target, what it stands on, and what is held."""
+        snapshot = self.context.snapshot
+        spared = {self.target, resolved(self._where).node_id}
+        support = snapshot.support_of(self.target) if isinstance(snapshot.get(self.target), ObjectNode) else None
+        robot = snapshot.robot
+        return spared | {node for node in (support, robot.holding if robot is not None else None) if node is not None}
+
+
+def ring(center: Points, radii_m: Sequence[float] = RADII_M, angles: int = ANGLES) -> tuple[Points, Points]:
+    """Points (N, 2) on rings around ``center`` (2,), and their radii (N,)."""
+    radius, angle = np.meshgrid(np.array(radii_m), np.arange(angles) * 2 * pi / angles, indexing="ij")
+    offsets = np.stack([radius.ravel() * np.cos(angle.ravel()), radius.ravel() * np.sin(angle.ravel())], axis=1)
+    return center + offsets, radius.ravel()
+
+
+def _arm_passes_over(snapshot: Snapshot, frame: str, target: Points, points: Points, spared: set[str]) -> Points:
+    """For each place, how many things as high as the hand lie under the straight line to the target, (N,)."""
+    count = np.zeros(len(points))
+    for node in snapshot.of_type(ObjectNode):
+        if node.id in spared or node.state is not ObjectState.PRESENT or snapshot.room_of(node.id) != frame:
+            continue
+        x_m, y_m, z_m = snapshot.position(node.id, frame)
+        reach_m = float(np.hypot(x_m - target[0], y_m - target[1]))
+        if z_m + node.size_m[2] / 2 < target[2] + 0.02 or reach_m > max(RADII_M) + max(node.size_m[:2]):
+            continue
+        radius_m = min(node.size_m[:2]) / 2 + ARM_HALF_WIDTH_M
+        count += _distance_to_lines_m(np.array([x_m, y_m]), target[:2], points) < radius_m
+    return count
+
+
+def _distance_to_lines_m(point: Points, start: Points, ends: Points) -> Points:
+    """Distance (N,) from one ``point`` (2,) to the segments from ``start`` (2,) to each of ``ends`` (N, 2)."""
+    along, offset = ends - start, point - start
+    t = np.clip(along @ offset / np.maximum((along**2).sum(axis=1), 1e-9), 0.0, 1.0)
+    return np.asarray(np.hypot(*(offset - t[:, None] * along).T))

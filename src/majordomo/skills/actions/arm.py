@@ -1,0 +1,196 @@
+"""Moving the arm through a few targets, and the poses it is carried in."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from enum import Enum, auto
+
+from py_trees.common import Status
+
+from majordomo.skills.action import Action, RobotContext
+from majordomo.skills.failures import FailureCode
+from majordomo.skills.grasping import DOWN_RAD
+from majordomo.skills.ports import ArmTarget, BodyState
+
+STOWED = ArmTarget(lift_m=0.75, extension_m=0.0, wrist_pitch_rad=DOWN_RAD, wrist_roll_rad=0.0)
+CARRY_LIFT_M = 0.95
+CARRY_EXTENSION_M = 0.05
+LIFT_M = 0.12
+LENGTH_TOLERANCE_M = 0.008
+ANGLE_TOLERANCE_RAD = 0.05
+STALL_S = 0.8
+EMPTY_OPENING_M = 0.004
+SLIP_S = 0.3
+
+
+class ArmProgress(Enum):
+    """How the arm's motion goes."""
+
+    MOVING = auto()
+    THERE = auto()
+    STALLED = auto()
+
+
+class ArmAction(Action):
+    """An action that moves the arm through targets in order; the base stands still."""
+
+    timeout_s = 40.0
+    holds_arm = True
+
+    def __init__(self, name: str, context: RobotContext) -> None:
+        super().__init__(name, context)
+        self._targets: list[ArmTarget] = []
+        self._last: ArmTarget | None = None
+        self._moved_s = 0.0
+        self._lost_s: float | None = None
+
+    def follow(self, targets: Sequence[ArmTarget]) -> None:
+        """Start through ``targets``."""
+        self._targets, self._last, self._moved_s = list(targets), None, self.context.stamp_s
+
+    def move_arm(self) -> ArmProgress:
+        """Command the next target; THERE once the last is reached, STALLED when the arm stopped short of one."""
+        self.context.commands.drive = (0.0, 0.0)
+        if not self._targets:
+            return ArmProgress.THERE
+        self.context.commands.arm = self._targets[0]
+        arm = self.context.body.arm
+        if _reached(arm, self._targets[0]):
+            self._targets.pop(0)
+            self._moved_s = self.context.stamp_s
+            return ArmProgress.MOVING if self._targets else ArmProgress.THERE
+        if self._last is None or _moved(arm, self._last):
+            self._last, self._moved_s = arm, self.context.stamp_s
+        stalled = self.context.stamp_s - self._moved_s > STALL_S
+        return ArmProgress.STALLED if stalled else ArmProgress.MOVING
+
+    def slipped(self) -> bool:
+        """Whether the fingers have been without contact for a moment."""
+        if is_firm(self.context.body):
+            self._lost_s = None
+        elif self._lost_s is None:
+            self._lost_s = self.context.stamp_s
+        return self._lost_s is not None and self.context.stamp_s - self._lost_s > SLIP_S
+
+    def stalled(self, what: str) -> Status:
+        """Fail because the arm stopped short."""
+        arm = self.context.body.arm
+        wanted = self._targets[0] if self._targets else arm
+        lift, extension = (
+            f"{arm.lift_m:.3f} of {wanted.lift_m:.3f}",
+            f"{arm.extension_m:.3f} of {wanted.extension_m:.3f}",
+        )
+        seen = f"lift {lift} m, extension {extension} m"
+        return self.fail(FailureCode.UNREACHABLE, f"the arm was stopped on its way to {what}.", (), seen)
+
+
+class Stow(ArmAction):
+    """Brings the arm into the pose it travels in: stowed when empty, upright over the base when it holds something."""
+
+    def __init__(self, context: RobotContext) -> None:
+        super().__init__("stow the arm", context)
+
+    def begin(self) -> None:
+        """Off the table first, so that nothing is swept over it, then back, then to height."""
+        arm = self.context.body.arm
+        self.follow(way_back(self.context, carry_pose(arm) if is_holding(self.context) else STOWED))
+
+    def step(self) -> Status:
+        """Move on; a stall is no reason not to drive when the arm is within the base's outline."""
+        progress = self.move_arm()
+        if progress is ArmProgress.STALLED:
+            return Status.SUCCESS if self.context.body.arm.extension_m < 0.1 else self.stalled("its travel pose")
+        return Status.SUCCESS if progress is ArmProgress.THERE else Status.RUNNING
+
+
+class Lift(ArmAction):
+    """Raises what the fingers hold straight up; fails with SLIPPED when they lose it."""
+
+    def __init__(self, context: RobotContext, object_id: str) -> None:
+        super().__init__(f"lift {object_id}", context)
+        self.object_id = object_id
+
+    def begin(self) -> None:
+        """As high as the carry pose, at least 12 cm."""
+        arm, (_, top_m) = self.context.body.arm, self.context.limits.lift_m
+        self.follow([replace(arm, lift_m=min(max(arm.lift_m + LIFT_M, CARRY_LIFT_M), top_m))])
+
+    def step(self) -> Status:
+        """Raise, watching the fingers."""
+        progress = self.move_arm()
+        if self.slipped():
+            self.context.grip = None
+            return self.fail(FailureCode.SLIPPED, f"{self.object_id} slipped out of the fingers.", (self.object_id,))
+        return Status.RUNNING if progress is ArmProgress.MOVING else Status.SUCCESS
+
+
+class Retract(ArmAction):
+    """Draws the arm back over the base; with something held, ``watch`` it and fail with SLIPPED when it is lost."""
+
+    def __init__(self, context: RobotContext, *, watch: str | None = None) -> None:
+        super().__init__("retract the arm", context)
+        self._watch = watch
+
+    def begin(self) -> None:
+        """What is held was lifted already; an empty hand first leaves what it let go."""
+        arm = self.context.body.arm
+        if self._watch is None:
+            self.follow(way_back(self.context, STOWED))
+        else:
+            travel = carry_pose(arm)
+            self.follow([replace(arm, extension_m=travel.extension_m), travel])
+
+    def step(self) -> Status:
+        """Draw back."""
+        progress = self.move_arm()
+        if self._watch is not None and self.slipped():
+            self.context.grip = None
+            return self.fail(FailureCode.SLIPPED, f"{self._watch} slipped out of the fingers.", (self._watch,))
+        if progress is ArmProgress.STALLED:
+            return self.stalled("its travel pose")
+        return Status.SUCCESS if progress is ArmProgress.THERE else Status.RUNNING
+
+
+def way_back(context: RobotContext, travel: ArmTarget) -> list[ArmTarget]:
+    """Targets from wherever the arm is to a travel pose: a hand that points down rises first, a level one just draws
+    back.
+    """
+    arm, (_, top_m) = context.body.arm, context.limits.lift_m
+    back = replace(arm, extension_m=travel.extension_m)
+    if arm.extension_m < CARRY_EXTENSION_M + LENGTH_TOLERANCE_M or arm.wrist_pitch_rad > DOWN_RAD / 2:
+        return [back, travel]
+    up_m = min(arm.lift_m + LIFT_M, top_m)
+    return [replace(arm, lift_m=up_m), replace(back, lift_m=up_m), travel]
+
+
+def carry_pose(arm: ArmTarget) -> ArmTarget:
+    """The travel pose for something held: retracted, high, the wrist as it is."""
+    extension_m = CARRY_EXTENSION_M if arm.wrist_pitch_rad < DOWN_RAD / 2 else 0.0
+    return replace(arm, extension_m=extension_m, lift_m=max(CARRY_LIFT_M, min(arm.lift_m, 1.1)))
+
+
+def is_holding(context: RobotContext) -> bool:
+    """Whether the hand holds something, by the grip just made or by the graph."""
+    robot = context.snapshot.robot
+    return context.grip is not None or (robot is not None and robot.holding is not None)
+
+
+def is_firm(body: BodyState) -> bool:
+    """Whether both fingers touch something that keeps them apart."""
+    return all(body.finger_contacts) and body.gripper_opening_m > EMPTY_OPENING_M
+
+
+def _reached(arm: ArmTarget, target: ArmTarget) -> bool:
+    return (
+        abs(arm.lift_m - target.lift_m) < LENGTH_TOLERANCE_M
+        and abs(arm.extension_m - target.extension_m) < LENGTH_TOLERANCE_M
+        and abs(arm.wrist_pitch_rad - target.wrist_pitch_rad) < ANGLE_TOLERANCE_RAD
+        and abs(arm.wrist_roll_rad - target.wrist_roll_rad) < ANGLE_TOLERANCE_RAD
+    )
+
+
+def _moved(arm: ArmTarget, last: ArmTarget) -> bool:
+    lengths = abs(arm.lift_m - last.lift_m) + abs(arm.extension_m - last.extension_m)
+    angles = abs(arm.wrist_pitch_rad - last.wrist_pitch_rad) + abs(arm.wrist_roll_rad - last.wrist_roll_rad)
+    return lengths > 0.004 or angles > 0.02

@@ -1,0 +1,206 @@
+"""Doors: stand in front of one, and drive straight through.
+
+A door's frame has its origin at the gap's center on the floor, y into the room it belongs to. Here the *axis* of a
+crossing has x in the direction of travel and y to the left, so that progress, offset and heading error are one pose.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import atan2, cos, hypot, pi
+
+import numpy as np
+from py_trees.common import Status
+
+from majordomo.scene_graph.edges import EdgeType
+from majordomo.scene_graph.nodes import PersonNode
+from majordomo.scene_graph.snapshot import Snapshot
+from majordomo.skills.action import Action, RobotContext
+from majordomo.skills.actions.driving import DriveTo
+from majordomo.skills.failures import FailureCode
+from majordomo.skills.geometry import Points, Pose2, wrap_rad
+from majordomo.skills.navigation.driver import SAFETY_MARGIN_M, Driver, DriverConfig, Progress
+from majordomo.skills.navigation.goals import at_poses
+from majordomo.skills.navigation.plan import GoalSource
+from majordomo.skills.navigation.pose import footprint_radius_m, in_base, look_around, planar_pose, robot_frame
+from majordomo.skills.navigation.pursuit import turn_rate
+from majordomo.skills.navigation.safety import admissible
+
+FRONT_M = 0.7
+BEYOND_M = 0.9
+WALL_M = 0.2
+PANEL_BIN_M = 0.05
+
+
+class ApproachDoor(DriveTo):
+    """Drives to the place in front of a door from which it is crossed, facing it."""
+
+    def __init__(self, context: RobotContext, door_id: str) -> None:
+        super().__init__(context, door_id, _in_front(context, door_id))
+        self.name = f"approach {door_id}"
+
+
+@dataclass(frozen=True, kw_only=True)
+class CrossingConfig:
+    """Speed in the gap, look-ahead along the axis, and patience."""
+
+    speed_mps: float = 0.30
+    look_ahead_m: float = 0.35
+    turn_in_place_rad: float = 0.5
+    closed_s: float = 1.5
+    patience_s: float = 8.0
+    panel_share: float = 0.8
+
+
+class CrossDoor(Action):
+    """Drives through a door along its axis until the base stands 0.9 m beyond the wall.
+
+    When the robot is placed into the far room on the way, it goes on by that room's own node of the same door. Fails
+    with DOOR_CLOSED, PERSON_IN_WAY or WAY_BLOCKED, and then backs out of the gap first.
+    """
+
+    timeout_s = 60.0
+
+    def __init__(self, context: RobotContext, door_id: str, config: CrossingConfig | None = None) -> None:
+        super().__init__(f"cross {door_id}", context)
+        self.door_id = door_id
+        self._config = config or CrossingConfig()
+        self._driver: Driver | None = None
+        self._free_s = 0.0
+        self._giving_up: tuple[FailureCode, str] | None = None
+
+    def begin(self) -> None:
+        """Say which door, and line up first when not in front of it."""
+        self._free_s, self._giving_up, self._driver = self.context.stamp_s, None, None
+        self.context.announce(f"crossing {self.door_id}")
+        if self.door_id in self.context.snapshot and not self._lined_up(self._base_on_axis()):
+            source = _in_front(self.context, self.door_id)
+            self._driver = Driver(self.context, source, config=DriverConfig(position_m=0.04))
+
+    def step(self) -> Status:
+        """Line up, then drive along the axis."""
+        if self.door_id not in self.context.snapshot:
+            return self.fail(FailureCode.WAY_BLOCKED, f"{self.door_id} is no longer in the scene graph.")
+        if self._driver is not None:
+            return self._line_up(self._driver)
+        look_around(self.context)
+        base = self._base_on_axis()
+        if self._giving_up is not None:
+            return self._back_out(base, *self._giving_up)
+        if base.x_m - WALL_M >= BEYOND_M:
+            return Status.SUCCESS
+        return self._advance(base)
+
+    def _line_up(self, driver: Driver) -> Status:
+        progress = driver.step()
+        if progress in (Progress.NO_WAY, Progress.BLOCKED):
+            return self.fail(FailureCode.WAY_BLOCKED, f"no free way leads in front of {self.door_id}.", (self.door_id,))
+        if progress is Progress.ARRIVED:
+            self._driver, self._free_s = None, self.context.stamp_s
+        return Status.RUNNING
+
+    def _advance(self, base: Pose2) -> Status:
+        context, config = self.context, self._config
+        error = wrap_rad(atan2(-base.y_m, config.look_ahead_m) - base.yaw_rad)
+        turning = abs(error) > config.turn_in_place_rad
+        speed = 0.0 if turning else config.speed_mps * max(cos(2 * error), 0.3)
+        wanted = (speed, turn_rate(error, context.limits))
+        linear, angular = admissible(*wanted, self._points_base(), self._radius_m(), context.limits)
+        context.commands.drive = (linear, angular)
+        if turning or linear > 0:
+            self._free_s = context.stamp_s
+            return Status.RUNNING
+        return self._blocked(base)
+
+    def _blocked(self, base: Pose2) -> Status:
+        """Something is ahead: a closed door is told at once, anything else gets time to move away."""
+        waited_s = self.context.stamp_s - self._free_s
+        if base.x_m - WALL_M > self.context.limits.footprint_radius_m + 0.05:
+            return Status.SUCCESS  # through the wall already; what blocks stands in the far room
+        if waited_s > self._config.closed_s and self._panel_share() >= self._config.panel_share:
+            self._giving_up = (FailureCode.DOOR_CLOSED, f"{self.door_id} is closed.")
+        elif waited_s > self._config.patience_s:
+            person = self._person_in_gap()
+            if person is not None:
+                self._giving_up = (FailureCode.PERSON_IN_WAY, f"{person} stands in {self.door_id}.")
+            else:
+                self._giving_up = (FailureCode.WAY_BLOCKED, f"something blocks {self.door_id}.")
+        return Status.RUNNING
+
+    def _back_out(self, base: Pose2, code: FailureCode, message: str) -> Status:
+        """Leave the gap backwards before failing, so that the next plan starts from open floor."""
+        linear, _ = admissible(-0.15, 0.0, self._points_base(), self._radius_m(), self.context.limits)
+        if linear == 0.0 or base.x_m < -0.55:
+            share = f"points fill {100 * self._panel_share():.0f} % of the gap"
+            return self.fail(code, message, (self.door_id,), share)
+        self.context.commands.drive = (linear, 0.0)
+        return Status.RUNNING
+
+    def _lined_up(self, base: Pose2) -> bool:
+        in_front = -1.3 < base.x_m < -0.35 and abs(base.y_m) < 0.10
+        return in_front or (base.x_m >= -0.35 and abs(base.y_m) < 0.20)
+
+    def _base_on_axis(self) -> Pose2:
+        """Pose of the base on the crossing's axis; x is 0 at the near face of the wall."""
+        snapshot = self.context.snapshot
+        tracked = tracked_door(snapshot, self.door_id)
+        base = Pose2.of(in_base(self.context, tracked).inverse())
+        if tracked == self.door_id:
+            return Pose2(-base.y_m, base.x_m, wrap_rad(base.yaw_rad + pi / 2))
+        return Pose2(base.y_m + WALL_M, -base.x_m, wrap_rad(base.yaw_rad - pi / 2))
+
+    def _points_base(self) -> Points:
+        context = self.context
+        return planar_pose(context, robot_frame(context.snapshot)).inverse_apply(context.surroundings.points())
+
+    def _radius_m(self) -> float:
+        return footprint_radius_m(self.context) - SAFETY_MARGIN_M
+
+    def _panel_share(self) -> float:
+        """Share of the gap's width that obstacle points fill within the wall."""
+        door = self.context.snapshot.door(self.door_id)
+        on_axis = self._base_on_axis().apply(self._points_base())
+        within = on_axis[(on_axis[:, 0] > -0.10) & (on_axis[:, 0] < WALL_M + 0.10)]
+        half_m = door.width_m / 2 - PANEL_BIN_M
+        edges = np.arange(-half_m, half_m + 1e-9, PANEL_BIN_M)
+        return float((np.histogram(within[:, 1], edges)[0] > 0).mean())
+
+    def _person_in_gap(self) -> str | None:
+        snapshot = self.context.snapshot
+        for person in snapshot.of_type(PersonNode):
+            x_m, y_m, _ = snapshot.position(person.id, self.door_id)
+            if hypot(x_m, y_m) < 1.0:
+                return person.id
+        return None
+
+
+class EnterRoom(Action):
+    """Waits until the graph places the robot in a room it has just driven into; goes on anyway after a while."""
+
+    def __init__(self, context: RobotContext, room: str, patience_s: float = 4.0) -> None:
+        super().__init__(f"enter {room}", context)
+        self.room, self._patience_s = room, patience_s
+
+    def step(self) -> Status:
+        """Wait."""
+        arrived = self.context.snapshot.current_room == self.room
+        return Status.SUCCESS if arrived or self.elapsed_s > self._patience_s else Status.RUNNING
+
+
+def tracked_door(snapshot: Snapshot, door_id: str) -> str:
+    """The node of the same physical door that belongs to the robot's room; ``door_id`` itself when none does."""
+    own_room, room = snapshot.door(door_id).rooms[0], snapshot.current_room
+    if room == own_room:
+        return door_id
+    twins = [twin for twin in twins_of(snapshot, door_id) if snapshot.door(twin).rooms[0] == room]
+    return twins[0] if twins else door_id
+
+
+def twins_of(snapshot: Snapshot, door_id: str) -> list[str]:
+    """Other nodes of the same physical door."""
+    found = [edge.target for edge in snapshot.edges_from(door_id, EdgeType.MATCH)]
+    return sorted(found + [edge.source for edge in snapshot.edges_to(door_id, EdgeType.MATCH)])
+
+
+def _in_front(context: RobotContext, door_id: str) -> GoalSource:
+    return at_poses(context, door_id, [(0.0, y_m, -pi / 2) for y_m in (FRONT_M, 0.8, 0.6, 0.95)])

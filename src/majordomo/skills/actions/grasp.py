@@ -1,0 +1,169 @@
+"""Taking hold: reach to the object, close the fingers on it, open them again."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import hypot
+
+import numpy as np
+from py_trees.common import Status
+
+from majordomo.scene_graph.se3 import SE3
+from majordomo.skills.action import Action, Grip, RobotContext
+from majordomo.skills.actions.arm import EMPTY_OPENING_M, ArmAction, ArmProgress, is_firm
+from majordomo.skills.errors import Unreachable
+from majordomo.skills.failures import FailureCode
+from majordomo.skills.grasping import Grasp, choose_grasp, is_covered
+from majordomo.skills.navigation.pose import in_base, robot_frame
+
+HAND_TOLERANCE_M = 0.02
+SIDE_TOLERANCE_M = 0.015
+CLOSE_EFFORT_N = 15.0
+SETTLE_S = 0.35
+EXTENDED_M = 0.05
+LET_GO_S = 2.0
+"""A thing may lean on a finger after it was let go; after this long it is left so."""
+
+
+class Reach(ArmAction):
+    """Opens the fingers and brings the pads to the object ahead: over or before it first, then straight in.
+
+    The base must already face the object, as the arm moves in the plane y = 0. Fails with UNREACHABLE and the numbers.
+    """
+
+    def __init__(self, context: RobotContext, object_id: str) -> None:
+        super().__init__(f"reach for {object_id}", context)
+        self.object_id = object_id
+        self._grasp: Grasp | None = None
+        self._why = ""
+
+    def begin(self) -> None:
+        """Choose the grasp from where the object is now."""
+        self.context.announce(f"grasping {self.object_id}")
+        self._grasp, self._why = None, ""
+        self.follow([])
+        if self.object_id not in self.context.snapshot:
+            return
+        try:
+            self._plan()
+        except Unreachable as error:
+            self._why = str(error)
+
+    def step(self) -> Status:
+        """Move through the targets and check that the hand is where it should be."""
+        if self.object_id not in self.context.snapshot:
+            return self.fail(FailureCode.OBJECT_GONE, f"{self.object_id} is no longer in the scene graph.")
+        if self._grasp is None or self._why:
+            return self.fail(FailureCode.UNREACHABLE, f"{self.object_id}: {self._why}.", (self.object_id,))
+        self.context.commands.grip = (self._grasp.opening_m, CLOSE_EFFORT_N)
+        progress = self.move_arm()
+        if progress is ArmProgress.STALLED:
+            return (
+                Status.SUCCESS if self._hand_error_m(self._grasp) < HAND_TOLERANCE_M else self.stalled(self.object_id)
+            )
+        if progress is ArmProgress.MOVING:
+            return Status.RUNNING
+        if self._hand_error_m(self._grasp) > HAND_TOLERANCE_M:
+            seen = f"hand is {100 * self._hand_error_m(self._grasp):.1f} cm from where it should be"
+            return self.fail(FailureCode.UNREACHABLE, f"the hand did not get to {self.object_id}.", (), seen)
+        return Status.SUCCESS
+
+    def _plan(self) -> None:
+        context, snapshot = self.context, self.context.snapshot
+        T_base_object = in_base(context, self.object_id)
+        room = robot_frame(snapshot)
+        self._grasp = choose_grasp(
+            snapshot.object(self.object_id).size_m,
+            T_base_object,
+            covered=is_covered(snapshot, self.object_id, room),
+            geometry=context.geometry,
+            limits=context.limits,
+        )
+        self._x_m = hypot(T_base_object.x_m, T_base_object.y_m)
+        if abs(T_base_object.y_m) > SIDE_TOLERANCE_M + (self._grasp.opening_m - 0.06) / 4:
+            where = f"{100 * T_base_object.y_m:.1f} cm beside the arm's plane"
+            raise Unreachable(T_base_object.x_m, T_base_object.z_m, self._grasp.pitch_rad, where)
+        targets = self._grasp.approach(self._x_m, context.geometry, context.limits)
+        arm = context.body.arm
+        if arm.extension_m > EXTENDED_M:  # taken up again: straight up before drawing back
+            targets = (replace(arm, lift_m=max(arm.lift_m, targets[0].lift_m)), *targets)
+        self.follow(targets)
+
+    def _hand_error_m(self, grasp: Grasp) -> float:
+        """Distance between where the pads are and where they should be."""
+        hand = self.context.body.T_base_gripper
+        return hypot(hand.x_m - self._x_m, hand.y_m, hand.z_m - grasp.pads_z_m)
+
+
+class CloseGripper(Action):
+    """Closes the fingers until they hold something; fails with GRASP_EMPTY when they meet."""
+
+    timeout_s = 8.0
+
+    def __init__(self, context: RobotContext, object_id: str) -> None:
+        super().__init__(f"close on {object_id}", context)
+        self.object_id = object_id
+        self._last_m, self._still_s = 0.0, 0.0
+
+    def begin(self) -> None:
+        """Remember the opening, to see when it stops changing."""
+        self.context.grip = None
+        self._last_m, self._still_s = self.context.body.gripper_opening_m, self.context.stamp_s
+
+    def step(self) -> Status:
+        """Close, wait until the fingers stand still, and judge."""
+        body = self.context.body
+        self.context.commands.grip = (0.0, CLOSE_EFFORT_N)
+        self.context.commands.drive = (0.0, 0.0)
+        if abs(body.gripper_opening_m - self._last_m) > 0.001:
+            self._last_m, self._still_s = body.gripper_opening_m, self.context.stamp_s
+        if self.context.stamp_s - self._still_s < SETTLE_S or self.elapsed_s < 2 * SETTLE_S:
+            return Status.RUNNING
+        if is_firm(body):
+            self._hold()
+            return Status.SUCCESS
+        waited_s = self.context.stamp_s - self._still_s
+        if body.gripper_opening_m > EMPTY_OPENING_M and waited_s < 3 * SETTLE_S:
+            return Status.RUNNING
+        seen = f"opening {1000 * body.gripper_opening_m:.0f} mm, contacts {body.finger_contacts}"
+        message = f"the fingers closed without holding {self.object_id}."
+        return self.fail(FailureCode.GRASP_EMPTY, message, (self.object_id,), seen)
+
+    def _hold(self) -> None:
+        """Remember where the object sits in the hand; the fingers have centered it along their closing direction."""
+        snapshot = self.context.snapshot
+        if self.object_id not in snapshot:
+            return
+        T_gripper_object = self.context.body.T_base_gripper.inverse() @ in_base(self.context, self.object_id)
+        x_m, _, z_m = T_gripper_object.translation_m
+        centered = SE3(T_gripper_object.quat_wxyz, np.array([x_m, 0.0, z_m]))
+        size_m = snapshot.object(self.object_id).size_m
+        self.context.grip = Grip(object_id=self.object_id, T_gripper_object=centered, size_m=size_m)
+
+
+class OpenGripper(Action):
+    """Opens the fingers wide enough to leave what they held."""
+
+    timeout_s = 8.0
+
+    def __init__(self, context: RobotContext, object_id: str, opening_m: float = 0.03) -> None:
+        super().__init__(f"let go of {object_id}", context)
+        self.object_id, self._more_m = object_id, opening_m
+        self._opening_m = 0.0
+
+    def begin(self) -> None:
+        """A little wider than now: neighbors may stand close."""
+        widest_m = self.context.limits.gripper_opening_m[1]
+        self._opening_m = min(self.context.body.gripper_opening_m + 2 * self._more_m, widest_m)
+
+    def step(self) -> Status:
+        """Open, and wait until nothing is touched."""
+        body = self.context.body
+        self.context.commands.grip = (self._opening_m, CLOSE_EFFORT_N)
+        self.context.commands.drive = (0.0, 0.0)
+        open_enough = body.gripper_opening_m >= self._opening_m - 0.01
+        touching = any(body.finger_contacts) and self.elapsed_s < LET_GO_S
+        if not open_enough or touching or self.elapsed_s < SETTLE_S:
+            return Status.RUNNING
+        self.context.grip = None
+        return Status.SUCCESS

@@ -1,0 +1,164 @@
+"""How to take hold of a thing: from above where there is room, level where something is over it. Base frame."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import cos, pi, sin
+
+from majordomo.scene_graph.nodes import ObjectNode, ObjectState
+from majordomo.scene_graph.se3 import SE3
+from majordomo.scene_graph.snapshot import Snapshot
+from majordomo.skills.errors import Unreachable
+from majordomo.skills.geometry import wrap_rad
+from majordomo.skills.kinematics import arm_target
+from majordomo.skills.ports import ArmGeometry, ArmTarget, BodyLimits
+
+DOWN_RAD = -pi / 2
+MAX_WIDTH_M = 0.105
+OPENING_MARGIN_M = 0.05
+TIP_M = 0.028
+"""From the pads' center to the finger tips, and a little air: the pads stay this high above what the object stands
+on.
+"""
+PAD_DEPTH_M = 0.045
+"""How far below an object's top the pads' center goes, at most: what the fingers can hold without the palm touching."""
+HOVER_M = 0.08
+LEVEL_CLEARANCE_M = 0.06
+LEVEL_STANDOFF_M = 0.10
+SQUARE_SHARE = 0.15
+
+
+@dataclass(frozen=True, kw_only=True)
+class Grasp:
+    """One way to take an object: wrist angles, finger opening, height of the pads, and how to come there.
+
+    ``pads_z_m``: pads' center when closing. ``hover_z_m``: pads' center while the arm extends over the object.
+    ``back_off_m``: how much shorter the arm is before the last straight move (level grasps).
+    """
+
+    pitch_rad: float
+    roll_rad: float
+    opening_m: float
+    pads_z_m: float
+    hover_z_m: float
+    back_off_m: float = 0.0
+
+    def approach(self, x_m: float, geometry: ArmGeometry, limits: BodyLimits) -> tuple[ArmTarget, ...]:
+        """Arm targets in order: raised and retracted, in front of or above, and at the object ``x_m`` ahead.
+
+        Raises:
+            Unreachable: a joint would leave its limits on the way.
+        """
+        final = arm_target(x_m, self.pads_z_m, self.pitch_rad, self.roll_rad, geometry, limits)
+        before = arm_target(x_m - self.back_off_m, self.hover_z_m, self.pitch_rad, self.roll_rad, geometry, limits)
+        raised = ArmTarget(
+            lift_m=before.lift_m,
+            extension_m=limits.extension_m[0],
+            wrist_pitch_rad=self.pitch_rad,
+            wrist_roll_rad=self.roll_rad,
+        )
+        return raised, before, final
+
+
+def choose_grasp(
+    size_m: tuple[float, float, float], T_base_object: SE3, *, covered: bool, geometry: ArmGeometry, limits: BodyLimits
+) -> Grasp:
+    """The first grasp that the arm can carry out at the object's present height and distance.
+
+    Raises:
+        Unreachable: none can be; the error is that of the preferred grasp.
+    """
+    first: Unreachable | None = None
+    for grasp in grasp_options(size_m, T_base_object, covered=covered, limits=limits):
+        try:
+            grasp.approach(float(T_base_object.x_m), geometry, limits)
+        except Unreachable as error:
+            first = first or error
+        else:
+            return grasp
+    raise first or _too_wide(size_m, T_base_object)
+
+
+def grasp_options(
+    size_m: tuple[float, float, float], T_base_object: SE3, *, covered: bool, limits: BodyLimits
+) -> tuple[Grasp, ...]:
+    """Grasps in order of preference: from above unless ``covered``, then level; none for what is too wide."""
+    above, level = _from_above(size_m, T_base_object, limits), _level(size_m, T_base_object, limits)
+    options = (level, above) if covered else (above, level)
+    return tuple(option for option in options if option is not None)
+
+
+def is_covered(snapshot: Snapshot, object_id: str, room: str) -> bool:
+    """Whether something reaches over the object: another thing's extent is above its center, within half a meter."""
+    node = snapshot.object(object_id)
+    top_m = float(snapshot.position(object_id, room)[2]) + node.size_m[2] / 2
+    for other in snapshot.of_type(ObjectNode):
+        if other.id == object_id or other.state is not ObjectState.PRESENT or snapshot.room_of(other.id) != room:
+            continue
+        x_m, y_m, _ = snapshot.transform(other.id, object_id).translation_m
+        other_top_m = float(snapshot.position(other.id, room)[2]) + other.size_m[2] / 2
+        over = abs(x_m) < other.size_m[0] / 2 and abs(y_m) < other.size_m[1] / 2
+        if over and other_top_m > top_m + 0.05 and other_top_m < top_m + 0.6:
+            return True
+    return False
+
+
+def _from_above(size_m: tuple[float, float, float], pose: SE3, limits: BodyLimits) -> Grasp | None:
+    side = _closing_side(size_m, pose.yaw_rad)
+    if side is None:
+        return None
+    width_m, roll_rad = side
+    bottom_m, top_m = pose.z_m - size_m[2] / 2, pose.z_m + size_m[2] / 2
+    pads_z_m = max(bottom_m + TIP_M, top_m - min(PAD_DEPTH_M, size_m[2] / 2))
+    return Grasp(
+        pitch_rad=max(DOWN_RAD, limits.wrist_pitch_rad[0]),
+        roll_rad=roll_rad,
+        opening_m=_opening_m(width_m, limits),
+        pads_z_m=pads_z_m,
+        hover_z_m=top_m + HOVER_M,
+    )
+
+
+def _level(size_m: tuple[float, float, float], pose: SE3, limits: BodyLimits) -> Grasp | None:
+    yaw = pose.yaw_rad
+    width_m = abs(size_m[0] * sin(yaw)) + abs(size_m[1] * cos(yaw))
+    if width_m > MAX_WIDTH_M:
+        return None
+    pads_z_m = pose.z_m - size_m[2] / 2 + max(LEVEL_CLEARANCE_M, 0.55 * size_m[2])
+    depth_m = abs(size_m[0] * cos(yaw)) + abs(size_m[1] * sin(yaw))
+    return Grasp(
+        pitch_rad=0.0,
+        roll_rad=0.0,
+        opening_m=_opening_m(width_m, limits),
+        pads_z_m=pads_z_m,
+        hover_z_m=pads_z_m,
+        back_off_m=LEVEL_STANDOFF_M + depth_m / 2,
+    )
+
+
+def _closing_side(size_m: tuple[float, float, float], yaw_rad: float) -> tuple[float, float] | None:
+    """Width between the fingers and wrist roll for a grasp from above; ``None`` when neither side fits.
+
+    Closing along direction a (from the base's x) needs roll = pi/2 - a, modulo a half turn. The narrow side is taken;
+    for something about as wide as deep, the one that turns the wrist less.
+    """
+    sides = []
+    for width_m, direction in ((size_m[0], yaw_rad), (size_m[1], yaw_rad + pi / 2)):
+        roll = wrap_rad(2 * (pi / 2 - direction)) / 2
+        if width_m <= MAX_WIDTH_M:
+            sides.append((width_m, roll))
+    if not sides:
+        return None
+    wide, narrow = max(size_m[:2]), min(size_m[:2])
+    if wide - narrow <= SQUARE_SHARE * wide:
+        return min(sides, key=lambda side: abs(side[1]))
+    return min(sides, key=lambda side: (side[0], abs(side[1])))
+
+
+def _opening_m(width_m: float, limits: BodyLimits) -> float:
+    return min(width_m + OPENING_MARGIN_M, limits.gripper_opening_m[1])
+
+
+def _too_wide(size_m: tuple[float, float, float], pose: SE3) -> Unreachable:
+    why = f"it is {min(size_m[:2]):.3f} m wide, the fingers span {MAX_WIDTH_M:.3f} m"
+    return Unreachable(pose.x_m, pose.z_m, DOWN_RAD, why)

@@ -1,0 +1,93 @@
+"""Lists of actions that bring the robot somewhere: what skills, and the executor for exploring agents, are made of."""
+
+from __future__ import annotations
+
+from math import pi
+
+from majordomo.scene_graph.doors import physical_doors
+from majordomo.scene_graph.nodes import DoorNode, DoorState, RoomNode, RoomStatus
+from majordomo.scene_graph.snapshot import Snapshot
+from majordomo.scene_graph.topology import Path, Topology
+from majordomo.skills.action import Action, Refusal, RobotContext
+from majordomo.skills.actions.arm import Stow
+from majordomo.skills.actions.doors import ApproachDoor, CrossDoor, EnterRoom
+from majordomo.skills.actions.driving import DriveTo
+from majordomo.skills.actions.looking import LookAt, SweepCamera
+from majordomo.skills.anchor import Anchor
+from majordomo.skills.failures import Evidence, Failure, FailureCode
+from majordomo.skills.navigation.goals import around, at_poses, near_origin
+
+LOOK_DWELL_S = 1.5
+LEAST_STANDOFF_M = 0.42
+"""Nearest that the base's axis comes to a footprint: the planning radius and what drawing on the grid takes."""
+
+
+def travel(context: RobotContext, room: str | None) -> list[Action]:
+    """Actions through the doors into ``room``; none when the robot is there or either room is not known."""
+    snapshot = context.snapshot
+    here = snapshot.current_room
+    if here is None or room is None or here == room or not _stands(snapshot, here) or not _stands(snapshot, room):
+        return []
+    path = Topology.from_snapshot(snapshot).path(here, room)
+    if path is None:
+        return [Refusal(context, no_way(snapshot, here, room))]
+    return [action for leg in _legs(path) for action in _through(context, *leg)]
+
+
+def visit(context: RobotContext, node_id: str, standoff_m: float = 0.0) -> list[Action]:
+    """Actions that bring the base to a node: a room's origin, or a place ``standoff_m`` from anything else, facing
+    it.
+    """
+    return [Stow(context), *travel(context, context.snapshot.room_of(node_id)), _drive(context, node_id, standoff_m)]
+
+
+def cross(context: RobotContext, door_id: str) -> list[Action]:
+    """Actions that bring the base through a door to 0.9 m beyond the wall, coming from the door's own room."""
+    own_room = context.snapshot.door(door_id).rooms[0]
+    return [Stow(context), *travel(context, own_room), ApproachDoor(context, door_id), CrossDoor(context, door_id)]
+
+
+def look(context: RobotContext, node_id: str, standoff_m: float = 0.8) -> list[Action]:
+    """Actions that look at a node from ``standoff_m``; a room is looked around in from its origin."""
+    actions = visit(context, node_id, standoff_m)
+    if isinstance(context.snapshot.node(node_id), RoomNode):
+        return [*actions, SweepCamera(context)]
+    return [*actions, LookAt(context, node_id, Anchor(node_id), dwell_s=LOOK_DWELL_S)]
+
+
+def no_way(snapshot: Snapshot, here: str, room: str) -> Failure:
+    """Why no open way leads from one room to another: a closed door, or none known."""
+    evidence = Evidence(nodes=(here, room), revision=snapshot.revision, observation="topology")
+    path = Topology.from_snapshot(snapshot).path(here, room, only_open=False)
+    if path is None:
+        message = f"no known way leads from {here} to {room}."
+        return Failure(code=FailureCode.WAY_BLOCKED, message=message, evidence=evidence)
+    states = {member.id: door.state for door in physical_doors(snapshot) for member in door.members}
+    closed = tuple(door for door in path.doors if states.get(door) is DoorState.CLOSED)
+    message = f"the way from {here} to {room} is closed at {', '.join(closed)}."
+    evidence = Evidence(nodes=(*closed, here, room), revision=snapshot.revision, observation="topology")
+    return Failure(code=FailureCode.DOOR_CLOSED, message=message, evidence=evidence)
+
+
+def _drive(context: RobotContext, node_id: str, standoff_m: float) -> Action:
+    node = context.snapshot.node(node_id)
+    if isinstance(node, RoomNode):
+        return DriveTo(context, node_id, near_origin(context, node_id))
+    if isinstance(node, DoorNode):
+        distances = dict.fromkeys((max(standoff_m, LEAST_STANDOFF_M), 0.8, 0.6, 1.2))
+        return DriveTo(context, node_id, at_poses(context, node_id, [(0.0, y_m, -pi / 2) for y_m in distances]))
+    return DriveTo(context, node_id, around(context, node_id, max(standoff_m, LEAST_STANDOFF_M)))
+
+
+def _legs(path: Path) -> list[tuple[str, str]]:
+    """(door, room entered) along a path."""
+    return list(zip(path.doors, path.rooms[1:], strict=True))
+
+
+def _through(context: RobotContext, door: str, room: str) -> list[Action]:
+    return [ApproachDoor(context, door), CrossDoor(context, door), EnterRoom(context, room)]
+
+
+def _stands(snapshot: Snapshot, room: str) -> bool:
+    node = snapshot.get(room)
+    return isinstance(node, RoomNode) and node.status is not RoomStatus.TEMPORARY

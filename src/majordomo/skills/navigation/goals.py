@@ -1,0 +1,97 @@
+"""Where the base may end: goals that are worked out anew at every replan, so they survive changes of the frame."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import cos, pi, sin
+
+import numpy as np
+
+from majordomo.scene_graph.nodes import ObjectNode
+from majordomo.scene_graph.se3 import SE3
+from majordomo.skills.action import RobotContext
+from majordomo.skills.geometry import Box2, Pose2
+from majordomo.skills.navigation.plan import Goal, GoalSource
+from majordomo.skills.navigation.pose import robot_frame
+from majordomo.skills.navigation.route import Routes
+
+SPACING_M = 0.15
+PERSON_SIZE_M = 0.4
+
+
+def at_poses(context: RobotContext, node_id: str, poses: Sequence[tuple[float, float, float | None]]) -> GoalSource:
+    """Poses (x, y, yaw or ``None``) in the frame of ``node_id``, the first preferred."""
+
+    def goals(routes: Routes | None) -> list[Goal]:
+        del routes
+        pose = _planar(context, node_id)
+        found = []
+        for rank, (x_m, y_m, yaw_rad) in enumerate(poses):
+            point = pose.apply(np.array([[x_m, y_m]]))[0]
+            yaw = None if yaw_rad is None else pose.yaw_rad + yaw_rad
+            found.append(Goal(point=(float(point[0]), float(point[1])), yaw_rad=yaw, cost_m=0.5 * rank))
+        return found
+
+    return goals
+
+
+def near_origin(context: RobotContext, node_id: str, radius_m: float = 1.2) -> GoalSource:
+    """The origin of ``node_id``, or the free spot nearest to it within ``radius_m``; any heading."""
+    spots: list[tuple[float, float]] = [(0.0, 0.0)]
+    for ring_m in np.arange(0.3, radius_m + 1e-6, 0.3):
+        spots += [(ring_m * cos(a), ring_m * sin(a)) for a in np.arange(0.0, 2 * pi, pi / 6)]
+
+    def goals(routes: Routes | None) -> list[Goal]:
+        del routes
+        pose = _planar(context, node_id)
+        points = pose.apply(np.array(spots))
+        costs = 4.0 * np.hypot(*np.array(spots).T)
+        return [Goal(point=(float(x), float(y)), cost_m=float(c)) for (x, y), c in zip(points, costs, strict=True)]
+
+    return goals
+
+
+def around(context: RobotContext, node_id: str, standoff_m: float) -> GoalSource:
+    """Places from which to face ``node_id``, its footprint ``standoff_m`` or a little more from the base's axis."""
+
+    def goals(routes: Routes | None) -> list[Goal]:
+        del routes
+        box = _footprint(context, node_id)
+        found = []
+        for extra_m in (0.0, 0.1, 0.2, 0.35):
+            for x_m, y_m in _outline(box, standoff_m + extra_m):
+                yaw = Pose2(x_m, y_m).bearing_rad(box.pose.point)
+                found.append(Goal(point=(x_m, y_m), yaw_rad=yaw, cost_m=3.0 * extra_m))
+        return found
+
+    return goals
+
+
+def _outline(box: Box2, distance_m: float) -> list[tuple[float, float]]:
+    """Points on the curve at ``distance_m`` around a rectangle, about ``SPACING_M`` apart."""
+    half_x, half_y = box.size_x_m / 2, box.size_y_m / 2
+    local: list[tuple[float, float]] = []
+    for sign in (1.0, -1.0):
+        local += [(x, sign * (half_y + distance_m)) for x in _spread(half_x)]
+        local += [(sign * (half_x + distance_m), y) for y in _spread(half_y)]
+        for other in (1.0, -1.0):
+            for angle in (pi / 6, pi / 3):
+                local.append((sign * (half_x + distance_m * cos(angle)), other * (half_y + distance_m * sin(angle))))
+    return [(float(x), float(y)) for x, y in box.pose.apply(np.array(local))]
+
+
+def _spread(half_m: float) -> list[float]:
+    count = max(int(2 * half_m / SPACING_M), 0)
+    return [float(value) for value in np.linspace(-half_m, half_m, count + 1)] if count else [0.0]
+
+
+def _footprint(context: RobotContext, node_id: str) -> Box2:
+    node = context.snapshot.get(node_id)
+    size = node.size_m if isinstance(node, ObjectNode) else (PERSON_SIZE_M, PERSON_SIZE_M, 0.0)
+    return Box2(_planar(context, node_id), size[0], size[1])
+
+
+def _planar(context: RobotContext, node_id: str) -> Pose2:
+    snapshot = context.snapshot
+    pose: SE3 = snapshot.transform(robot_frame(snapshot), node_id)
+    return Pose2.of(pose)

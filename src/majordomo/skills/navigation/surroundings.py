@@ -1,0 +1,132 @@
+"""A short memory of raw obstacle points around the robot, kept in the frame the robot is placed in.
+
+A ring LiDAR on a mast does not see low things near the robot, so low points stay for a while; tall things are always in
+view, so their points (a person walking by) fade at once.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from majordomo.scene_graph.se3 import SE3
+from majordomo.skills.geometry import Points
+
+CELL_M = 0.04
+PATCH_M = 0.12
+_OFFSET = 1 << 20
+
+
+@dataclass(frozen=True, kw_only=True)
+class SurroundingsConfig:
+    """Heights of what can be hit, how far to look, and how long to remember."""
+
+    min_height_m: float = 0.04
+    max_height_m: float = 1.80
+    tall_m: float = 0.95
+    max_range_m: float = 6.0
+    body_radius_m: float = 0.20
+    fade_low_s: float = 20.0
+    fade_tall_s: float = 0.7
+    min_hits: int = 2
+
+
+@dataclass(kw_only=True)
+class Surroundings:
+    """Cells of ``CELL_M`` in which something was hit lately.
+
+    ``arm_reach_m``: how far the arm reaches ahead; points on it are not obstacles.
+    """
+
+    config: SurroundingsConfig = field(default_factory=SurroundingsConfig)
+    frame: str = ""
+    _keys: NDArray[np.int64] = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
+    _seen_s: NDArray[np.float64] = field(default_factory=lambda: np.zeros(0))
+    _tall: NDArray[np.bool_] = field(default_factory=lambda: np.zeros(0, dtype=bool))
+    _last_scan: object = None
+
+    def points(self) -> Points:
+        """Centers of occupied cells, (N, 2), in ``frame``."""
+        return _centers(self._keys)
+
+    def observe(self, points_base: Points, T_frame_base: SE3, stamp_s: float, arm_reach_m: float = 0.0) -> None:
+        """Take in one scan, (N, 3) in the base frame. The same array twice counts once."""
+        if points_base is not self._last_scan:
+            self._last_scan = points_base
+            cells, tall = self._cells(points_base, T_frame_base, arm_reach_m)
+            self._merge(cells, np.full(len(cells), stamp_s), tall)
+        fade_s = np.where(self._tall, self.config.fade_tall_s, self.config.fade_low_s)
+        self._keep(stamp_s - self._seen_s <= fade_s)
+
+    def move_to(self, frame: str, T_new_old: SE3 | None) -> None:
+        """Carry the memory into another frame, or drop it when the frames are not connected."""
+        old, seen_s, tall = self.points(), self._seen_s, self._tall
+        self.frame = frame
+        self._keep(np.zeros(len(self._keys), dtype=bool))
+        if T_new_old is not None and len(old):
+            moved = T_new_old.apply(np.column_stack([old, np.zeros(len(old))]))[:, :2]
+            self._merge(_keys(moved), seen_s, tall)
+
+    def forget(self) -> None:
+        """Drop everything, for instance after the robot was carried away."""
+        self._keep(np.zeros(len(self._keys), dtype=bool))
+
+    def _cells(
+        self, points: Points, T_frame_base: SE3, arm_reach_m: float
+    ) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
+        config = self.config
+        x, y, z = points.T
+        range_m = np.hypot(x, y)
+        keep = (z > config.min_height_m) & (z < config.max_height_m)
+        keep &= (range_m > config.body_radius_m) & (range_m < config.max_range_m)
+        if arm_reach_m > 0:
+            keep &= ~((x > 0) & (x < arm_reach_m) & (np.abs(y) < 0.12))
+        points = points[keep]
+        keys, first, counts = np.unique(
+            _keys(T_frame_base.apply(points)[:, :2]), return_inverse=True, return_counts=True
+        )
+        highest = np.zeros(len(keys))
+        np.maximum.at(highest, first, points[:, 2])
+        solid = (counts >= config.min_hits) | np.isin(keys, self._keys)
+        keys, highest = keys[solid], highest[solid]
+        return keys, _beside_tall(_centers(keys), highest > config.tall_m)
+
+    def _merge(self, keys: NDArray[np.int64], seen_s: Points, tall: NDArray[np.bool_]) -> None:
+        both = np.concatenate([keys, self._keys])
+        self._keys, newest = np.unique(both, return_index=True)
+        self._seen_s = np.concatenate([seen_s, self._seen_s])[newest]
+        self._tall = np.concatenate([tall, self._tall])[newest]
+
+    def _keep(self, mask: NDArray[np.bool_]) -> None:
+        if not mask.all():
+            self._keys, self._seen_s, self._tall = self._keys[mask], self._seen_s[mask], self._tall[mask]
+
+
+def _beside_tall(points: Points, tall: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Which cells are part of something tall: those that are, and those in or next to a patch that has one.
+
+    A person's feet are seen beside the torso; they must fade with it, or every step would leave an obstacle behind.
+    """
+    patches = np.floor(points / PATCH_M).astype(np.int64)
+    high = np.unique(_packed(patches[tall]))
+    part = tall.copy()
+    for step in ((i, j) for i in (-1, 0, 1) for j in (-1, 0, 1)):
+        part |= np.isin(_packed(patches + step), high)
+    return part
+
+
+def _centers(keys: NDArray[np.int64]) -> Points:
+    cells = np.stack([keys >> 21, keys & ((1 << 21) - 1)], axis=1) - _OFFSET
+    return np.asarray((cells + 0.5) * CELL_M)
+
+
+def _keys(points: Points) -> NDArray[np.int64]:
+    return _packed(np.floor(points / CELL_M).astype(np.int64))
+
+
+def _packed(cells: NDArray[np.int64]) -> NDArray[np.int64]:
+    """One integer for each cell (N, 2), sorted by x then y."""
+    cells = cells + _OFFSET
+    return np.asarray((cells[:, 0] << 21) | cells[:, 1])

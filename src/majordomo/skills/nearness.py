@@ -1,0 +1,36 @@
+"""When the robot counts as being *at* something: one rule for the state that plans start from and for GOTO."""
+
+from __future__ import annotations
+
+from math import hypot
+
+from majordomo.scene_graph.nodes import ROBOT_ID, DoorNode, ObjectNode, ObjectState, PersonNode, RoomNode
+from majordomo.scene_graph.snapshot import Snapshot
+
+OBJECT_M = 0.85
+"""From the base's axis to a thing's extent: the arm's span and a step."""
+PERSON_M = 1.50
+DOOR_M = 1.50
+
+
+def excess_m(snapshot: Snapshot, node_id: str) -> float | None:
+    """How much too far the robot is from a node to be at it: 0 or less when it is, ``None`` when in another room.
+
+    A room needs nothing but being in it; something missing is nowhere.
+    """
+    node, room = snapshot.get(node_id), snapshot.current_room
+    if node is None or room is None or snapshot.room_of(node_id) != room:
+        return None
+    if isinstance(node, RoomNode):
+        return 0.0
+    if isinstance(node, ObjectNode):
+        return None if node.state is ObjectState.MISSING else extent_distance_m(snapshot, node) - OBJECT_M
+    x_m, y_m, _ = snapshot.transform(node_id, ROBOT_ID).translation_m
+    reach_m = {PersonNode: PERSON_M, DoorNode: DOOR_M}.get(type(node), OBJECT_M)
+    return hypot(x_m, y_m) - reach_m
+
+
+def extent_distance_m(snapshot: Snapshot, node: ObjectNode) -> float:
+    """Horizontal distance from the base's axis to the extent of a thing; 0 over it."""
+    x_m, y_m, _ = snapshot.transform(node.id, ROBOT_ID).translation_m
+    return hypot(max(abs(x_m) - node.size_m[0] / 2, 0.0), max(abs(y_m) - node.size_m[1] / 2, 0.0))

@@ -1,0 +1,96 @@
+"""Where something may be put down for a target: on a support, in a container, near a person, anywhere in a room."""
+
+from __future__ import annotations
+
+from math import hypot, pi
+
+import numpy as np
+
+from majordomo.scene_graph.nodes import ROBOT_ID, ObjectNode, ObjectState, PersonNode
+from majordomo.scene_graph.snapshot import Snapshot
+from majordomo.skills.action import RobotContext
+from majordomo.skills.anchor import Anchor
+from majordomo.skills.facts import is_container
+from majordomo.skills.navigation.local_map import door_gaps, draw_map
+from majordomo.skills.place_spot import Spot, outline_radius_m, spots_on
+
+HANDOVER_M = 1.8
+"""Something is within a person's reach when it is at most this far from where they stand."""
+FLOOR_RADII_M = (0.55, 0.75, 0.95)
+FLOOR_ANGLES = 24
+FLOOR_GAP_M = 0.10
+DOORWAY_M = 0.6
+HIGHEST_M = 1.15
+LOWEST_M = 0.15
+
+
+def free_spots(context: RobotContext, held: str, target: str) -> list[Spot]:
+    """Free spots at ``target`` for ``held`` as the graph is now. A person or a room takes supports first, then the
+    floor.
+    """
+    snapshot = context.snapshot
+    size_m = held_size_m(context, held)
+    node = snapshot.get(target)
+    if node is None:
+        return []
+    if isinstance(node, ObjectNode):
+        return spots_on(snapshot, target, size_m, held)
+    near_m = HANDOVER_M if isinstance(node, PersonNode) else np.inf
+    spots = [
+        spot
+        for support in _supports(snapshot, snapshot.room_of(target), held)
+        for spot in spots_on(snapshot, support, size_m, held)
+        if near_m == np.inf or _distance_m(snapshot, spot.anchor, target) < near_m - 0.3
+    ]
+    return spots or _floor_spots(context, target if isinstance(node, PersonNode) else ROBOT_ID, size_m)
+
+
+def held_size_m(context: RobotContext, held: str) -> tuple[float, float, float]:
+    """Extent of what the hand holds."""
+    if context.grip is not None and context.grip.object_id == held:
+        return context.grip.size_m
+    node = context.snapshot.get(held)
+    return node.size_m if isinstance(node, ObjectNode) else (0.1, 0.1, 0.2)
+
+
+def _supports(snapshot: Snapshot, room: str | None, held: str) -> list[str]:
+    """Supports of ``room`` whose top the arm can reach down to, nearest to the robot first."""
+    found = []
+    for node in snapshot.of_type(ObjectNode):
+        usable = node.support and node.state is ObjectState.PRESENT and node.id != held and not node.graspable
+        if not usable or is_container(node.label) or snapshot.room_of(node.id) != room or room is None:
+            continue
+        top_m = snapshot.position(node.id, room)[2] + node.size_m[2] / 2
+        if LOWEST_M <= top_m <= HIGHEST_M:
+            x_m, y_m, _ = snapshot.position(node.id, ROBOT_ID)
+            found.append((float(hypot(x_m, y_m)), node.id))
+    return [node_id for _, node_id in sorted(found)]
+
+
+def _floor_spots(context: RobotContext, center: str, size_m: tuple[float, float, float]) -> list[Spot]:
+    """Free floor around a person, or around the robot, out of doorways."""
+    snapshot = context.snapshot
+    room = snapshot.current_room
+    if room is None:
+        return []
+    x_m, y_m, _ = snapshot.position(center, room)
+    angles = np.arange(FLOOR_ANGLES) * 2 * pi / FLOOR_ANGLES
+    directions = np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    points = np.concatenate([radius_m * directions for radius_m in FLOOR_RADII_M]) + np.array([x_m, y_m])
+    spots = [(float(x), float(y)) for x, y in points]
+    robot = snapshot.position(ROBOT_ID, room)
+    around = context.surroundings.points()
+    grid = draw_map(snapshot, room, around, [(float(robot[0]), float(robot[1])), *spots], stamp_s=context.stamp_s)
+    room_m = grid.clearance_at(points) - outline_radius_m(size_m)
+    gaps = [gap.grown(DOORWAY_M) for gap in door_gaps(snapshot, room)]
+    clear = [not any(gap.contains(points[i : i + 1])[0] for gap in gaps) for i in range(len(points))]
+    return [
+        Spot(anchor=Anchor(room, (*spot, 0.0)), room_m=float(free_m))
+        for spot, free_m, is_clear in zip(spots, room_m, clear, strict=True)
+        if free_m > FLOOR_GAP_M and is_clear
+    ]
+
+
+def _distance_m(snapshot: Snapshot, anchor: Anchor, target: str) -> float:
+    x_m, y_m, _ = anchor.position(snapshot, target)
+    return float(hypot(x_m, y_m))

@@ -130,7 +130,8 @@ def _shape_evidence(polygon_m: tuple[Point2, ...], doors: int, *, bare: bool) ->
     if len(polygon_m) >= 3:
         sides = np.ptp(np.asarray(polygon_m), axis=0)
         ratio = float(sides.max() / max(sides.min(), 0.1))
-        evidence[hall] += np.log(4.0) if ratio > 2.2 or sides.min() < 1.6 else np.log(0.7)
+        narrow = ratio > 2.2 or sides.min() < 1.6
+        evidence[hall] += np.log(8.0) if ratio > 3.0 else np.log(4.0) if narrow else np.log(0.7)
     if doors >= 3:
         evidence[hall] += np.log(2.5 if doors == 3 else 5.0)
     elif doors == 1:

@@ -23,9 +23,9 @@ _FURNITURE_FROM_M = 0.5
 class Category:
     """Prior knowledge of one kind of thing.
 
-    ``size_m``: usual extent, long side, short side, height. ``round``: rotationally symmetric about the vertical.
-    ``levels``: carries things below its top (shelf boards, a seat). ``floor``: stands on the floor. ``background``:
-    part of the building.
+    ``size_m``: usual extent, long side, short side, height. ``round``: rotationally symmetric about the vertical;
+    ``ball``: about any axis. ``levels``: carries things below its top (shelf boards, a seat). ``floor``: stands on
+    the floor. ``background``: part of the building.
     """
 
     label: str
@@ -34,6 +34,7 @@ class Category:
     container: bool = False
     furniture: bool = False
     round: bool = False
+    ball: bool = False
     levels: bool = False
     floor: bool = False
     background: bool = False
@@ -106,7 +107,8 @@ def _parse(rows: str) -> Mapping[str, Category]:
                 support="s" in flags,
                 container="c" in flags,
                 furniture="f" in flags,
-                round="r" in flags,
+                round="r" in flags or "b" in flags,
+                ball="b" in flags,
                 levels="l" in flags,
                 floor="f" in flags and "w" not in flags,
                 background="x" in flags,

@@ -4,9 +4,9 @@ Columns: labels (first is the usual name, others are other names of the same thi
 (x long side, y short side, z height) | categories that people ask for.
 
 Flags: ``g`` can be grasped, ``s`` things are put on it, ``c`` things are put in it, ``f`` furniture or appliance that
-stands or hangs where it is, ``r`` round seen from above, ``l`` things may lie at several heights of it (shelf boards,
-a seat below a backrest), ``w`` does not stand on the floor (hangs on a wall or lies on something), ``x`` background:
-part of the building, never an object.
+stands or hangs where it is, ``b`` a ball, ``r`` round seen from above, ``l`` things may lie at several heights of it
+(shelf boards, a seat below a backrest), ``w`` does not stand on the floor (hangs on a wall or lies on something),
+``x`` background: part of the building, never an object.
 """
 
 from __future__ import annotations
@@ -21,7 +21,8 @@ chair, armchair, office chair | sfl | 0.5 0.5 0.9 | furniture seat
 sofa, couch | sfl | 1.9 0.9 0.8 | furniture seat
 bed | sfl | 2.0 1.5 0.6 | furniture
 shelf, bookshelf, bookcase, shelf-merged, rack | sfl | 0.9 0.35 1.8 | furniture storage
-cabinet, cupboard, cabinet-merged, wardrobe, closet | sf | 0.9 0.5 0.9 | furniture storage
+wardrobe, closet | f | 1.2 0.6 1.9 | furniture storage
+cabinet, cupboard, cabinet-merged | sf | 0.9 0.5 0.9 | furniture storage
 sideboard, dresser, chest of drawers, tv stand, console | sf | 1.2 0.45 0.8 | furniture storage
 drawer | cfw | 0.5 0.45 0.2 | furniture storage
 fridge, refrigerator, freezer | cf | 0.65 0.65 1.8 | appliance
@@ -58,10 +59,10 @@ fork | g | 0.19 0.025 0.02 | tableware cutlery
 knife | g | 0.22 0.025 0.02 | tableware cutlery tool
 spoon | g | 0.18 0.04 0.02 | tableware cutlery
 pan, pot, frying pan | gr | 0.25 0.25 0.1 | kitchenware
-apple | gr | 0.08 0.08 0.08 | fruit food snack
-orange | gr | 0.08 0.08 0.08 | fruit food snack
+apple | gb | 0.08 0.08 0.08 | fruit food snack
+orange | gb | 0.08 0.08 0.08 | fruit food snack
 banana | g | 0.19 0.04 0.04 | fruit food snack
-lemon, pear, peach, tomato | gr | 0.07 0.07 0.07 | fruit food
+lemon, pear, peach, tomato | gb | 0.07 0.07 0.07 | fruit food
 carrot, broccoli | g | 0.18 0.05 0.05 | vegetable food
 sandwich | g | 0.14 0.1 0.06 | food snack
 hot dog, donut, cake, pizza | g | 0.15 0.12 0.05 | food snack
@@ -85,7 +86,7 @@ keyboard | gw | 0.43 0.13 0.03 | electronics
 mouse, computer mouse | gw | 0.11 0.06 0.04 | electronics
 clock, alarm clock | gw | 0.15 0.08 0.15 | decoration
 camera, headphones, charger, speaker | gw | 0.15 0.1 0.1 | electronics
-ball, sports ball, tennis ball | gr | 0.1 0.1 0.1 | toy
+ball, sports ball, tennis ball | gb | 0.1 0.1 0.1 | toy
 teddy bear, teddy, stuffed animal, doll | g | 0.2 0.15 0.25 | toy
 toy, toy car, block, cube, lego, puzzle, dice | g | 0.08 0.08 0.08 | toy
 frisbee | gr | 0.27 0.27 0.03 | toy

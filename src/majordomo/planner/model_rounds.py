@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import time
-import unicodedata
 from collections.abc import Callable
 from typing import Any
 
@@ -113,7 +112,7 @@ class ModelRounds:
             return proposal
         kind = Kind(proposal.kind)
         if kind is not Kind.PLAN:
-            reply = _plain(proposal.question if kind is Kind.ANSWER else proposal.reply)
+            reply = proposal.question if kind is Kind.ANSWER else proposal.reply
             return Interpretation(kind=kind, source=Source.MODEL, reply=reply)
         goals = goals_of(proposal, snapshot.nodes)
         return goals if isinstance(goals, ModelFailure) else self._verified(goals, proposal, snapshot)
@@ -131,7 +130,7 @@ class ModelRounds:
                 return ModelFailure(kind=FailureKind.WRONG_SHAPE, message=plan.reason)
         mentioned = tuple(dict.fromkeys(arg for goal in goals for arg in goal.args))
         return Interpretation(
-            kind=Kind.PLAN, source=Source.MODEL, goals=goals, reply=_plain(proposal.reply), mentioned=mentioned
+            kind=Kind.PLAN, source=Source.MODEL, goals=goals, reply=proposal.reply, mentioned=mentioned
         )
 
 
@@ -141,11 +140,6 @@ def _correction(text: str, failure: ModelFailure) -> list[Message]:
         Message(role=Role.ASSISTANT, text=text[:4000] or "(nothing)"),
         Message(role=Role.USER, text=render("task_correction", flaw=flaw)),
     ]
-
-
-def _plain(text: str) -> str:
-    """A model's words as plain text: no control characters, no lone surrogates."""
-    return "".join(char if unicodedata.category(char) not in ("Cc", "Cs", "Co") else " " for char in text).strip()
 
 
 def _is_missing(node_id: str, snapshot: Snapshot) -> bool:

@@ -50,7 +50,7 @@ class Operators:
         sent_s = 0.0
         for goal in goals:
             if goal.object_id is None or goal.predicate is Predicate.FOUND:
-                sent_s = max(sent_s, 0.0 if state.is_at(goal.args[-1]) else self._leg_s(state, None, goal.args[-1]))
+                sent_s = max(sent_s, self._sent_s(goal, state, is_next=goal is goals[0]))
             else:
                 first.setdefault(goal.args[0], goal)
         handling_s, approaches_s = 0.0, [inf]
@@ -106,9 +106,17 @@ class Operators:
         ]
         return pick_s + min(costs_s, default=0.0)
 
+    def _sent_s(self, goal: Goal, state: PlanState, *, is_next: bool) -> float:
+        """The way to where the robot is sent. A room is reached at its edge on the way to something else in it."""
+        target = goal.args[-1]
+        if state.is_at(target) or (not is_next and state.world.things[target].kind == "room"):
+            return 0.0
+        return self._leg_s(state, None, target)
+
     def _carry_s(self, state: PlanState, object_id: str, place: str) -> float:
         here = state.holding == object_id or state.is_at(object_id)
-        if (here and state.is_at(place)) or state.anchor(object_id) == state.anchor(place):
+        together = place == state.room_of(object_id) or state.anchor(object_id) == state.anchor(place)
+        if together or (here and state.is_at(place)):
             return 0.0
         from_robot_s = self._leg_s(state, None, place) if here else inf
         return from_robot_s if state.holding == object_id else min(from_robot_s, self._leg_s(state, object_id, place))
@@ -124,7 +132,7 @@ class Operators:
 
 
 def _out_of_the_way(goal: Goal, state: PlanState) -> tuple[str, ...]:
-    """Where the held object, not the goal's, goes: a free place here; if it is the one to be near to, beside the other."""
+    """Where the held object goes that is not the goal's: here, or beside the goal's if that is to be near it."""
     if goal.predicate is Predicate.NEAR and state.holding == goal.args[1]:
         return surfaces_near(goal.args[0], state)
     return (state.robot_room,) if state.robot_room is not None else ()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import unicodedata
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -66,13 +67,14 @@ def read_proposal(data: Mapping[str, Any]) -> Proposal | ModelFailure:
         proposal = Proposal.model_validate(dict(data))
     except (ValidationError, RecursionError) as error:
         return _wrong(_first_problem(error))
+    proposal = proposal.model_copy(update={"question": plain(proposal.question), "reply": plain(proposal.reply)})
     if proposal.kind not in {kind.value for kind in Kind}:
         return _wrong(f"kind {proposal.kind[:40]!r} is none of {', '.join(Kind)}.")
     if proposal.kind == Kind.PLAN and not proposal.goals:
         return _wrong("a plan needs at least one goal.")
-    if proposal.kind == Kind.ANSWER and not proposal.question.strip():
+    if proposal.kind == Kind.ANSWER and not proposal.question:
         return _wrong('an answer needs the "question" in plain English.')
-    if proposal.kind in (Kind.CLARIFY, Kind.REFUSE) and not proposal.reply.strip():
+    if proposal.kind in (Kind.CLARIFY, Kind.REFUSE) and not proposal.reply:
         return _wrong(f'"{proposal.kind}" needs a "reply".')
     return proposal
 
@@ -94,6 +96,11 @@ def goals_of(proposal: Proposal, known: Mapping[str, Any]) -> tuple[Goal, ...] |
             return ModelFailure(kind=FailureKind.UNKNOWN_IDENTIFIER, message=message)
         goals.append(goal)
     return tuple(goals)
+
+
+def plain(text: str) -> str:
+    """A model's words as plain text: control characters and lone surrogates become spaces."""
+    return "".join(" " if unicodedata.category(char) in ("Cc", "Cs", "Co") else char for char in text).strip()
 
 
 def _wrong(message: str) -> ModelFailure:

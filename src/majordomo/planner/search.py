@@ -1,27 +1,22 @@
 """Classical search: which skills, in which order, achieve ordered goals at the least expected time.
 
 A* over pairs of a symbolic state and the number of goals achieved so far (Hart, Nilsson and Raphael, 1968). A goal is
-ticked off when it holds and all before it are ticked off; at the end all ``lasting`` goals hold together. No step
-brings about a later goal before its turn, so that *first ... then ...* means what it says.
+ticked off when it holds and all before it are ticked off; at the end all ``lasting`` goals hold together. Operators
+serve the goal whose turn it is, so that *first ... then ...* means what it says.
 """
 
 from __future__ import annotations
 
 import heapq
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import count
 
-from majordomo.planner.goals import PLACING, Goal, Predicate, holds, lasting
+from majordomo.planner.goals import Goal, holds, lasting
 from majordomo.planner.operators import Operators
 from majordomo.planner.plan import Step
 from majordomo.skills.skill import Skill
 from majordomo.skills.state import PlanState
-
-GUARDED = PLACING | {Predicate.HOLDING}
-"""Goals that no step may bring about before their turn; being somewhere on the way is no harm."""
-
-Estimate = Callable[[PlanState, int], float]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -102,13 +97,6 @@ class Search:
         """Whether nothing is left to do."""
         return ticked == len(self._goals) and all(holds(goal, state) for goal in self._lasting)
 
-    def too_early(self, before: PlanState, after: PlanState, ticked: int) -> bool:
-        """Whether a step brought about a goal whose turn has not come; ``ticked`` counts those ticked off after it."""
-        return any(
-            goal.predicate in GUARDED and holds(goal, after) and not holds(goal, before)
-            for goal in self._goals[ticked + 1 :]
-        )
-
     def pending(self, state: PlanState, ticked: int) -> Goal:
         """The goal to work on: the next in order, or a lasting one that was undone."""
         if ticked < len(self._goals):
@@ -118,9 +106,7 @@ class Search:
     def _successors(self, node: _Node, unmet: dict[str, None]) -> Iterator[_Node]:
         goal = self.pending(node.state, node.ticked)
         for step, cost_s, state in self._operators.applicable(goal, node.state, unmet):
-            ticked = self.tick(state, node.ticked)
-            if not self.too_early(node.state, state, ticked):
-                yield _Node(state, ticked, node.cost_s + cost_s, step, node)
+            yield _Node(state, self.tick(state, node.ticked), node.cost_s + cost_s, step, node)
 
     def _estimate(self, node: _Node) -> float:
         """Seconds that the remaining goals take at least: admissible, zero at the end."""

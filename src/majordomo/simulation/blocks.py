@@ -48,7 +48,7 @@ def overlapping(one: Block, two: Block) -> bool:
 
 
 def without(block: Block, hole: Block) -> Iterator[Block]:
-    """What is left of ``block`` when ``hole`` is cut through its full height; less a little where sides are not parallel."""
+    """What is left of ``block`` when ``hole`` is cut through its height; a little less where sides are not parallel."""
     if not overlapping(block, hole):
         yield block
         return

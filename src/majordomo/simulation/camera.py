@@ -28,7 +28,7 @@ INTRINSICS = Intrinsics(fx=_FOCAL_PX, fy=_FOCAL_PX, cx=(WIDTH - 1) / 2, cy=(HEIG
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Picture:
-    """What the renderer gives: ``rgb`` (H, W, 3) uint8, ``depth_m`` (H, W) along the axis, ``bodies`` (H, W), -1 for none."""
+    """What the renderer gives: ``rgb`` (H, W, 3) uint8, ``depth_m`` (H, W) along the axis, ``bodies`` (H, W) or -1."""
 
     rgb: NDArray[np.uint8]
     depth_m: NDArray[np.float32]

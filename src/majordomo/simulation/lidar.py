@@ -20,11 +20,11 @@ _MAST_BELOW_RAD = math.radians(-35.0)
 def scan_ranges(
     scenes: Sequence[Prisms], position_m: tuple[float, float, float], yaw_rad: float
 ) -> NDArray[np.float32]:
-    """True ranges of one revolution (rings, azimuths) in meters, ``inf`` for no return and behind the robot's own mast."""
+    """True ranges (rings, azimuths) of one revolution, ``inf`` for no return and behind the robot's own mast."""
     horizontal_m = cast(scenes, position_m, AZIMUTHS_RAD + yaw_rad, np.tan(ELEVATIONS_RAD))
-    ranges_m = horizontal_m / np.cos(ELEVATIONS_RAD)[:, None].astype(np.float32)
+    ranges_m = (horizontal_m / np.cos(ELEVATIONS_RAD)[:, None]).astype(np.float32)
     ranges_m[(ranges_m < MIN_RANGE_M) | (ranges_m > MAX_RANGE_M) | _HIDDEN] = np.inf
-    return ranges_m
+    return np.asarray(ranges_m, dtype=np.float32)
 
 
 _HIDDEN = (ELEVATIONS_RAD[:, None] < _MAST_BELOW_RAD) & (np.abs(AZIMUTHS_RAD) > math.pi - _MAST_HALF_WIDTH_RAD)

@@ -38,6 +38,7 @@ def free_spot(
 
     Args:
         pose: of what carries it, house coordinates.
+        top_m: extent of its top.
         radius_m: of the thing to be put.
         others: what stands there already.
         free: floor points from which an arm could reach; nearer spots are better.

@@ -1,4 +1,4 @@
-"""The house as upright solids, for the LiDAR: what stands still is turned into arrays once, what moves at every scan."""
+"""The house as upright solids for the LiDAR: what stands still becomes arrays once, what moves at every scan."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ class Solids:
 def part_prisms(
     parts: Iterable[Part], center_m: tuple[float, float, float], yaw_rad: float, height_m: float
 ) -> Iterator[Prism]:
-    """The parts of a body whose center is at ``center_m``. A sphere is taken as the cylinder about it."""
+    """The parts of a body whose center is at ``center_m``."""
     cos, sin = math.cos(yaw_rad), math.sin(yaw_rad)
     for part in parts:
         x_m, y_m, z_m = part.center_m
@@ -79,6 +79,7 @@ def part_prisms(
             top_m=middle_m + part.size_m[2] / 2,
             yaw_rad=yaw_rad,
             round=part.kind != "box",
+            ball=part.kind == "sphere",
         )
 
 

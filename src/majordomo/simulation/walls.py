@@ -28,7 +28,7 @@ Segment = tuple[Point2, Point2]
 
 @dataclass(frozen=True, kw_only=True)
 class Opening:
-    """The gap of a door: its width along the wall's direction ``yaw_rad``, ``depth_m`` through all between its rooms."""
+    """The gap of a door: its width along the wall's ``yaw_rad``, ``depth_m`` through all between its rooms."""
 
     door: Door
     center: Point2

@@ -22,6 +22,10 @@ from majordomo.skills.failures import Evidence, Failure, FailureCode
 from majordomo.skills.navigation.surroundings import Surroundings
 from majordomo.skills.ports import ArmGeometry, ArmTarget, BodyLimits, BodyPort, BodyState
 
+CARRY_SHARE = 0.6
+"""Share of the body's speed limits that is used with something in the hand."""
+CARRY_STEP_MPS, CARRY_STEP_RADPS = 0.06, 0.12
+"""With something in the hand, how far a command may exceed the measured speed."""
 AGENT = "robot_body"
 """Name under which actions edit the graph."""
 
@@ -127,13 +131,27 @@ class Action(py_trees.behaviour.Behaviour):
             return Status.RUNNING
         if self.elapsed_s > self.timeout_s:
             return self.fail(FailureCode.TIMEOUT, f"{self.name} took longer than {self.timeout_s:.0f} s.")
-        return self.step()
+        status = self.step()
+        self._carry_gently()
+        return status
 
     def terminate(self, new_status: Status) -> None:
         """Stand still; when interrupted, freeze the arm where it is."""
         self.context.commands.drive = (0.0, 0.0)
         if new_status is Status.INVALID and self.holds_arm:
             self.context.commands.arm = self.context.body.arm
+
+    def _carry_gently(self) -> None:
+        """With something in the hand, speed up slowly; slowing down is never delayed."""
+        context = self.context
+        if context.grip is None or context.commands.drive is None:
+            return
+        now = (context.body.linear_mps, context.body.angular_radps)
+        top = (CARRY_SHARE * context.limits.linear_mps, CARRY_SHARE * context.limits.angular_radps)
+        wanted = (_clip(v, limit) for v, limit in zip(context.commands.drive, top, strict=True))
+        steps = (CARRY_STEP_MPS, CARRY_STEP_RADPS)
+        linear, angular = (_gently(v, was, step) for v, was, step in zip(wanted, now, steps, strict=True))
+        context.commands.drive = (linear, angular)
 
     @property
     def elapsed_s(self) -> float:
@@ -160,3 +178,14 @@ class Refusal(Action):
         """Report the failure."""
         self.failure = self._refusal
         return Status.FAILURE
+
+
+def _clip(value: float, limit: float) -> float:
+    return min(max(value, -limit), limit)
+
+
+def _gently(wanted: float, now: float, step: float) -> float:
+    """``wanted``, but not faster than ``now`` by more than ``step``; a change of direction starts from rest."""
+    if wanted * now < 0:
+        return _clip(wanted, step)
+    return _clip(wanted, abs(now) + step)

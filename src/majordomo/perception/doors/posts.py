@@ -16,18 +16,20 @@ from majordomo.perception.doors.evidence import Gap, WallEvidence
 
 Array = NDArray[np.float64]
 
-_SHARP_M = 0.02
+_SHARP_M = 0.008
 _ROUGH_M = 0.05
 _CORNER_M = 0.04
 
 
 @dataclass(frozen=True, kw_only=True)
 class PostSettings:
-    """Lengths in meters. ``window_m``: rays this near to a post count. ``slack_m``: how far the bounds may be off.
+    """Lengths in meters. ``window_m``: rays this near to a post count. ``slack_m``: how far the bounds may be off;
+    ``shadow_m``: how far behind where wall was first seen the post may be, for the shallow end of a reveal looks like wall.
     ``sigma_m``: of a ray's depth. ``thinnest_wall_m``: a ray this deep in the gap may have passed the reveal."""
 
     window_m: float = 0.25
     slack_m: float = 0.06
+    shadow_m: float = 0.20
     coarse_m: float = 0.006
     fine_m: float = 0.001
     sigma_m: float = 0.02
@@ -47,25 +49,26 @@ class Post:
 
 
 def find_post(
-    evidence: WallEvidence, open_m: float, wall_m: float, settings: PostSettings | None = None
+    evidence: WallEvidence, open_m: float, wall_m: float, *, wall_follows: bool, settings: PostSettings | None = None
 ) -> Post | None:
     """The post between a station where the wall is open and one where it is wall.
 
-    ``None`` when too few rays were near, or none on one of its two sides.
+    ``wall_follows``: the wall is at greater stations, the gap at smaller ones. ``None`` when too few rays were near, or none on one of its two sides.
     """
     settings = settings or PostSettings()
-    middle_m, half_m = (open_m + wall_m) / 2.0, abs(wall_m - open_m) / 2.0
-    samples = evidence.samples(middle_m, half_m + settings.window_m)
+    sign = 1.0 if wall_follows else -1.0
+    low_m, high_m = sign * open_m - settings.slack_m, sign * wall_m + settings.shadow_m
+    middle_m, half_m = (low_m + high_m) / 2.0, (high_m - low_m) / 2.0
+    samples = evidence.samples(sign * middle_m, half_m + settings.window_m)
     if samples is None or len(samples.station_m) < settings.rays:
         return None
-    sign = 1.0 if wall_m > open_m else -1.0
     mirrored = _Mirrored(
         station=sign * samples.station_m,
         slope=sign * samples.slope,
         depth=samples.depth_m,
         weight=1.0 / np.maximum(samples.distance_m, 0.7) ** 2,
     )
-    rough, _ = _minimum(mirrored, sign * middle_m, half_m + settings.slack_m, settings.coarse_m, settings)
+    rough, _ = _minimum(mirrored, middle_m, half_m, settings.coarse_m, settings)
     best, half_m = _minimum(mirrored, rough, 2.0 * settings.coarse_m, settings.fine_m, settings)
     sides = mirrored.station > best
     if min(int(sides.sum()), int((~sides).sum())) < settings.rays // 4:
@@ -114,8 +117,8 @@ class MeasuredGap:
 
 def measure_gap(evidence: WallEvidence, gap: Gap) -> MeasuredGap:
     """Refine both ends of ``gap``; an end that cannot be refined stays where it is, with a large uncertainty."""
-    start_m, start_std_m = _end(evidence, gap.start_m, gap.wall_before_m)
-    end_m, end_std_m = _end(evidence, gap.end_m, gap.wall_after_m)
+    start_m, start_std_m = _end(evidence, gap.start_m, gap.wall_before_m, wall_follows=False)
+    end_m, end_std_m = _end(evidence, gap.end_m, gap.wall_after_m, wall_follows=True)
     return MeasuredGap(
         center_m=(start_m + end_m) / 2.0,
         width_m=max(end_m - start_m, 0.0),
@@ -124,11 +127,13 @@ def measure_gap(evidence: WallEvidence, gap: Gap) -> MeasuredGap:
     )
 
 
-def _end(evidence: WallEvidence, open_m: float, wall_m: float | None) -> tuple[float, float]:
+def _end(
+    evidence: WallEvidence, open_m: float, wall_m: float | None, *, wall_follows: bool
+) -> tuple[float, float]:
     """Station and standard deviation of one end; a gap that reaches the wall's end has the next wall for a post."""
     if wall_m is None:
         return open_m, _ROUGH_M
     if wall_m in (0.0, evidence.length_m) and abs(open_m - wall_m) < _CORNER_M:
         return wall_m, 0.005
-    post = find_post(evidence, open_m, wall_m)
+    post = find_post(evidence, open_m, wall_m, wall_follows=wall_follows)
     return (post.station_m, post.std_m) if post is not None else (open_m, _ROUGH_M)

@@ -24,7 +24,8 @@ class RaySettings:
     """Heights above the floor and lengths in meters.
 
     ``low_m`` to ``split_m`` and ``split_m`` to ``high_m`` are the two bands that must be open in a door. ``face_m``:
-    returns this near to the plane are on the wall. ``through_m``: a ray this far beyond the plane has passed it
+    returns this near to the plane are on the wall. ``floor_m``, ``lintel_m``: a ray that would meet the floor or the
+    lintel before it has passed tells nothing. ``through_m``: a ray this far beyond the plane has passed it
     (``lambda`` of algorithm 2). ``grazing``: least cosine of incidence. ``reach_m``: rays meeting a wall farther away
     are too far apart to tell. ``passage_m``: what stands nearer to a wall than this leaves no way to a door in it.
     """
@@ -32,6 +33,8 @@ class RaySettings:
     low_m: float = 0.25
     split_m: float = 0.9
     high_m: float = 1.8
+    floor_m: float = 0.1
+    lintel_m: float = 1.95
     face_m: float = 0.09
     through_m: float = 0.5
     grazing: float = 0.25
@@ -103,13 +106,15 @@ def _classify(
     height = height_m + reach[None, :] * tangent[:, None]
     with np.errstate(invalid="ignore"):
         depth = np.minimum((horizontal - reach) * incidence, settings.through_m)
-    told = (height > settings.low_m) & (height < settings.high_m) & (depth > -settings.face_m)
+    behind = height + tangent[:, None] * settings.through_m / incidence
+    in_band = (height > settings.low_m) & (height < settings.high_m)
+    clear = (behind > settings.floor_m) & (behind < settings.lintel_m)
+    told = in_band & clear & (depth > -settings.face_m)
     low = told & (height < settings.split_m)
     count = told.sum(axis=0)
     passing = (told & (depth >= settings.through_m)).sum(axis=0)
     low_hits = (low & (depth < settings.face_m)).sum(axis=0)
     kept = count > 0
-    in_band = (height > settings.low_m) & (height < settings.high_m)
     before = (in_band & (depth > -settings.passage_m) & (depth <= -settings.face_m)).any(axis=0)
     typical = _median_where(depth, told)
     return WallRays(

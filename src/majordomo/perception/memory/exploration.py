@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from majordomo.scene_graph.edges import IntentionStatus
 from majordomo.scene_graph.memory import WorkingMemory
 from majordomo.scene_graph.nodes import CrossingStatus, DoorNode, RoomNode, RoomStatus
 from majordomo.scene_graph.snapshot import Snapshot
 
+_OPEN = frozenset({IntentionStatus.PROPOSED, IntentionStatus.GRANTED, IntentionStatus.REVOKED})
 _QUIET_S = 4.0
 _TASK_PREFIX = "task:"
 
@@ -22,7 +24,7 @@ def nothing_left(snapshot: Snapshot) -> bool:
         len(rooms) > 0
         and all(room.status is not RoomStatus.TEMPORARY for room in rooms)
         and all(not door.provisional and door.crossing is not CrossingStatus.UNCROSSED for door in doors)
-        and all(edge.agent.startswith(_TASK_PREFIX) for edge in snapshot.intentions())
+        and not any(edge.status in _OPEN and not edge.agent.startswith(_TASK_PREFIX) for edge in snapshot.intentions())
     )
 
 

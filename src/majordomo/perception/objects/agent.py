@@ -25,6 +25,7 @@ from majordomo.perception.objects.publication import (
     person_edits,
     relation_edits,
     robot_edits,
+    united_edits,
 )
 from majordomo.perception.objects.recollection import Recollection
 from majordomo.perception.objects.relations import RelationMemory, RelationSettings
@@ -179,6 +180,7 @@ class ObjectMemory:
 
     def _relate(self, surroundings: Surroundings, placed: frozenset[int], scene: PanopticScene | None) -> None:
         seen = frozenset(track.number for track in self._tracker.matches.values()) if scene is not None else frozenset()
+        self._relations.unite(self._tracker.united)
         self._relations.update(
             self._tracker.tracks,
             surroundings.T_here_room,
@@ -193,6 +195,7 @@ class ObjectMemory:
         self._recollection.sync(snapshot)
         tracks, settings = self._tracker.tracks, self._settings.publication
         edits = self._inspection.edits(snapshot, stamp_s)
+        edits += united_edits(snapshot, self._tracker.removed)
         edits += object_edits(snapshot, tracks, self._inspection.inspected, stamp_s, settings)
         held, room = self._hand.held, snapshot.current_room
         node_id = held.track.node_id if held is not None and held.track.state is ObjectState.HELD else None

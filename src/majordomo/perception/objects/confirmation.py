@@ -17,6 +17,7 @@ Array = NDArray[np.float64]
 Places = Mapping[int, tuple[str, Array]]
 """Track number -> room and position (3,) from which a thing was taken into the hand."""
 _SAME_PLACE_M = 0.12
+_BOX_MARGIN_M = 0.1
 
 
 def known_as(
@@ -56,8 +57,20 @@ def is_fragment(sighting: Track, track: Track) -> bool:
         return False
     if track.label.best != sighting.label.best or track.state is not ObjectState.PRESENT:
         return False
-    points = sighting.surface_points
-    return len(points) > 0 and float(track.box.contains(points, 0.1).mean()) > 0.3
+    return _share_inside(sighting, track) > 0.3
+
+
+def is_double(one: Track, other: Track) -> bool:
+    """Whether two known pieces of furniture are one that was first seen from two sides: most of one lies in the
+    other.
+    """
+    alike = one.is_furniture and other.is_furniture and one.room == other.room and one.label.best == other.label.best
+    return alike and max(_share_inside(one, other), _share_inside(other, one)) > 0.5
+
+
+def _share_inside(part: Track, whole: Track) -> float:
+    points = part.surface_points
+    return float(whole.box.contains(points, _BOX_MARGIN_M).mean()) if len(points) else 0.0
 
 
 def _never_taken(sighting: Track, track: Track, taken_from: Places, settings: IdentitySettings) -> bool:

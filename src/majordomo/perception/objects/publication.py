@@ -107,6 +107,12 @@ def robot_edits(snapshot: Snapshot, holding: str | None) -> list[Edit]:
     return [PutNode(replace(robot, holding=holding))]
 
 
+def united_edits(snapshot: Snapshot, removed: set[str]) -> list[Edit]:
+    """Take out nodes of furniture that turned out to be a part of another node; forgotten here once they are gone."""
+    removed &= set(snapshot.nodes)
+    return [RemoveNode(node_id) for node_id in sorted(removed)]
+
+
 def person_edits(
     snapshot: Snapshot, persons: Sequence[PersonTrack], stamp_s: float, settings: PublicationSettings
 ) -> list[Edit]:

@@ -4,6 +4,8 @@ is believed.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from majordomo.perception.objects.relations import RelationMemory
 from majordomo.perception.objects.track import Track
 from majordomo.perception.objects.tracker import Tracker
@@ -31,11 +33,14 @@ class Recollection:
             if node_id in self._written and node_id not in nodes:
                 self._tracker.drop(track)
         self._written = set(nodes)
-        new = [self._adopt(node, snapshot) for node in nodes.values() if node.id not in tracks]
+        new = [self._adopt(node, snapshot) for node in nodes.values() if self._is_new(node, tracks)]
         adopted = [track for track in new if track is not None]
         for node in nodes.values():
             self._listen(node, tracks.get(node.id))
         return self._adopt_relations(adopted, snapshot) if adopted else set()
+
+    def _is_new(self, node: ObjectNode, tracks: Mapping[str, Track]) -> bool:
+        return node.id not in tracks and node.id not in self._tracker.removed
 
     def _adopt(self, node: ObjectNode, snapshot: Snapshot) -> Track | None:
         room, parent = snapshot.room_of(node.id), snapshot.parent(node.id)

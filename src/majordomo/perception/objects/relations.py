@@ -51,6 +51,14 @@ class RelationMemory:
         self.probability[key] = probability
         self._stated.add(key)
 
+    def unite(self, united: Mapping[int, Track]) -> None:
+        """What was said of a part is said of the whole."""
+        for key in [k for k in self.probability if k[0] in united or k[1] in united]:
+            p = self.probability.pop(key)
+            a, b = (united[n].number if n in united else n for n in key[:2])
+            if a != b:
+                self.probability[a, b, key[2]] = max(p, self.probability.get((a, b, key[2]), 0.0))
+
     def update(
         self,
         tracks: Sequence[Track],

@@ -65,7 +65,10 @@ def measure_shape(cloud: Cloud, view: View, category: Category, *, depth_noise_p
     along, across = (body - camera) @ forward, (body - camera) @ left
     low_across, high_across = _span(across, pixel_m)
     front, back = _inner(along)
-    width, height = high_across - low_across, high_z - low_z
+    width = high_across - low_across
+    if category.ball and camera[2] > high_z:
+        low_z = high_z - width  # from above, the lower part of a ball hides itself
+    height = high_z - low_z
     top_in_view = _sees_top(camera[2] - high_z, float(front), max(float(back - front), width / 2.0), pixel_m)
     doubt_m = (_DEPTH_DOUBT if category.round or top_in_view else _HIDDEN_DOUBT) * width
     yaw_rad, oriented = 0.0, False

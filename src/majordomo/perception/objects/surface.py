@@ -15,6 +15,9 @@ from majordomo.scene_graph.se3 import SE3
 Array = NDArray[np.float64]
 _OFFSET = 1 << 20
 _SIGMA_M = 0.02
+_SHALLOW = 0.3
+_SHALLOW_TALL = 0.6
+"""Share of the usual depth below which only a front has been seen; a top above the camera cannot show the depth."""
 
 
 class Box:
@@ -49,12 +52,13 @@ class SurfaceMemory:
     """Mean point and number of frames of each voxel.
 
     Attributes:
+        voxel_m: side of a voxel.
         points: (V, 3) mean of what fell into each voxel.
         hits: (V,) frames that saw it.
     """
 
     def __init__(self, *, voxel_m: float = 0.03, capacity: int = 6000) -> None:
-        self._voxel_m = voxel_m
+        self.voxel_m = voxel_m
         self._capacity = capacity
         self._keys = np.zeros(0, dtype=np.int64)
         self.points = np.zeros((0, 3))
@@ -64,7 +68,7 @@ class SurfaceMemory:
         """Points (N, 3) that count as ``frames`` frames."""
         if len(points) == 0:
             return
-        cells = np.floor(points / self._voxel_m).astype(np.int64) + _OFFSET
+        cells = np.floor(points / self.voxel_m).astype(np.int64) + _OFFSET
         keys = (cells[:, 0] << 42) | (cells[:, 1] << 21) | cells[:, 2]
         new_keys, inverse, counts = np.unique(keys, return_inverse=True, return_counts=True)
         sums = np.stack([np.bincount(inverse, points[:, axis]) for axis in range(3)], axis=1)
@@ -99,21 +103,23 @@ class SurfaceMemory:
 def furniture_box(memory: SurfaceMemory, category: Category, camera: Array) -> Box:
     """The box of a piece of furniture from its surface.
 
-    What stands on the floor reaches down to it. Of a tall one only the front shows: its depth is then the usual one,
-    away from ``camera`` (3,).
+    What stands on the floor reaches down to it. Where only a front has shown, the depth is the usual one, away from
+    ``camera`` (3,).
     """
     points = memory.reliable
     low_z, high_z = (float(z) for z in np.quantile(points[:, 2], (0.02, 0.985)))
     low_z = 0.0 if category.floor else low_z
     rectangle = bounding_rectangle(points[:, :2], align_to_room=True)
     rectangle = _deepened(rectangle, category, camera, top_hidden=high_z > camera[2] - 0.05)
+    rim_m = 0.5 * memory.voxel_m
     center = np.array((rectangle.center_x_m, rectangle.center_y_m, (low_z + high_z) / 2.0))
-    return Box(center, (rectangle.x_m, rectangle.y_m, max(high_z - low_z, 0.01)), rectangle.yaw_rad)
+    sides_m = (rectangle.x_m + rim_m, rectangle.y_m + rim_m, max(high_z - low_z, 0.01))
+    return Box(center, sides_m, rectangle.yaw_rad)
 
 
 def _deepened(rectangle: Rectangle, category: Category, camera: Array, *, top_hidden: bool) -> Rectangle:
     usual_m = min(category.size_m[:2]) or min(rectangle.x_m, 0.4)
-    if not top_hidden or rectangle.y_m >= 0.6 * usual_m:
+    if rectangle.y_m >= (_SHALLOW_TALL if top_hidden else _SHALLOW) * usual_m:
         return rectangle
     missing_m = usual_m - rectangle.y_m
     normal = np.array((-np.sin(rectangle.yaw_rad), np.cos(rectangle.yaw_rad)))
@@ -140,6 +146,8 @@ class SurfaceBelief:
         self.memory = SurfaceMemory()
         self.box = Box(np.zeros(3), (0.1, 0.1, 0.1), 0.0)
         self._pose_covariance: Array | None = None
+        self._category: Category | None = None
+        self._first_camera: Array | None = None
 
     @classmethod
     def of(cls, box: Box) -> SurfaceBelief:
@@ -160,7 +168,19 @@ class SurfaceBelief:
         if self._pose_covariance is None or np.trace(pose_covariance) < np.trace(self._pose_covariance):
             self._pose_covariance = pose_covariance
         self.memory.add(points)
-        self.box = furniture_box(self.memory, category, camera)
+        self._first_camera = camera if self._first_camera is None else self._first_camera
+        self._category = category
+        self._refresh()
+
+    def _refresh(self) -> None:
+        """The box around everything seen; what hides behind a lone front lies away from where that was first seen."""
+        if self._category is not None and self._first_camera is not None:
+            self.box = furniture_box(self.memory, self._category, self._first_camera)
+
+    def absorb(self, part: SurfaceBelief) -> None:
+        """Take in what was seen of a part of this piece; the larger box stands until the next sight."""
+        self.memory.add(part.memory.reliable, frames=2.0)
+        self._refresh()
 
     def put_at(self, position: Array, sigma_m: float, yaw_rad: float | None) -> None:
         """Place it where it must be now, other than by sight."""
@@ -173,6 +193,7 @@ class SurfaceBelief:
         """Express it in another room's frame."""
         seen, self.memory = self.memory, SurfaceMemory()
         self.memory.add(T_new_old.apply(seen.reliable), frames=2.0)
+        self._first_camera = T_new_old.apply(self._first_camera) if self._first_camera is not None else None
         self.box = Box(T_new_old.apply(self.box.center), self.box.size_m, self.box.yaw_rad + T_new_old.yaw_rad)
 
 

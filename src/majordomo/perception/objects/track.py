@@ -166,7 +166,7 @@ class Track:
     def absorb(self, part: Track) -> None:
         """Take in a piece of furniture that turned out to be a part of this one."""
         if isinstance(self.place, SurfaceBelief) and isinstance(part.place, SurfaceBelief):
-            self.place.memory.add(part.place.memory.reliable)
+            self.place.absorb(part.place)
         self.hits += part.hits
         self.misses = 0
         self.last_seen_s = max(self.last_seen_s, part.last_seen_s)

@@ -18,7 +18,7 @@ from majordomo.perception.objects.association import (
     warp_labels,
 )
 from majordomo.perception.objects.beliefs import agreement
-from majordomo.perception.objects.confirmation import is_fragment, known_as, undecided
+from majordomo.perception.objects.confirmation import is_double, is_fragment, known_as, undecided
 from majordomo.perception.objects.detection import Detection
 from majordomo.perception.objects.existence import (
     ExistenceSettings,
@@ -80,6 +80,7 @@ class Tracker:
         taken: every identifier ever seen; none is given twice.
         places_before: where things in the hand were taken from.
         matches: instance index -> track, of the newest frame.
+        united: number of a track that turned out to be a part of another -> that other; ``removed``: their nodes.
     """
 
     def __init__(self, *, settings: TrackerSettings, random: Generator) -> None:
@@ -90,6 +91,8 @@ class Tracker:
         self.tracks: list[Track] = []
         self.taken: set[str] = set()
         self.matches: dict[int, Track] = {}
+        self.united: dict[int, Track] = {}
+        self.removed: set[str] = set()
         self.places_before: dict[int, tuple[str, Array]] = {}
 
     def new_track(self, room: str) -> Track:
@@ -123,6 +126,7 @@ class Tracker:
         for detection in unmatched:
             self._found(detection, sight)
         self._confirm(sight)
+        self._unite()
         self._forget_tentative(sight.view.stamp_s)
         self._remember_masks(sight)
 
@@ -243,6 +247,19 @@ class Tracker:
             known.become(sighting)
         self.matches = {index: known if t is sighting else t for index, t in self.matches.items()}
         self.drop(sighting)
+
+    def _unite(self) -> None:
+        """Two nodes that turned out to be one piece of furniture become one; the older name stays."""
+        seen = list({t.number: t for t in self.matches.values() if t.node_id is not None and t.is_furniture}.values())
+        for track in seen:
+            for other in [t for t in self.tracks if t.node_id is not None and t is not track and is_double(track, t)]:
+                older, newer = sorted((track, other), key=lambda t: t.number)
+                if older in self.tracks and newer in self.tracks:
+                    older.absorb(newer)
+                    self.united[newer.number] = older
+                    self.removed.update({newer.node_id} if newer.node_id is not None else ())
+                    self.matches = {index: older if t is newer else t for index, t in self.matches.items()}
+                    self.drop(newer)
 
     def _forget_tentative(self, stamp_s: float) -> None:
         self.tracks = [

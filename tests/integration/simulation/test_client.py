@@ -1,0 +1,135 @@
+"""The simulator's process through its client: same seed same data, death and restart, stop, pace."""
+
+from __future__ import annotations
+
+import os
+import signal
+import time
+
+import numpy as np
+import pytest
+
+from majordomo.perception.panoptic import PanopticScene
+from majordomo.simulation.client import SimulatedRobot
+from majordomo.simulation.errors import DisturbError, HouseError, SimulatorDied
+from majordomo.simulation.stand_in import SegmentationStandIn
+from majordomo.skills.ports import ArmTarget
+
+pytestmark = pytest.mark.anyio
+
+
+@pytest.fixture
+def anyio_backend():
+    return "asyncio"
+
+
+@pytest.fixture
+async def robot():
+    robot = await SimulatedRobot.start("flat", seed=3)
+    yield robot
+    await robot.close()
+
+
+async def experience():
+    """Everything a robot senses on a short drive."""
+    robot = await SimulatedRobot.start("flat", seed=5)
+    felt = []
+    await robot.look(0.5, -0.4)
+    await robot.move_arm(ArmTarget(lift_m=0.9, extension_m=0.2))
+    for _ in range(10):
+        await robot.drive(0.3, 0.2)
+        await robot.advance(0.1)
+        frame = await robot.frame()
+        felt += [await robot.odometry(), await robot.state(), (await robot.scan()).ranges_m.tobytes()]
+        felt += [frame.depth_m.tobytes(), frame.rgb.tobytes(), await robot.truth()]
+    await robot.close()
+    return felt
+
+
+async def test_the_same_seed_and_commands_give_the_same_data_bit_for_bit():
+    assert await experience() == await experience()
+
+
+async def test_a_killed_simulator_is_told_from_a_slow_one_and_can_be_restarted(robot):
+    await robot.advance(0.5)
+    os.kill(robot.pid, signal.SIGKILL)
+    with pytest.raises(SimulatorDied):
+        await robot.scan()
+    assert not robot.alive
+    await robot.restart()
+    assert robot.alive
+    assert (await robot.odometry()).stamp_s == 0.0
+
+
+async def test_the_stop_does_not_wait_for_a_request_in_progress():
+    robot = await SimulatedRobot.start("flat", seed=0, mode="real")
+    await robot.drive(0.3, 0.0)
+    robot.stop()
+    started = time.monotonic()
+    while time.monotonic() - started < 0.3:
+        state = await robot.state()
+    assert state.stopped
+    assert (state.linear_mps, state.angular_radps) == pytest.approx((0.0, 0.0), abs=1e-2)
+    await robot.drive(0.3, 0.0)
+    robot.release_stop()
+    assert not (await robot.state()).stopped
+    await robot.close()
+
+
+async def test_in_real_mode_time_follows_the_wall_clock_or_falls_behind_but_never_runs_ahead():
+    robot = await SimulatedRobot.start("flat", seed=0, mode="real")
+    before_s, wall_s = (await robot.odometry()).stamp_s, time.monotonic()
+    while time.monotonic() - wall_s < 1.0:
+        await robot.state()
+    passed_s, wall_passed_s = (await robot.odometry()).stamp_s - before_s, time.monotonic() - wall_s
+    assert 0.3 * wall_passed_s < passed_s < wall_passed_s + 0.1
+    await robot.close()
+
+
+async def test_a_disturbance_that_cannot_happen_is_refused_and_the_simulator_lives_on(robot):
+    with pytest.raises(DisturbError):
+        await robot.disturb({"do": "move", "id": "unicorn", "to": {"on": "table_1"}})
+    with pytest.raises(DisturbError):
+        await robot.disturb({"do": "levitate"})
+    await robot.disturb({"do": "close_door", "id": "d1"})
+    assert {"id": "d1", "state": "closed"} in (await robot.truth())["doors"]
+
+
+async def test_a_faulty_house_is_told_before_anything_starts(tmp_path):
+    path = tmp_path / "house.json"
+    path.write_text("{}")
+    with pytest.raises(HouseError):
+        await SimulatedRobot.start(str(path))
+
+
+async def test_depth_and_pose_of_the_camera_agree_with_where_the_furniture_stands(robot):
+    await robot.disturb({"do": "move", "id": "robot", "to": {"pose": [1.6, 1.6, 1.5708]}})
+    await robot.look(0.0, -0.45)
+    await robot.advance(1.0)
+    frame = await robot.frame()
+    height, width = frame.depth_m.shape
+    v, u = np.mgrid[0:height, 0:width]
+    k = frame.intrinsics
+    camera = np.stack(((u - k.cx) / k.fx * frame.depth_m, (v - k.cy) / k.fy * frame.depth_m, frame.depth_m), -1)
+    base = frame.T_base_camera.apply(camera.reshape(-1, 3))
+    ahead = base[(np.abs(base[:, 1]) < 0.4) & (base[:, 0] > 1.15) & (base[:, 0] < 1.65)]
+    top = ahead[np.abs(ahead[:, 2] - 0.75) < 0.05]
+    assert len(top) > 500, "the table's top, 0.75 m high and 1.07 to 1.77 m ahead"
+    assert np.median(top[:, 2]) == pytest.approx(0.75, abs=0.01)
+
+
+async def test_the_stand_in_finds_what_is_in_view_with_errors_that_its_settings_state(robot):
+    await robot.disturb({"do": "move", "id": "robot", "to": {"pose": [1.6, 1.6, 1.5708]}})
+    await robot.look(0.0, -0.45)
+    await robot.advance(1.0)
+    perfect = SegmentationStandIn(robot, np.random.default_rng(0), label_error=0.0, mask_error=0.0, miss=0.0)
+    frame = await robot.frame()
+    scene = await perfect.infer(frame)
+    assert isinstance(scene, PanopticScene)
+    labels = {instance.label for instance in scene.instances}
+    assert {"table", "bottle", "cup"} <= labels
+    assert not labels & {"wall", "floor", "door"}
+    wrong = SegmentationStandIn(robot, np.random.default_rng(0), label_error=1.0)
+    assert not labels & {instance.label for instance in (await wrong.infer(frame)).instances}
+    blind = SegmentationStandIn(robot, np.random.default_rng(0), miss=1.0)
+    assert (await blind.infer(frame)).instances == ()

@@ -1,0 +1,108 @@
+"""What a room is for, from its contents."""
+
+import asyncio
+
+import pytest
+
+from majordomo.perception.labels import ROOM_LABELS, RoomLabels, room_label
+from majordomo.scene_graph.edges import InEdge, RtEdge
+from majordomo.scene_graph.edits import PutEdge, PutNode
+from majordomo.scene_graph.memory import WorkingMemory
+from majordomo.scene_graph.nodes import ObjectNode, ObjectState, RoomNode, RoomStatus
+from majordomo.scene_graph.se3 import SE3
+
+SQUARE = ((-2.0, -2.0), (2.0, -2.0), (2.0, 2.0), (-2.0, 2.0))
+NARROW = ((-4.0, -0.7), (4.0, -0.7), (4.0, 0.7), (-4.0, 0.7))
+
+
+def things(*labels):
+    return [(label, 0.97) for label in labels]
+
+
+@pytest.mark.parametrize(
+    ("contents", "label"),
+    [
+        (("fridge", "counter", "table"), "kitchen"),
+        (("stove",), "kitchen"),
+        (("refrigerator", "sink", "chair", "chair", "table"), "kitchen"),
+        (("bed", "nightstand"), "bedroom"),
+        (("bed", "desk"), "bedroom"),
+        (("desk", "chair", "laptop"), "office"),
+        (("sofa", "tv"), "living room"),
+        (("couch", "coffee table", "shelf"), "living room"),
+        (("toilet", "sink"), "bathroom"),
+        (("bathtub",), "bathroom"),
+        (("table", "chair", "chair", "chair"), "dining room"),
+    ],
+)
+def test_contents_tell_the_use_of_a_room(contents, label):
+    said, probability = room_label(things(*contents), polygon_m=SQUARE, doors=2)
+    assert said == label
+    assert 0.5 < probability <= 1.0
+
+
+def test_an_empty_room_says_nothing_unless_it_is_shaped_like_a_hall():
+    assert room_label([], polygon_m=SQUARE, doors=1)[0] == ""
+    assert room_label([], polygon_m=NARROW, doors=4)[0] == "hall"
+
+
+def test_a_bottle_or_an_unknown_thing_says_nothing():
+    assert room_label(things("bottle", "gizmo"), polygon_m=SQUARE, doors=2) == room_label(
+        [("x", 1.0)], polygon_m=SQUARE, doors=2
+    )
+
+
+def test_doubtful_contents_tell_less():
+    sure = room_label([("bed", 0.99)])[1]
+    doubtful = room_label([("bed", 0.3)])[1]
+    assert sure > doubtful
+
+
+def test_the_order_of_contents_does_not_matter():
+    names = ("fridge", "sofa", "table", "chair", "tv")
+    assert room_label(things(*names)) == pytest.approx(room_label(things(*reversed(names))))
+    assert "kitchen" in ROOM_LABELS
+
+
+def memory_with(label_taught=False):
+    memory = WorkingMemory()
+    room = RoomNode(
+        id="room_1",
+        polygon_m=SQUARE,
+        status=RoomStatus.PERMANENT,
+        label="den" if label_taught else "",
+        label_taught=label_taught,
+    )
+    bed = ObjectNode(id="bed_1", label="bed", size_m=(2.0, 1.5, 0.5))
+    edits = [
+        PutNode(room),
+        PutEdge(RtEdge(source="root", target="room_1", T_source_target=SE3.identity())),
+        PutNode(bed),
+        PutEdge(RtEdge(source="room_1", target="bed_1", T_source_target=SE3.identity())),
+        PutEdge(InEdge(source="bed_1", target="room_1")),
+    ]
+    memory.commit(edits, agent="test", stamp_s=0.0)
+    return memory
+
+
+def step(memory):
+    asyncio.run(RoomLabels(memory).step(1.0))
+    return memory.snapshot()
+
+
+def test_the_agent_labels_a_room_with_its_probability_and_writes_only_once():
+    memory = memory_with()
+    graph = step(memory)
+    assert graph.room("room_1").label == "bedroom"
+    assert graph.room("room_1").label_probability > 0.6
+    assert step(memory).revision == graph.revision
+
+
+def test_the_agent_never_overrides_a_persons_word():
+    assert step(memory_with(label_taught=True)).room("room_1").label == "den"
+
+
+def test_missing_things_do_not_count():
+    memory = memory_with()
+    memory.commit([PutNode(ObjectNode(id="bed_1", label="bed", state=ObjectState.MISSING))], agent="test", stamp_s=0.5)
+    assert step(memory).room("room_1").label == ""

@@ -1,0 +1,231 @@
+"""Labels, colors, identity and rooms: how single frames become beliefs."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from majordomo.perception.objects.beliefs import ColorBelief, LabelBelief, agreement, share_agreement
+from majordomo.perception.objects.center import CenterBelief, CenterSettings
+from majordomo.perception.objects.color import PALETTE, color_votes, named_color
+from majordomo.perception.objects.identity import IdentitySettings, departed, likeness, same_thing_moved
+from majordomo.perception.objects.membership import Surroundings, outside_distance_m
+from majordomo.perception.objects.raycast import Solid, look_at, render
+from majordomo.perception.objects.scripted import furnished_memory
+from majordomo.perception.objects.surface import Box
+from majordomo.perception.objects.track import Track, TrackSettings
+from majordomo.scene_graph.edges import ConnectsEdge, RtEdge
+from majordomo.scene_graph.edits import PutEdge, PutNode
+from majordomo.scene_graph.nodes import DoorNode, ObjectState
+from majordomo.scene_graph.se3 import SE3
+
+LABELS = ("bottle", "cup", "vase", "can")
+
+
+@pytest.mark.parametrize("noise", [0.03, 0.1])
+def test_wrong_labels_of_single_frames_wash_out(noise):
+    random = np.random.default_rng(2)
+    for _ in range(50):
+        belief = LabelBelief()
+        for _ in range(25):
+            label = random.choice(LABELS[1:]) if random.random() < noise else "bottle"
+            belief.update(((str(label), 0.8), ("vase", 0.15)))
+        assert belief.best == "bottle"
+        assert belief.confidence > 0.95
+
+
+def test_a_belief_can_be_turned_by_enough_frames():
+    belief = LabelBelief()
+    for _ in range(100):
+        belief.update((("cup", 0.9),))
+    for _ in range(20):
+        belief.update((("bowl", 0.9),))
+    assert belief.best == "bowl"
+
+
+@given(st.lists(st.tuples(st.sampled_from(LABELS), st.floats(0.0, 1.0)), min_size=1, max_size=20))
+def test_a_label_distribution_is_sorted_and_sums_to_one(frames):
+    belief = LabelBelief()
+    for label, probability in frames:
+        belief.update(((label, probability),))
+    probabilities = [p for _, p in belief.distribution]
+    assert 0.0 < sum(probabilities) <= 1.0 + 1e-9
+    assert probabilities == sorted(probabilities, reverse=True)
+
+
+def test_the_order_of_frames_does_not_matter_while_odds_are_small():
+    forward, backward = LabelBelief(), LabelBelief()
+    frames = [(("cup", 0.6), ("bowl", 0.3)), (("bowl", 0.5), ("cup", 0.4))]
+    for frame in frames:
+        forward.update(frame)
+    for frame in reversed(frames):
+        backward.update(frame)
+    assert dict(forward.distribution) == pytest.approx(dict(backward.distribution))
+
+
+@given(st.lists(st.floats(0.01, 1.0), min_size=4, max_size=4), st.lists(st.floats(0.01, 1.0), min_size=4, max_size=4))
+def test_agreement_is_symmetric_within_zero_and_one_and_one_for_equals(p, q):
+    a = tuple(zip(LABELS, np.array(p) / sum(p), strict=True))
+    b = tuple(zip(LABELS, np.array(q) / sum(q), strict=True))
+    assert agreement(a, b) == pytest.approx(agreement(b, a))
+    assert 0.0 <= agreement(a, b) <= 1.0 + 1e-9
+    assert agreement(a, a) == pytest.approx(1.0)
+    assert share_agreement(dict(a), {}) == 1.0
+
+
+COLORS = [
+    ("red", (200, 20, 20)), ("green", (30, 160, 40)), ("blue", (20, 50, 200)), ("yellow", (230, 210, 30)),
+    ("orange", (240, 130, 20)), ("purple", (130, 40, 180)), ("pink", (240, 130, 180)), ("brown", (120, 70, 30)),
+    ("white", (245, 245, 245)), ("black", (20, 20, 20)), ("gray", (128, 128, 128)), ("cyan", (20, 200, 210)),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("name", "rgb"), COLORS)
+def test_colors_are_named_as_people_name_them(name, rgb):
+    assert named_color(*rgb) == name
+    assert name in PALETTE
+
+
+@pytest.mark.parametrize(("name", "rgb"), COLORS)
+def test_a_color_keeps_its_name_on_shaded_faces(name, rgb):
+    thing = Solid(label="bottle", center=(0.0, 0.0, 0.3), size_m=(0.3, 0.3, 0.5), cylinder=True, color=rgb)
+    belief = ColorBelief()
+    for eye in ((-1.5, 0.0, 1.2), (0.0, -1.5, 1.2), (1.0, 1.0, 1.2)):
+        rendering = render([thing], look_at(eye, (0.0, 0.0, 0.3)))
+        belief.update(color_votes(rendering.rgb, rendering.ids == 0))
+    assert belief.best == name
+
+
+def test_a_handful_of_pixels_of_the_neighbor_does_not_change_the_color():
+    rgb = np.zeros((40, 40, 3), dtype=np.uint8)
+    rgb[:] = (20, 50, 200)
+    rgb[:, :8] = (200, 20, 20)
+    votes = color_votes(rgb, np.ones((40, 40), dtype=bool))
+    assert max(votes, key=votes.get) == "blue"
+    assert sum(votes.values()) == pytest.approx(1.0)
+    assert color_votes(rgb, np.zeros((40, 40), dtype=bool)) == {}
+
+
+def thing(number, label="bottle", color="blue", size_m=(0.07, 0.07, 0.24), seen=(0.0, 10.0), state=ObjectState.PRESENT):
+    track = Track(number, "room_1", settings=TrackSettings(), random=np.random.default_rng(number))
+    for _ in range(5):
+        track.label.update(((label, 0.95),))
+    track.color.update({color: 1.0})
+    track.place = CenterBelief(
+        Box(np.zeros(3), size_m, 0.0), np.eye(3) * 1e-4, settings=CenterSettings(), random=np.random.default_rng(number)
+    )
+    track.first_seen_s, track.last_seen_s = seen
+    track.state = state
+    track.log_odds = -2.0 if state is ObjectState.MISSING else 4.6
+    return track
+
+
+def moved(sighting, known, *, place_known=True):
+    return same_thing_moved(sighting, known, place_known=place_known, settings=IdentitySettings())
+
+
+def test_a_missing_thing_is_recognized_elsewhere():
+    missing = thing(1, state=ObjectState.MISSING)
+    assert moved(thing(2, seen=(20.0, 21.0)), [missing], place_known=False) is missing
+
+
+@pytest.mark.parametrize("other", [{"label": "cup"}, {"color": "red"}, {"size_m": (0.14, 0.14, 0.4)}])
+def test_a_thing_of_another_label_color_or_size_is_another_thing(other):
+    assert moved(thing(2, seen=(20.0, 21.0), **other), [thing(1, state=ObjectState.MISSING)]) is None
+
+
+def test_two_things_seen_at_the_same_time_are_two():
+    assert moved(thing(2, seen=(9.0, 10.0)), [thing(1, seen=(0.0, 9.5))]) is None
+
+
+def test_the_longer_unseen_the_likelier_it_has_moved():
+    ages = [0.0, 10.0, 100.0, 1000.0, 10_000.0]
+    chances = [departed(thing(1), 10.0 + age, IdentitySettings()) for age in ages]
+    assert chances == sorted(chances)
+    assert chances[0] < 0.02
+    assert chances[-1] > 0.99
+
+
+def test_a_look_alike_in_an_unexplored_place_is_new_and_in_an_inspected_place_is_the_old_one():
+    known = thing(1, seen=(0.0, 10.0))
+    assert moved(thing(2, seen=(100.0, 101.0)), [known], place_known=False) is None
+    assert moved(thing(2, seen=(100.0, 101.0)), [known], place_known=True) is known
+
+
+def test_one_of_several_present_look_alikes_is_never_taken_for_the_moved_one():
+    twins = [thing(1), thing(2)]
+    assert moved(thing(3, seen=(500.0, 501.0)), twins) is None
+    missing = thing(4, state=ObjectState.MISSING)
+    assert moved(thing(3, seen=(500.0, 501.0)), [*twins, missing]) is missing
+
+
+def test_likeness_is_symmetric():
+    a, b = thing(1), thing(2, label="vase", size_m=(0.1, 0.1, 0.2))
+    assert likeness(a, b) == pytest.approx(likeness(b, a))
+    assert likeness(a, thing(3)) == pytest.approx(1.0, abs=0.01)
+
+
+SQUARE = ((-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0))
+ELL = ((0.0, 0.0), (4.0, 0.0), (4.0, 2.0), (2.0, 2.0), (2.0, 4.0), (0.0, 4.0))
+
+
+@given(st.floats(-3.0, 3.0), st.floats(-3.0, 3.0))
+def test_the_signed_distance_from_a_square_has_the_right_sign_and_size(x, y):
+    expected = max(abs(x), abs(y)) - 1.0
+    distance = outside_distance_m(SQUARE, np.array((x, y)))
+    if expected <= 0.0 or min(abs(x), abs(y)) <= 1.0:
+        assert distance == pytest.approx(expected, abs=1e-9)
+    else:
+        assert distance == pytest.approx(np.hypot(abs(x) - 1.0, abs(y) - 1.0), abs=1e-9)
+
+
+def test_a_room_may_have_a_corner_cut_out():
+    assert outside_distance_m(ELL, np.array((3.0, 3.0))) == pytest.approx(1.0)
+    assert outside_distance_m(ELL, np.array((1.0, 3.0))) < 0.0
+
+
+def two_rooms():
+    memory = furnished_memory(rooms=2)
+    door = DoorNode(id="door_1_0_0", rooms=("room_1", "room_2"), width_m=0.9, provisional=False)
+    edits = [
+        PutNode(door),
+        PutEdge(RtEdge(source="room_1", target=door.id, T_source_target=SE3.from_xyz_yaw(3.0, 0.0, 0.0, np.pi))),
+        PutEdge(ConnectsEdge(source=door.id, target="room_1")),
+        PutEdge(ConnectsEdge(source=door.id, target="room_2")),
+    ]
+    return memory.commit(edits, agent="door_concept", stamp_s=0.0)
+
+
+def test_a_point_behind_the_door_belongs_to_the_room_behind_the_door_and_one_outside_to_none():
+    surroundings = Surroundings(two_rooms(), "room_1")
+    assert surroundings.room_of(np.array((1.0, 0.0, 0.5))) == "room_1"
+    assert surroundings.room_of(np.array((4.5, 0.5, 0.5))) == "room_2"
+    assert surroundings.room_of(np.array((3.02, 0.0, 0.5))) == "room_1"
+    assert surroundings.room_of(np.array((-4.5, 0.0, 0.5))) is None
+
+
+def test_a_thing_changes_its_room_only_when_it_is_clearly_outside():
+    surroundings = Surroundings(two_rooms(), "room_1")
+    assert surroundings.settled_room("room_1", np.array((3.1, 0.0, 0.5))) == "room_1"
+    assert surroundings.settled_room("room_1", np.array((3.6, 0.0, 0.5))) == "room_2"
+    assert surroundings.settled_room("room_2", np.array((-4.0, 0.0, 0.5))) == "room_1"
+
+
+@pytest.mark.parametrize(
+    ("name", "rgb"),
+    [
+        ("brown", (163, 115, 66)), ("brown", (139, 69, 19)), ("blue", (15, 23, 97)), ("red", (115, 15, 26)),
+        ("green", (122, 122, 31)), ("green", (140, 217, 38)), ("yellow", (204, 166, 46)), ("cyan", (26, 122, 128)),
+        ("pink", (204, 26, 153)), ("beige", (224, 209, 173)), ("white", (204, 224, 235)),
+    ],
+)  # fmt: skip
+def test_less_usual_colors_go_to_the_nearest_common_name(name, rgb):
+    assert named_color(*rgb) == name
+
+
+def test_a_persons_word_stands_above_what_the_network_says():
+    belief = LabelBelief()
+    belief.teach("vase")
+    for _ in range(50):
+        belief.update((("bottle", 0.9),))
+    assert belief.distribution == (("vase", 1.0),)

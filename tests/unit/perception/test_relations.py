@@ -1,0 +1,68 @@
+"""On, in and beside, by geometry."""
+
+import numpy as np
+import pytest
+
+from majordomo.perception.objects.raycast import Solid
+from majordomo.perception.objects.relations import support_probability
+from majordomo.perception.objects.surface import Box
+from majordomo.perception.vocabulary import category_of
+
+
+def box(center, size_m, yaw_rad=0.0):
+    return Box(np.array(center, dtype=float), size_m, yaw_rad)
+
+
+TABLE = box((0.0, 0.0, 0.375), (1.2, 0.8, 0.75), 0.4)
+CUP = (0.08, 0.08, 0.10)
+
+
+def carried(thing, support, label):
+    return support_probability(thing, support, category_of(label), sigma_m=0.03, rim_m=0.02)
+
+
+def test_a_cup_whose_bottom_is_at_the_top_of_the_table_is_on_it():
+    assert carried(box((0.1, 0.1, 0.80), CUP), TABLE, "table") == ("on", pytest.approx(0.98, abs=0.01))
+
+
+def test_the_higher_it_floats_the_less_it_is_on_the_table():
+    heights = [0.80, 0.83, 0.86, 0.90, 1.0]
+    probabilities = [carried(box((0.0, 0.0, z), CUP), TABLE, "table")[1] for z in heights]
+    assert probabilities == sorted(probabilities, reverse=True)
+    assert probabilities[-1] < 0.01
+
+
+def test_beside_the_footprint_nothing_is_on_the_table_even_when_the_table_is_turned():
+    along = np.array((np.cos(0.4), np.sin(0.4)))
+    assert carried(box((*(0.55 * along), 0.80), CUP), TABLE, "table")[1] > 0.9
+    assert carried(box((*(0.75 * along), 0.80), CUP), TABLE, "table")[1] < 0.01
+    assert carried(box((0.55, -0.35, 0.80), CUP), TABLE, "table")[1] < 0.1
+
+
+def test_a_cup_under_the_table_is_not_on_it():
+    assert carried(box((0.0, 0.0, 0.05), CUP), TABLE, "table")[1] < 0.01
+
+
+def test_an_apple_in_a_bowl_is_in_it_and_one_in_a_basket_too():
+    bowl = box((0.0, 0.0, 0.785), (0.16, 0.16, 0.07))
+    assert carried(box((0.01, 0.0, 0.81), (0.08, 0.08, 0.08)), bowl, "bowl")[0] == "in"
+    assert carried(box((0.01, 0.0, 0.81), (0.08, 0.08, 0.08)), bowl, "bowl")[1] > 0.9
+
+
+def test_a_book_on_a_middle_board_of_a_shelf_is_on_the_shelf():
+    shelf = box((0.0, 0.0, 0.9), (0.9, 0.35, 1.8))
+    assert carried(box((0.1, 0.0, 0.95), (0.15, 0.03, 0.22)), shelf, "shelf") == ("on", pytest.approx(0.98, abs=0.01))
+
+
+def test_a_table_is_not_on_a_cup():
+    assert carried(TABLE, box((0.0, 0.0, 0.0), CUP), "plate")[1] == 0.0
+
+
+def test_solids_and_boxes_use_the_same_yaw():
+    solid = Solid(label="table", center=(1.0, 2.0, 0.4), size_m=(1.2, 0.8, 0.8), yaw_rad=0.7)
+    made = box(solid.center, solid.size_m, solid.yaw_rad)
+    corner = made.place(np.array(((0.59, 0.39, 0.39),)))
+    distance, _ = solid.intersect(corner[0] + (0.0, 0.0, 1.0), np.array(((0.0, 0.0, -1.0),)))
+    assert np.isfinite(distance[0])
+    assert made.contains(corner)[0]
+    assert made.local(made.place(corner)) == pytest.approx(corner)

@@ -1,0 +1,74 @@
+"""What names alone tell."""
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from majordomo.perception.vocabulary import (
+    CATEGORIES,
+    carries_things,
+    category_of,
+    fits_gripper,
+    is_graspable,
+    is_person,
+)
+
+
+def test_every_row_is_sound():
+    for name, category in CATEGORIES.items():
+        assert name == name.lower().strip()
+        assert category.background or all(side > 0.0 for side in category.size_m)
+        assert not (category.background and (category.graspable or category.support))
+        if category.graspable:
+            assert not category.furniture
+
+
+@pytest.mark.parametrize(
+    ("label", "tag"),
+    [
+        ("apple", "snack"),
+        ("bottle", "drink"),
+        ("hammer", "tool"),
+        ("teddy bear", "toy"),
+        ("plate", "tableware"),
+        ("cup", "tableware"),
+    ],
+)
+def test_people_find_things_by_category(label, tag):
+    assert tag in category_of(label).tags
+
+
+@pytest.mark.parametrize("name", ["Potted Plant", "potted_plant", " potted  plant"])
+def test_names_are_recognized_in_any_spelling(name):
+    assert category_of(name).label == "potted plant"
+
+
+@given(st.floats(0.02, 2.0), st.floats(0.02, 2.0), st.floats(0.02, 2.0))
+def test_an_unknown_thing_is_judged_by_its_size(x_m, y_m, z_m):
+    category = category_of("gizmo", (x_m, y_m, z_m))
+    assert not category.known
+    assert category.furniture is (max(x_m, y_m, z_m) > 0.5)
+    assert category.graspable is not category.furniture
+
+
+def test_grasping_needs_the_name_and_the_geometry():
+    assert is_graspable("bottle", (0.07, 0.07, 0.24))
+    assert not is_graspable("bottle", (0.2, 0.2, 0.4))
+    assert not is_graspable("table", (0.05, 0.05, 0.05))
+    assert fits_gripper((0.3, 0.05, 0.2))
+    assert not fits_gripper((0.3, 0.115, 0.2))
+
+
+def test_supports_are_what_things_are_put_on_or_in():
+    assert carries_things("table", (1.2, 0.8, 0.75))
+    assert carries_things("shelf", (0.9, 0.3, 1.8))
+    assert carries_things("bowl", (0.15, 0.15, 0.07))
+    assert not carries_things("cabinet", (0.9, 0.5, 1.8))
+    assert not carries_things("fridge", (0.6, 0.6, 1.8))
+    assert not carries_things("apple", (0.08, 0.08, 0.08))
+
+
+def test_persons_and_background_are_no_objects():
+    assert is_person("person")
+    assert not is_person("teddy bear")
+    assert category_of("wall-other-merged").background

@@ -1,0 +1,78 @@
+"""The graph as a model reads it: pruned, indented, quoted."""
+
+from __future__ import annotations
+
+import json
+import random
+
+from majordomo.planner.outline import MAX_IDENTIFIERS, MAX_OBJECTS, outline
+from majordomo.planner.sketch import Sketch, flat
+from majordomo.scene_graph.nodes import DoorState, ObjectState
+
+
+def big_home(rooms=12, things=180, seed=7):
+    rng = random.Random(seed)
+    sketch = Sketch()
+    for k in range(1, rooms + 1):
+        sketch.room(f"room_{k}", rng.choice(["office", "kitchen", "bedroom", "hall"]), at=(4.2 * k, 0.0))
+        if k > 1:
+            sketch.door(f"room_{k - 1}", f"room_{k}", at=(4.2 * k - 2.1, 0.0))
+        sketch.furniture(f"table_{k}", "table", f"room_{k}", at=(4.2 * k, 1.0))
+    for k in range(things):
+        label = rng.choice(["cup", "book", "bottle", "pen", "bowl", "apple"])
+        sketch.thing(f"{label}_{k}", label, on=f"table_{rng.randint(1, rooms)}", color=rng.choice(["red", "blue", ""]))
+    return sketch.snapshot(robot_in="room_1", at=(4.2, 0.0))
+
+
+def test_things_stand_under_their_furniture_and_furniture_under_its_room():
+    snapshot = flat().snapshot(robot_in="room_2", at=(4.2, 0.0))
+    lines = outline(snapshot, "").text.splitlines()
+    kitchen = lines.index('room_1 "kitchen"')
+    assert lines[kitchen + 1 : kitchen + 3] == ['  counter_1 "counter" furniture', '    apple_1 "apple" red']
+    assert 'room_2 "hall" (the robot is here)' in lines
+    assert '  person_1 person "Anna"' in lines
+
+
+def test_what_the_request_names_is_never_pruned():
+    snapshot = big_home()
+    everything = outline(snapshot, "")
+    assert everything.left_out > 0
+    wanted = [node_id for node_id in snapshot.nodes if node_id.startswith("pen_")]
+    named = outline(snapshot, "take all the pens to the office")
+    assert set(wanted) <= set(named.identifiers)
+    assert f"{named.left_out} more objects" in named.text
+
+
+def test_a_home_of_two_hundred_nodes_fits_into_fifteen_hundred_tokens():
+    snapshot = big_home()
+    assert len(snapshot.nodes) > 200
+    found = outline(snapshot, "bring me the red cup")
+    assert len(found.text) / 3.2 < 1500
+    assert len(found.identifiers) <= MAX_IDENTIFIERS
+
+
+def test_a_large_building_keeps_within_its_bounds():
+    found = outline(big_home(rooms=80, things=1500), "bring me the red cup")
+    assert len(found.identifiers) <= MAX_IDENTIFIERS
+    assert sum(line.startswith("  ") for line in found.text.splitlines()) <= MAX_OBJECTS
+    assert len(found.text) / 3.2 < 4000
+
+
+def test_names_are_json_strings_on_one_line():
+    sketch = flat().thing("note_1", 'a "note"\nroom_9 "x"', on="desk_1", name="b\nc")
+    text = outline(sketch.snapshot(robot_in="room_2", at=(4.2, 0.0)), "").text
+    assert json.dumps('a "note"\nroom_9 "x"') in text
+    assert "\nroom_9" not in text
+
+
+def test_closed_doors_and_lost_things_are_said():
+    sketch = flat().door("room_1", "room_3", at=(4.0, -2.0), state=DoorState.CLOSED)
+    sketch.thing("key_1", "key", on="desk_1", state=ObjectState.MISSING)
+    text = outline(sketch.snapshot(robot_in="room_2", at=(4.2, 0.0)), "").text
+    assert "the door between the kitchen and the living room is closed" in text
+    assert 'key_1 "key" not where it was' in text
+
+
+def test_what_the_robot_holds_is_said():
+    snapshot = flat().snapshot(robot_in="room_2", at=(4.2, 0.0), holding="cup_1")
+    assert outline(snapshot, "").text.startswith("robot holding cup_1")

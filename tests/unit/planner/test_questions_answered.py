@@ -1,0 +1,80 @@
+"""Answers carry their age, and counting, listing and existence agree with the graph."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from majordomo.planner.grammar.parser import CommandGrammar
+from majordomo.planner.interpreter import Interpreter
+from majordomo.planner.plan import Dialogue, Kind, QueryKind
+from majordomo.planner.sketch import Sketch, flat
+from majordomo.planner.verifier import Verifier
+from majordomo.planner.whereabouts import age_phrase
+from majordomo.skills.registry import load_registry
+
+INTERPRETER = Interpreter(CommandGrammar(), Verifier(load_registry([])))
+
+
+def ask(text, snapshot):
+    return INTERPRETER.read(text, snapshot, Dialogue()).interpretation
+
+
+@pytest.mark.parametrize(
+    ("seconds", "words"),
+    [
+        (0, "just now"),
+        (20, "20 seconds ago"),
+        (60, "1 minute ago"),
+        (185, "3 minutes ago"),
+        (7200, "2 hours ago"),
+        (90000, "1 day ago"),
+        (400000, "5 days ago"),
+    ],
+)
+def test_an_age_is_said_in_its_own_unit(seconds, words):
+    assert age_phrase(seconds) == words
+
+
+def test_an_answer_says_how_old_it_is():
+    snapshot = flat().snapshot(robot_in="room_2", at=(4.2, 0.0), stamp_s=290.0)
+    assert ask("where is the apple", snapshot).reply == (
+        "The red apple is on the counter in the kitchen; I saw it 3 minutes ago."
+    )
+
+
+def test_what_was_seen_now_is_in_sight():
+    snapshot = flat().thing("key_1", "key", on="desk_1", last_seen_s=99.0).snapshot(robot_in="room_4", at=(4.2, 4.2))
+    found = ask("what do you see", snapshot)
+    assert found.reply == "I see a key."
+    assert found.query is not None
+    assert (found.query.kind, found.query.nodes) == (QueryKind.SEEN, ("key_1",))
+
+
+def test_an_empty_graph_answers_as_well():
+    snapshot = Sketch().room("room_1", at=(0.0, 0.0)).snapshot(robot_in="room_1", at=(0.0, 0.0))
+    for text in ("where is the cup", "how many cups are there", "what do you see", "which room are you in", "where am i",
+                 "what is in this room", "is there a cup", "what rooms do you know", "list everything", "who is here"):  # fmt: skip
+        found = ask(text, snapshot)
+        assert found.kind in (Kind.ANSWER, Kind.REFUSE), text
+        assert found.reply
+
+
+@settings(max_examples=40, deadline=None)
+@given(st.lists(st.tuples(st.sampled_from(["cup", "jar"]), st.sampled_from([1, 2])), max_size=8))
+def test_counting_agrees_with_counting(things):
+    sketch = Sketch().room("room_1", "kitchen", at=(0.0, 0.0)).room("room_2", "hall", at=(4.2, 0.0))
+    sketch.furniture("table_1", "table", "room_1", at=(0.0, 1.0)).furniture("desk_2", "desk", "room_2", at=(4.2, 1.0))
+    for number, (label, room) in enumerate(things):
+        sketch.thing(f"{label}_{number}", label, on="table_1" if room == 1 else "desk_2")
+    snapshot = sketch.snapshot(robot_in="room_1", at=(0.0, 0.0))
+    for text, count in (
+        ("how many cups are there", sum(label == "cup" for label, _ in things)),
+        ("how many jars are in the hall", sum(thing == ("jar", 2) for thing in things)),
+        ("how many cups are on the table", sum(thing == ("cup", 1) for thing in things)),
+    ):
+        found = ask(text, snapshot)
+        assert found.query is not None
+        assert len(found.query.nodes) == count
+        assert found.reply.startswith(f"I know of {count or 'no'} ")

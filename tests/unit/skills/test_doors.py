@@ -1,0 +1,148 @@
+"""Crossing doors in a kinematic world."""
+
+from __future__ import annotations
+
+from math import pi
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from majordomo.scene_graph.edges import InEdge, RtEdge
+from majordomo.scene_graph.nodes import DoorState
+from majordomo.scene_graph.se3 import SE3
+from majordomo.skills import journeys
+from majordomo.skills.actions.doors import CrossDoor
+from majordomo.skills.doubles import BoxWorld, FakeBody, Rehearsal
+from majordomo.skills.failures import FailureCode
+from majordomo.skills.geometry import Box2, Pose2
+from majordomo.skills.registry import load_registry
+
+pytestmark = pytest.mark.anyio
+
+
+def wall(width_m=0.8, *more):
+    side = (5.0 - width_m) / 2
+    jambs = [Box2(Pose2(3.1, sign * (width_m + side) / 2), 0.2, side) for sign in (1, -1)]
+    return BoxWorld(boxes=(*jambs, *more), heights_m=(0.3, 0.6, 1.2, 1.5))
+
+
+class Crossing:
+    """Re-parents the robot into room_2 once its axis is beyond the middle of the wall, with a slightly wrong pose."""
+
+    def __init__(self, error=(0.0, 0.0, 0.0)):
+        self.error = error
+        self.entered = False
+
+    def __call__(self, rehearsal):
+        body, memory = rehearsal.body, rehearsal.memory
+        if not self.entered and body.pose.x_m > 3.3:
+            self.entered = True
+            snapshot = memory.snapshot()
+            dx, dy, dyaw = self.error
+            body.pose = Pose2(body.pose.x_m - 5.2 + dx, body.pose.y_m + dy, body.pose.yaw_rad + dyaw)
+            boxes = tuple(
+                Box2(Pose2(b.pose.x_m - 5.2 + dx, b.pose.y_m + dy, b.pose.yaw_rad), b.size_x_m, b.size_y_m)
+                for b in rehearsal.world.boxes
+            )
+            rehearsal.world = BoxWorld(boxes=boxes, heights_m=rehearsal.world.heights_m)
+            rehearsal.frame = "room_2"
+            with memory.edit("long_term_memory", body.stamp_s) as tx:
+                tx.remove(snapshot.parent("robot").key)
+                tx.remove(InEdge(source="robot", target="room_1").key)
+                pose = SE3.from_xyz_yaw(body.pose.x_m, body.pose.y_m, 0.0, body.pose.yaw_rad)
+                tx.put(RtEdge(source="room_2", target="robot", T_source_target=pose, stamp_s=body.stamp_s))
+                tx.put(InEdge(source="robot", target="room_2"))
+
+
+@settings(max_examples=15, deadline=None, suppress_health_check=list(HealthCheck))
+@given(st.floats(-0.3, 0.3), st.floats(0.35, 1.2), st.floats(-0.6, 0.6))
+async def test_passes_a_gap_of_80_cm_from_wherever_it_starts(flat, y, before, yaw):
+    body = FakeBody(pose=Pose2(3.0 - before, y, yaw))
+    rehearsal = Rehearsal(memory=flat(width_m=0.8).memory, world=wall(0.8), body=body)
+    context = await rehearsal.prepare()
+    assert await rehearsal.run([CrossDoor(context, "door_1_1_0")]) is None
+    assert rehearsal.body.pose.x_m == pytest.approx(3.0 + 0.2 + 0.9, abs=0.1)
+    assert rehearsal.least_clearance_m > 0.29
+
+
+async def test_goes_on_in_the_new_room_when_placed_there_on_the_way(flat):
+    crossing = Crossing(error=(0.0, 0.02, 0.01))
+    rehearsal = Rehearsal(memory=flat().memory, world=wall(0.9), observe=crossing)
+    context = await rehearsal.prepare()
+    assert await rehearsal.run(journeys.cross(context, "door_1_1_0")) is None
+    assert crossing.entered
+    assert rehearsal.body.pose.x_m == pytest.approx(-2.0 + 0.9, abs=0.1)
+    assert abs(rehearsal.body.pose.y_m) < 0.06
+    assert rehearsal.least_clearance_m > 0.29
+
+
+async def test_goto_crosses_into_the_other_room_and_is_confirmed(flat):
+    built = flat().table("table_2", 0.8, 1.0, room="room_2")
+    rehearsal = Rehearsal(memory=built.memory, world=wall(0.9), observe=Crossing())
+    context = await rehearsal.prepare()
+    goto = load_registry([])["GOTO"]
+    assert await rehearsal.run(goto.actions(context, ["table_2"])) is None
+    assert goto.confirmed(built.memory.snapshot(), ["table_2"], 0.0) is None
+
+
+async def test_a_panel_in_the_gap_is_told_as_a_closed_door(flat):
+    world = wall(0.9, Box2(Pose2(3.1, 0.0), 0.05, 0.9))
+    rehearsal = Rehearsal(memory=flat().memory, world=world, body=FakeBody(pose=Pose2(2.0, 0.0)))
+    context = await rehearsal.prepare()
+    failure = await rehearsal.run([CrossDoor(context, "door_1_1_0")])
+    assert failure.code is FailureCode.DOOR_CLOSED
+    assert failure.evidence.nodes == ("door_1_1_0",)
+    assert rehearsal.least_clearance_m > 0.25
+    assert rehearsal.body.pose.x_m < 2.6
+
+
+async def test_a_person_in_the_gap_is_named_and_a_box_is_not(flat):
+    for person, code in ((True, FailureCode.PERSON_IN_WAY), (False, FailureCode.WAY_BLOCKED)):
+        built = flat()
+        if person:
+            built.person(3.1, 0.0)
+        world = wall(0.9, Box2(Pose2(3.1, 0.0), 0.3, 0.4))
+        rehearsal = Rehearsal(memory=built.memory, world=world, body=FakeBody(pose=Pose2(2.0, 0.0)))
+        failure = await rehearsal.run([CrossDoor(await rehearsal.prepare(), "door_1_1_0")])
+        assert failure.code is code
+        assert rehearsal.least_clearance_m > 0.25
+
+
+async def test_someone_who_steps_aside_delays_only(flat):
+    rehearsal = Rehearsal(memory=flat().memory, body=FakeBody(pose=Pose2(2.0, 0.0)))
+
+    def walk(rehearsal):
+        blocked = rehearsal.body.stamp_s < 6.0
+        rehearsal.world = wall(0.9, *([Box2(Pose2(3.1, 0.0), 0.3, 0.4)] if blocked else []))
+
+    rehearsal.world = BoxWorld(heights_m=(1.2, 1.5))
+    rehearsal.observe = walk
+    context = await rehearsal.prepare()
+    assert await rehearsal.run([CrossDoor(context, "door_1_1_0")]) is None
+    assert rehearsal.body.stamp_s > 6.0
+
+
+async def test_a_closed_way_fails_at_once_with_the_door(flat):
+    built = flat(door_state=DoorState.CLOSED).table("table_2", 0.8, 1.0, room="room_2")
+    rehearsal = Rehearsal(memory=built.memory)
+    context = await rehearsal.prepare()
+    actions = load_registry([])["GOTO"].actions(context, ["table_2"])
+    failure = await rehearsal.run(actions[1:])
+    assert failure.code is FailureCode.DOOR_CLOSED
+    assert "door_1_1_0" in failure.message
+    assert rehearsal.body.pose == Pose2(0.0, 0.0)
+
+
+async def test_a_door_is_crossed_from_its_far_side_by_the_far_rooms_node(flat):
+    built = flat()
+    snapshot = built.memory.snapshot()
+    with built.memory.edit("test", 0.0) as tx:
+        tx.remove(snapshot.parent("robot").key)
+        tx.remove(InEdge(source="robot", target="room_1").key)
+        tx.put(RtEdge(source="room_2", target="robot", T_source_target=SE3.identity()))
+        tx.put(InEdge(source="robot", target="room_2"))
+    rehearsal = Rehearsal(memory=built.memory, frame="room_2", body=FakeBody(pose=Pose2(-1.0, 0.0, pi)))
+    context = await rehearsal.prepare()
+    assert await rehearsal.run(journeys.cross(context, "door_2_3_0")) is None
+    assert rehearsal.body.pose.x_m == pytest.approx(-2.0 - 0.2 - 0.9, abs=0.1)

@@ -1,0 +1,238 @@
+"""Driving, turning and looking with a body that moves perfectly."""
+
+from __future__ import annotations
+
+from math import atan2, hypot, pi
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, assume, given, settings
+from hypothesis import strategies as st
+from py_trees.common import Status
+
+from majordomo.skills import journeys
+from majordomo.skills.action import Action
+from majordomo.skills.actions.driving import DriveTo, TurnTo
+from majordomo.skills.actions.looking import VIEWS, LookAt, SweepCamera
+from majordomo.skills.anchor import Anchor
+from majordomo.skills.doubles import BoxWorld, FakeBody, Rehearsal
+from majordomo.skills.failures import FailureCode
+from majordomo.skills.geometry import Box2, Pose2, wrap_rad
+from majordomo.skills.navigation.goals import around, at_poses
+from majordomo.skills.navigation.grid import Canvas
+from majordomo.skills.navigation.route import find_routes
+
+pytestmark = pytest.mark.anyio
+PHYSICAL_RADIUS_M = 0.25
+
+
+def goal_at(context, x, y, yaw=None):
+    return DriveTo(context, "room_1", at_poses(context, "room_1", [(x, y, yaw)]))
+
+
+coordinate = st.tuples(st.floats(-2.5, 2.5), st.floats(-2.0, 2.0))
+furniture = st.lists(
+    st.builds(
+        Box2,
+        st.builds(Pose2, st.floats(-2.5, 2.5), st.floats(-2.0, 2.0), st.floats(-pi, pi)),
+        st.floats(0.3, 1.2),
+        st.floats(0.3, 0.8),
+    ),
+    max_size=4,
+)
+
+
+@settings(max_examples=25, deadline=None, suppress_health_check=list(HealthCheck))
+@given(furniture, coordinate, coordinate, st.floats(-pi, pi))
+async def test_reaches_goals_in_furnished_rooms_without_touching(flat, boxes, start, goal, yaw):
+    assume(all(box.distance_m(np.array([start]))[0] > 0.4 for box in boxes))
+    canvas = Canvas.covering((-3.0, -2.5), (3.0, 2.5))
+    canvas.block((np.abs(canvas.centers()) > (2.98, 2.48)).any(axis=1))
+    for box in boxes:
+        canvas.block_box(box.grown(0.06))
+    assume(find_routes(canvas.finish(), start, 0.3).path_to(goal))
+    rehearsal = Rehearsal(
+        memory=flat().memory, world=BoxWorld(boxes=tuple(boxes)), body=FakeBody(pose=Pose2(*start, 0.0))
+    )
+    context = await rehearsal.prepare()
+    assert await rehearsal.run([goal_at(context, *goal, yaw)]) is None
+    assert rehearsal.body.pose.distance_m(goal) < 0.1
+    assert abs(wrap_rad(rehearsal.body.pose.yaw_rad - yaw)) < 0.05
+    assert rehearsal.least_clearance_m > PHYSICAL_RADIUS_M
+
+
+async def test_walls_of_the_room_are_respected_without_any_scan(flat):
+    rehearsal = Rehearsal(memory=flat().memory)
+    context = await rehearsal.prepare()
+    failure = await rehearsal.run([goal_at(context, 2.9, 2.0)])
+    assert failure.code is FailureCode.WAY_BLOCKED
+
+
+async def test_in_no_room_it_drives_on_the_scan_alone():
+    from majordomo.scene_graph.memory import WorkingMemory
+
+    world = BoxWorld(boxes=(Box2(Pose2(1.0, 0.0), 0.4, 1.6),))
+    rehearsal = Rehearsal(memory=WorkingMemory(), world=world, frame="root")
+    context = await rehearsal.prepare()
+    action = DriveTo(context, "root", at_poses(context, "root", [(2.0, 0.0, None)]))
+    assert await rehearsal.run([action]) is None
+    assert rehearsal.body.pose.distance_m((2.0, 0.0)) < 0.1
+    assert rehearsal.least_clearance_m > PHYSICAL_RADIUS_M
+
+
+async def test_stands_at_a_table_facing_it_with_the_table_within_reach(flat):
+    world = BoxWorld(boxes=(Box2(Pose2(1.0, 1.2), 1.2, 0.8),))
+    rehearsal = Rehearsal(memory=flat().table().memory, world=world)
+    context = await rehearsal.prepare()
+    assert await rehearsal.run([DriveTo(context, "table_1", around(context, "table_1", 0.42))]) is None
+    assert PHYSICAL_RADIUS_M < rehearsal.least_clearance_m < 0.6
+    bearing = rehearsal.body.pose.bearing_rad((1.0, 1.2))
+    assert abs(wrap_rad(rehearsal.body.pose.yaw_rad - bearing)) < 0.05
+
+
+async def test_something_that_appears_on_the_way_is_driven_around(flat):
+    rehearsal = Rehearsal(memory=flat().memory, body=FakeBody(pose=Pose2(-2.0, 0.0)))
+
+    def appear(rehearsal):
+        if rehearsal.body.pose.x_m > -1.0:
+            rehearsal.world = BoxWorld(boxes=(Box2(Pose2(0.5, 0.0), 0.4, 0.8),))
+
+    rehearsal.observe = appear
+    context = await rehearsal.prepare()
+    assert await rehearsal.run([goal_at(context, 2.0, 0.0)]) is None
+    assert rehearsal.least_clearance_m > PHYSICAL_RADIUS_M
+
+
+async def test_a_wall_of_boxes_is_told_as_a_blocked_way(flat):
+    world = BoxWorld(boxes=(Box2(Pose2(0.0, 0.0), 0.3, 6.0),))
+    rehearsal = Rehearsal(memory=flat().memory, world=world, body=FakeBody(pose=Pose2(-2.0, 0.0)))
+    context = await rehearsal.prepare()
+    failure = await rehearsal.run([goal_at(context, 2.0, 0.0)])
+    assert failure.code is FailureCode.WAY_BLOCKED
+    assert rehearsal.least_clearance_m > PHYSICAL_RADIUS_M
+
+
+async def test_a_person_who_stands_at_the_goal_is_named(flat):
+    world = BoxWorld(boxes=(Box2(Pose2(2.0, 0.0), 0.5, 0.5), Box2(Pose2(1.2, 0.0), 0.1, 6.0)))
+    rehearsal = Rehearsal(memory=flat().person(1.2, 0.0).memory, world=world, body=FakeBody(pose=Pose2(-1.0, 0.0)))
+    context = await rehearsal.prepare()
+    failure = await rehearsal.run([goal_at(context, 2.0, 1.5)])
+    assert failure.code is FailureCode.PERSON_IN_WAY
+    assert "person_1" in failure.evidence.nodes
+
+
+async def test_path_is_shown_while_driving_and_cleared_after(flat):
+    rehearsal = Rehearsal(memory=flat().memory)
+    context = await rehearsal.prepare()
+    shown = []
+    rehearsal.observe = lambda r: shown.append(r.context.path_room)
+    await rehearsal.run([goal_at(context, 2.0, 1.0)])
+    assert any(path and path[-1] == pytest.approx((2.0, 1.0)) for path in shown)
+    assert context.path_room == ()
+    assert context.snapshot.robot.status == "driving to room_1"
+
+
+async def test_same_start_same_path(flat):
+    ends = []
+    for _ in range(2):
+        rehearsal = Rehearsal(memory=flat().table().memory)
+        context = await rehearsal.prepare()
+        await rehearsal.run([goal_at(context, 1.0, 2.1)])
+        ends.append((rehearsal.body.pose, rehearsal.body.stamp_s))
+    assert ends[0] == ends[1]
+
+
+async def test_turns_to_face_a_point_within_a_centimeter_at_arms_length(flat):
+    rehearsal = Rehearsal(memory=flat().table().bottle("bottle_1", 0.4, -0.5).memory)
+    context = await rehearsal.prepare()
+    turn = TurnTo(context, "bottle_1", Anchor("bottle_1"), tolerance_rad=0.012)
+    assert await rehearsal.run([turn]) is None
+    _, y, _ = Anchor("bottle_1").in_base(await rehearsal.prepare())
+    assert abs(y) < 0.01
+
+
+@pytest.mark.parametrize(("x", "y"), [(1.0, 0.5), (-1.0, 0.05), (0.8, -1.0)])
+async def test_camera_looks_at_a_point_also_behind(flat, x, y):
+    rehearsal = Rehearsal(memory=flat().thing("cup_1", (x, y, 0.8), (0.08, 0.08, 0.1)).memory)
+    context = await rehearsal.prepare()
+    assert await rehearsal.run([LookAt(context, "cup_1", Anchor("cup_1"))]) is None
+    px, py, pz = Anchor("cup_1").in_base(await rehearsal.prepare())
+    pan, tilt = rehearsal.body.camera
+    assert abs(wrap_rad(pan - atan2(py, px - 0.05))) < 0.05
+    assert tilt == pytest.approx(atan2(pz - 1.4, hypot(px - 0.05, py)), abs=0.05)
+
+
+async def test_a_sweep_stands_still_in_overlapping_views_all_around(flat):
+    rehearsal = Rehearsal(memory=flat().memory)
+    context = await rehearsal.prepare()
+    still: dict[float, int] = {}
+
+    def watch(rehearsal):
+        camera = rehearsal.body.camera
+        if abs(camera[0] - rehearsal.body._camera[0]) < 1e-9:
+            still[round(camera[0], 2)] = still.get(round(camera[0], 2), 0) + 1
+
+    rehearsal.observe = watch
+    assert await rehearsal.run([SweepCamera(context)]) is None
+    pans = sorted(pan for pan, ticks in still.items() if ticks * rehearsal.dt_s >= 0.4)
+    assert len(pans) >= VIEWS
+    steps = np.diff([*pans, pans[0] + 2 * pi])
+    assert steps.max() < np.deg2rad(60)
+
+
+async def test_a_looking_journey_ends_in_the_room_center_having_looked_around(flat):
+    rehearsal = Rehearsal(memory=flat().memory, body=FakeBody(pose=Pose2(1.5, 1.5)))
+    context = await rehearsal.prepare()
+    assert await rehearsal.run(journeys.look(context, "room_1")) is None
+    assert rehearsal.body.pose.distance_m((0.0, 0.0)) < 0.1
+
+
+async def test_a_visit_to_a_door_stops_in_front_facing_it(flat):
+    rehearsal = Rehearsal(memory=flat().memory)
+    context = await rehearsal.prepare()
+    assert await rehearsal.run(journeys.visit(context, "door_1_1_0", 1.0)) is None
+    assert rehearsal.body.pose.distance_m((2.0, 0.0)) < 0.1
+    assert abs(wrap_rad(rehearsal.body.pose.yaw_rad)) < 0.05
+
+
+async def test_a_latched_stop_freezes_the_action_and_its_clock(flat):
+    rehearsal = Rehearsal(memory=flat().memory)
+    context = await rehearsal.prepare()
+    action = goal_at(context, 2.0, 0.0)
+
+    def press(rehearsal):
+        if 2.0 < rehearsal.body.stamp_s < 100.0:
+            rehearsal.body.stop()
+        elif rehearsal.body.stopped:
+            rehearsal.body.release_stop()
+
+    rehearsal.observe = press
+    assert await rehearsal.run([action]) is None
+    assert rehearsal.body.stamp_s > 100.0
+
+
+class Endless(Action):
+    timeout_s = 3.0
+    holds_arm = True
+
+    def step(self):
+        self.context.commands.drive = (0.3, 0.0)
+        return Status.RUNNING
+
+
+async def test_an_action_that_never_ends_times_out_and_stands_still(flat):
+    rehearsal = Rehearsal(memory=flat().memory)
+    context = await rehearsal.prepare()
+    failure = await rehearsal.run([Endless("wait", context)])
+    assert failure.code is FailureCode.TIMEOUT
+    assert rehearsal.body._drive == (0.0, 0.0)
+
+
+async def test_an_interrupted_action_stops_the_base_and_freezes_the_arm(flat):
+    rehearsal = Rehearsal(memory=flat().memory)
+    context = await rehearsal.prepare()
+    action = Endless("wait", context)
+    action.tick_once()
+    action.stop(Status.INVALID)
+    assert context.commands.drive == (0.0, 0.0)
+    assert context.commands.arm == context.body.arm

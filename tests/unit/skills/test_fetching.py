@@ -1,0 +1,233 @@
+"""PICK and PLACE with a body that moves perfectly and perception that is played."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from majordomo.scene_graph.edges import RtEdge
+from majordomo.scene_graph.nodes import ObjectState
+from majordomo.scene_graph.se3 import SE3
+from majordomo.skills.actions.grasp import CloseGripper
+from majordomo.skills.doubles import BoxWorld, FakeBody, Rehearsal
+from majordomo.skills.failures import FailureCode
+from majordomo.skills.geometry import Box2, Pose2
+from majordomo.skills.registry import load_registry
+from majordomo.skills.state import PlanState
+
+pytestmark = pytest.mark.anyio
+SKILLS = load_registry([])
+TABLES = (Box2(Pose2(1.0, 1.2), 1.2, 0.8), Box2(Pose2(-1.5, -1.5), 1.2, 0.8))
+
+
+@pytest.fixture
+def kitchen(flat, onlooker, fingers):
+    """A rehearsal at a bottle on a table, with a second table."""
+
+    def build(change=lambda built: built):
+        built = change(flat().table().bottle().table("table_2", -1.5, -1.5))
+        body = FakeBody(pose=Pose2(0.9, 0.35, 1.5), grasped_width_m=fingers(built.memory))
+        world = BoxWorld(boxes=TABLES, heights_m=(0.3, 0.6))
+        return Rehearsal(memory=built.memory, body=body, world=world, observe=onlooker)
+
+    return build
+
+
+async def carry_out(rehearsal, *steps):
+    context = await rehearsal.prepare()
+    for skill, *args in steps:
+        began_s = rehearsal.body.stamp_s
+        failure = await rehearsal.run(SKILLS[skill].actions(context, args), 900.0)
+        failure = failure or SKILLS[skill].confirmed(rehearsal.memory.snapshot(), args, began_s)
+        if failure is not None:
+            return failure
+    return None
+
+
+async def test_a_bottle_is_fetched_from_one_table_to_the_other(kitchen):
+    rehearsal = kitchen()
+    steps = (("GOTO", "bottle_1"), ("PICK", "bottle_1"), ("GOTO", "table_2"), ("PLACE", "bottle_1", "table_2"))
+    assert await carry_out(rehearsal, *steps) is None
+    snapshot = rehearsal.memory.snapshot()
+    assert snapshot.support_of("bottle_1") == "table_2"
+    assert snapshot.robot.holding is None
+    assert rehearsal.body.arm.extension_m == pytest.approx(0.0, abs=0.01)
+    assert rehearsal.least_clearance_m > 0.28
+
+
+@pytest.mark.parametrize("target", ["room_1", "person_1", "table_1"])
+async def test_what_is_held_can_be_put_down_for_any_kind_of_target(kitchen, target):
+    rehearsal = kitchen(lambda built: built.person(0.0, 1.8))
+    assert await carry_out(rehearsal, ("PICK", "bottle_1"), ("GOTO", target), ("PLACE", "bottle_1", target)) is None
+    assert rehearsal.memory.snapshot().support_of("bottle_1") == "table_1"
+
+
+async def test_with_no_table_near_it_is_put_on_the_floor_beside_the_person(kitchen):
+    rehearsal = kitchen(lambda built: built.person(-2.0, 1.5))
+    steps = (("PICK", "bottle_1"), ("GOTO", "person_1"), ("PLACE", "bottle_1", "person_1"))
+    assert await carry_out(rehearsal, *steps) is None
+    snapshot = rehearsal.memory.snapshot()
+    assert snapshot.support_of("bottle_1") is None
+    assert snapshot.position("bottle_1", "room_1")[2] == pytest.approx(0.12)
+
+
+async def test_the_state_read_after_goto_allows_pick(kitchen):
+    rehearsal = kitchen()
+    rehearsal.body.pose = Pose2(-1.0, 1.0)
+    assert await carry_out(rehearsal, ("GOTO", "bottle_1")) is None
+    state = PlanState.from_snapshot(rehearsal.memory.snapshot())
+    assert SKILLS["PICK"].conditions(state, ("bottle_1",)) == []
+    assert await carry_out(rehearsal, ("GOTO", "table_2")) is None
+    state = PlanState.from_snapshot(rehearsal.memory.snapshot())
+    assert SKILLS["PICK"].conditions(state, ("bottle_1",)) != []
+    assert state.is_at("table_2")
+
+
+async def test_fingers_that_meet_are_an_empty_grasp(kitchen):
+    rehearsal = kitchen()
+    rehearsal.body.grasped_width_m = lambda body: None
+    failure = await carry_out(rehearsal, ("PICK", "bottle_1"))
+    assert failure.code is FailureCode.GRASP_EMPTY
+    assert "contacts (False, False)" in failure.evidence.observation
+
+
+async def test_one_finger_alone_holds_nothing(kitchen):
+    rehearsal = kitchen()
+    context = await rehearsal.prepare()
+
+    def one_finger(r):
+        r.context.body = replace(r.context.body, gripper_opening_m=0.05, finger_contacts=(True, False))
+
+    rehearsal.observe = one_finger
+    failure = await rehearsal.run([CloseGripper(context, "bottle_1")])
+    assert failure.code is FailureCode.GRASP_EMPTY
+
+
+async def test_what_slips_while_lifting_is_told(kitchen):
+    rehearsal = kitchen()
+    firm, lifted = rehearsal.body.grasped_width_m, []
+
+    def slippery(body):
+        if body.arm.lift_m > 1.16 and body.opening_m < 0.08:
+            lifted.append(True)
+        return None if lifted else firm(body)
+
+    rehearsal.body.grasped_width_m = slippery
+    failure = await carry_out(rehearsal, ("PICK", "bottle_1"))
+    assert failure.code is FailureCode.SLIPPED
+
+
+async def test_an_object_that_perception_misses_is_gone(kitchen, onlooker):
+    rehearsal = kitchen()
+
+    def vanish(r):
+        onlooker(r)
+        node = r.memory.snapshot().object("bottle_1")
+        if r.body.stamp_s > 1.0 and node.state is ObjectState.PRESENT:
+            with r.memory.edit("objects", r.body.stamp_s) as tx:
+                tx.put(replace(node, state=ObjectState.MISSING))
+
+    rehearsal.observe = vanish
+    failure = await carry_out(rehearsal, ("PICK", "bottle_1"))
+    assert failure.code is FailureCode.OBJECT_GONE
+
+
+async def test_an_object_that_is_not_seen_again_is_gone(kitchen, onlooker):
+    onlooker.blind_to.add("bottle_1")
+    failure = await carry_out(kitchen(), ("PICK", "bottle_1"))
+    assert failure.code is FailureCode.OBJECT_GONE
+    assert "not seen for 8 s" in failure.message
+
+
+def moved_to(x, y):
+    def move(rehearsal):
+        status = rehearsal.memory.snapshot().robot.status
+        if status.startswith("driving") and rehearsal.body.stamp_s > 0.5:
+            with rehearsal.memory.edit("objects", rehearsal.body.stamp_s) as tx:
+                pose = SE3.from_xyz_yaw(x, y, 0.87, 0.0)
+                tx.put(RtEdge(source="room_1", target="bottle_1", T_source_target=pose))
+
+    return move
+
+
+@pytest.mark.parametrize(("place", "code"), [((1.1, 1.05), None), ((-1.5, -1.3), FailureCode.OBJECT_MOVED)])
+async def test_a_moved_object_is_followed_within_reach_and_told_beyond(kitchen, onlooker, place, code):
+    rehearsal = kitchen()
+    rehearsal.body.pose = Pose2(-0.5, 0.3)
+    rehearsal.memory.snapshot()
+    context = await rehearsal.prepare()
+    actions = SKILLS["PICK"].actions(context, ["bottle_1"])
+    assert await rehearsal.run(actions[:3]) is None
+    with rehearsal.memory.edit("objects", 0.0) as tx:
+        tx.put(RtEdge(source="room_1", target="bottle_1", T_source_target=SE3.from_xyz_yaw(*place, 0.87, 0.0)))
+    failure = await rehearsal.run(actions[3:], 900.0)
+    assert (failure.code if failure else None) is code
+
+
+async def test_a_full_table_is_told_before_anything_moves(kitchen):
+    rehearsal = kitchen()
+    assert await carry_out(rehearsal, ("PICK", "bottle_1")) is None
+    with rehearsal.memory.edit("test", 0.0) as tx:
+        table = rehearsal.memory.snapshot().object("table_2")
+        tx.put(replace(table, size_m=(0.1, 0.1, 0.75)))
+    failure = await carry_out(rehearsal, ("PLACE", "bottle_1", "table_2"))
+    assert failure.code is FailureCode.SUPPORT_FULL
+
+
+async def test_a_place_taken_meanwhile_is_exchanged_for_a_free_one(kitchen, onlooker):
+    rehearsal = kitchen()
+    assert await carry_out(rehearsal, ("PICK", "bottle_1"), ("GOTO", "table_2")) is None
+    context = await rehearsal.prepare()
+    actions = SKILLS["PLACE"].actions(context, ["bottle_1", "table_2"])
+    assert await rehearsal.run(actions[:3], 900.0) is None
+    x, y, _ = actions[1]._placement.spot.anchor.position(rehearsal.memory.snapshot(), "room_1")
+    with rehearsal.memory.edit("test", 0.0) as tx:
+        cup = replace(rehearsal.memory.snapshot().object("bottle_1"), id="cup_1", state=ObjectState.PRESENT)
+        tx.put(cup, RtEdge(source="room_1", target="cup_1", T_source_target=SE3.from_xyz_yaw(x, y, 0.87, 0.0)))
+        from majordomo.scene_graph.edges import InEdge
+
+        tx.put(InEdge(source="cup_1", target="room_1"))
+    assert await rehearsal.run(actions[3:], 900.0) is None
+    a, b = (rehearsal.memory.snapshot().position(node, "room_1") for node in ("bottle_1", "cup_1"))
+    assert abs(a - b)[:2].max() > 0.05
+
+
+async def test_the_robot_says_what_it_tries(kitchen, onlooker):
+    rehearsal, said = kitchen(), []
+
+    def listen(r):
+        onlooker(r)
+        status = r.memory.snapshot().robot.status
+        if not said or said[-1] != status:
+            said.append(status)
+
+    rehearsal.observe = listen
+    await carry_out(rehearsal, ("PICK", "bottle_1"), ("PLACE", "bottle_1", "table_1"))
+    assert said == [
+        "idle",
+        "driving to bottle_1",
+        "grasping bottle_1",
+        "driving to table_1",
+        "releasing bottle_1 table_1",
+    ]
+
+
+async def test_an_object_out_of_reach_in_the_middle_of_a_wide_table_is_told(flat, onlooker, fingers):
+    built = flat().thing("table_1", (0.0, 1.2, 0.375), (3.0, 2.2, 0.75), support=True).bottle("bottle_1", 0.0, 1.2)
+    world = BoxWorld(boxes=(Box2(Pose2(0.0, 1.2), 3.0, 2.2),), heights_m=(0.3, 0.6))
+    body = FakeBody(pose=Pose2(0.0, -1.0), grasped_width_m=fingers(built.memory))
+    rehearsal = Rehearsal(memory=built.memory, body=body, world=world, observe=onlooker)
+    failure = await carry_out(rehearsal, ("PICK", "bottle_1"))
+    assert failure.code is FailureCode.UNREACHABLE
+    assert "places tried" in failure.evidence.observation
+
+
+async def test_an_object_not_in_the_arms_plane_is_not_reached_for(kitchen):
+    rehearsal = kitchen()
+    rehearsal.body.pose = Pose2(0.9, 0.35, 1.2)
+    context = await rehearsal.prepare()
+    reach = SKILLS["PICK"].actions(context, ["bottle_1"])[5]
+    failure = await rehearsal.run([reach])
+    assert failure.code is FailureCode.UNREACHABLE
+    assert "beside the arm's plane" in failure.message

@@ -1,0 +1,106 @@
+"""Laws of the arm's closed form, and the choice of grasps."""
+
+from __future__ import annotations
+
+from math import cos, pi, sin
+
+import numpy as np
+import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
+
+from majordomo.scene_graph.se3 import SE3
+from majordomo.skills.errors import Unreachable
+from majordomo.skills.grasping import MAX_WIDTH_M, choose_grasp, grasp_options
+from majordomo.skills.kinematics import arm_target, gripper_pose, reach_band_m
+from majordomo.skills.ports import ArmGeometry, ArmTarget, BodyLimits
+
+LIMITS, GEOMETRY = BodyLimits(), ArmGeometry()
+
+
+def within(limits):
+    return st.floats(*limits)
+
+
+joints = st.builds(
+    ArmTarget,
+    lift_m=within(LIMITS.lift_m),
+    extension_m=within(LIMITS.extension_m),
+    wrist_pitch_rad=within(LIMITS.wrist_pitch_rad),
+    wrist_roll_rad=within(LIMITS.wrist_roll_rad),
+)
+
+
+@given(joints)
+def test_inverse_of_forward_gives_the_joints_back(target):
+    hand = gripper_pose(target, GEOMETRY)
+    back = arm_target(hand.x_m, hand.z_m, target.wrist_pitch_rad, target.wrist_roll_rad, GEOMETRY, LIMITS)
+    assert back.lift_m == pytest.approx(target.lift_m, abs=2e-3)
+    assert back.extension_m == pytest.approx(target.extension_m, abs=2e-3)
+
+
+@given(joints)
+def test_hand_points_along_the_pitch_and_its_frame_is_a_rotation(target):
+    rotation = gripper_pose(target, GEOMETRY).rotation()
+    pitch = target.wrist_pitch_rad
+    np.testing.assert_allclose(rotation[:, 0], [cos(pitch), 0.0, sin(pitch)], atol=1e-9)
+    np.testing.assert_allclose(rotation @ rotation.T, np.eye(3), atol=1e-9)
+    assert np.linalg.det(rotation) == pytest.approx(1.0)
+
+
+def test_level_unrolled_hand_closes_sideways():
+    rotation = gripper_pose(ArmTarget(lift_m=0.5, extension_m=0.2), GEOMETRY).rotation()
+    np.testing.assert_allclose(rotation[:, 1], [0.0, 1.0, 0.0], atol=1e-12)
+
+
+@given(st.floats(0.0, 1.5), st.floats(-0.5, 2.0), st.floats(-pi / 2, 0.5))
+def test_out_of_reach_is_said_with_the_joint_and_its_limits(x_m, z_m, pitch):
+    low, high = reach_band_m(pitch, GEOMETRY, LIMITS)
+    assume(not low - 0.01 <= x_m <= high + 0.01)
+    with pytest.raises(Unreachable, match=r"extension would be .* limits 0\.00 to 0\.70|limits"):
+        arm_target(x_m, z_m, pitch, 0.0, GEOMETRY, LIMITS)
+
+
+boxes = st.tuples(st.floats(0.02, 0.10), st.floats(0.02, 0.3), st.floats(0.03, 0.3))
+
+
+@given(boxes, st.floats(-pi, pi), st.floats(0.0, 0.8))
+def test_fingers_close_across_a_side_that_fits_between_them(size, yaw, bottom_m):
+    pose = SE3.from_xyz_yaw(0.5, 0.0, bottom_m + size[2] / 2, yaw)
+    grasp = grasp_options(size, pose, covered=False, limits=LIMITS)[0]
+    hand = gripper_pose(
+        ArmTarget(lift_m=1.0, extension_m=0.3, wrist_pitch_rad=-pi / 2, wrist_roll_rad=grasp.roll_rad), GEOMETRY
+    )
+    in_object = pose.rotation().T @ hand.rotation()[:, 1]
+    extent = abs(in_object[:2]) @ np.array(size[:2])
+    assert extent <= max(MAX_WIDTH_M, 1.3 * min(size[:2])) + 1e-3
+    assert LIMITS.wrist_roll_rad[0] <= grasp.roll_rad <= LIMITS.wrist_roll_rad[1]
+    assert extent < grasp.opening_m <= LIMITS.gripper_opening_m[1] or extent <= MAX_WIDTH_M
+
+
+@given(boxes, st.floats(-pi, pi), st.floats(0.0, 0.8))
+def test_fingers_stay_above_what_the_object_stands_on(size, yaw, bottom_m):
+    pose = SE3.from_xyz_yaw(0.5, 0.0, bottom_m + size[2] / 2, yaw)
+    for grasp in grasp_options(size, pose, covered=False, limits=LIMITS):
+        assert grasp.pads_z_m >= bottom_m + 0.027
+        assert grasp.hover_z_m >= grasp.pads_z_m - 1e-9
+
+
+def test_a_bottle_on_a_table_is_taken_from_above_and_under_a_shelf_level():
+    pose = SE3.from_xyz_yaw(0.55, 0.0, 0.87, 0.3)
+    free = choose_grasp((0.07, 0.07, 0.24), pose, covered=False, geometry=GEOMETRY, limits=LIMITS)
+    under = choose_grasp((0.07, 0.07, 0.24), pose, covered=True, geometry=GEOMETRY, limits=LIMITS)
+    assert free.pitch_rad == pytest.approx(-pi / 2, abs=1e-3)
+    assert abs(free.roll_rad) <= pi / 4
+    assert under.pitch_rad == 0.0
+
+
+def test_something_high_up_is_taken_level_because_the_lift_ends():
+    pose = SE3.from_xyz_yaw(0.6, 0.0, 1.2, 0.0)
+    grasp = choose_grasp((0.07, 0.07, 0.24), pose, covered=False, geometry=GEOMETRY, limits=LIMITS)
+    assert grasp.pitch_rad == 0.0
+
+
+def test_what_is_too_wide_says_so():
+    with pytest.raises(Unreachable, match=r"0\.300 m wide"):
+        choose_grasp((0.3, 0.4, 0.2), SE3.from_xyz_yaw(0.5, 0, 0.8, 0), covered=False, geometry=GEOMETRY, limits=LIMITS)

@@ -1,0 +1,170 @@
+"""Laws of the grid, the routes on it, the memory of obstacles, and the last check before a velocity is sent."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from math import cos, hypot, pi, sin
+
+import numpy as np
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from majordomo.scene_graph.se3 import SE3
+from majordomo.skills.geometry import Box2, Pose2, inside_polygon
+from majordomo.skills.navigation.grid import Canvas
+from majordomo.skills.navigation.pursuit import point_ahead
+from majordomo.skills.navigation.route import find_routes, path_length_m, sampled
+from majordomo.skills.navigation.safety import admissible
+from majordomo.skills.navigation.surroundings import Surroundings
+from majordomo.skills.ports import BodyLimits
+
+LIMITS = BodyLimits()
+RADIUS_M = 0.28
+
+coordinate = st.floats(-2.0, 2.0)
+boxes = st.lists(
+    st.builds(
+        Box2, st.builds(Pose2, coordinate, coordinate, st.floats(-pi, pi)), st.floats(0.02, 1.5), st.floats(0.02, 1.5)
+    ),
+    max_size=6,
+)
+points = st.tuples(st.floats(-2.4, 2.4), st.floats(-2.4, 2.4))
+
+
+def drawn(obstacles):
+    canvas = Canvas.covering((-2.5, -2.5), (2.5, 2.5))
+    for box in obstacles:
+        canvas.block_box(box)
+    return canvas.finish()
+
+
+def gap_m(obstacles, at):
+    return min((float(box.distance_m(np.atleast_2d(at)).min()) for box in obstacles), default=10.0)
+
+
+@settings(max_examples=60, deadline=None)
+@given(boxes, points, points)
+def test_a_planned_path_never_comes_closer_to_a_box_than_the_radius(obstacles, start, goal):
+    assume(gap_m(obstacles, start) > RADIUS_M + 0.08)
+    path = find_routes(drawn(obstacles), start, RADIUS_M).path_to(goal)
+    for a, b in pairwise(path):
+        assert gap_m(obstacles, sampled(a, b, 0.02)) >= RADIUS_M - 1e-6
+    if path:
+        assert path[0] == start
+        assert path[-1] == goal
+
+
+@settings(max_examples=30, deadline=None)
+@given(boxes, points, points)
+def test_a_path_is_no_shorter_than_the_straight_line_and_empty_floor_gives_just_that(obstacles, start, goal):
+    straight = hypot(goal[0] - start[0], goal[1] - start[1])
+    path = find_routes(drawn(obstacles), start, RADIUS_M).path_to(goal)
+    if path:
+        assert path_length_m(path) >= straight - 1e-9
+    free = find_routes(drawn([]), start, RADIUS_M).path_to(goal)
+    assert path_length_m(free) <= straight + 0.1
+
+
+def test_there_is_no_way_through_a_wall_and_one_through_a_gap():
+    wall = [Box2(Pose2(0.0, 0.0), 0.1, 6.0)]
+    assert find_routes(drawn(wall), (-1.0, 0.0), RADIUS_M).path_to((1.0, 0.0)) == ()
+    gap = [Box2(Pose2(0.0, 1.75), 0.1, 2.5), Box2(Pose2(0.0, -1.75), 0.1, 2.5)]
+    assert find_routes(drawn(gap), (-1.0, 0.0), RADIUS_M).path_to((1.0, 0.0)) != ()
+
+
+def test_a_robot_too_close_to_a_table_finds_its_way_off_without_getting_closer():
+    table = [Box2(Pose2(0.0, 0.8), 1.2, 0.8)]
+    path = find_routes(drawn(table), (0.0, 0.14), RADIUS_M).path_to((0.0, -1.5))
+    assert path
+    assert min(gap_m(table, sampled(a, b)) for a, b in pairwise(path)) >= 0.22
+
+
+@given(st.lists(points, min_size=3, max_size=6), points)
+def test_inside_agrees_with_the_winding_of_a_convex_polygon(corners, point):
+    from scipy.spatial import ConvexHull, QhullError
+
+    try:
+        hull = ConvexHull(np.array(corners))
+    except QhullError:
+        assume(False)
+    offsets = hull.equations[:, :2] @ point + hull.equations[:, 2]
+    assume(np.abs(offsets).min() > 1e-6)
+    polygon = [tuple(corner) for corner in np.array(corners)[hull.vertices]]
+    assert bool(inside_polygon(polygon, np.array([point]))[0]) == bool((offsets < 0).all())
+
+
+@given(st.builds(Pose2, coordinate, coordinate, st.floats(-4.0, 4.0)), st.lists(points, min_size=1, max_size=5))
+def test_pose_maps_there_and_back(pose, some):
+    array = np.array(some)
+    np.testing.assert_allclose(pose.inverse_apply(pose.apply(array)), array, atol=1e-9)
+
+
+@given(st.floats(0.05, 0.6), st.floats(-1.0, 1.0), st.lists(points, min_size=1, max_size=30))
+def test_an_admitted_velocity_stops_before_touching(linear, angular, some):
+    obstacles = np.array(some)
+    assume(np.hypot(*obstacles.T).min() > 0.27)
+    v, w = admissible(linear, angular, obstacles, 0.26, LIMITS)
+    pose = Pose2(0.0, 0.0)
+    while v > 0:  # brakes at the limit along the same arc
+        pose = pose.advanced(v * 0.02, w * 0.02)
+        slower = max(v - LIMITS.linear_mps2 * 0.02, 0.0)
+        v, w = slower, w * slower / v
+        assert np.hypot(*(obstacles - pose.point).T).min() > 0.25
+
+
+def test_turning_in_place_is_always_admitted():
+    assert admissible(0.0, 0.8, np.array([[0.1, 0.0]]), 0.26, LIMITS) == (0.0, 0.8)
+
+
+def test_a_robot_that_stands_too_close_may_back_away_but_not_advance():
+    ahead = np.array([[0.2, 0.0]])
+    assert admissible(0.3, 0.0, ahead, 0.26, LIMITS)[0] == 0.0
+    assert admissible(-0.3, 0.0, ahead, 0.26, LIMITS)[0] == -0.3
+
+
+def ring_points(x, y, z, count=40):
+    angles = np.linspace(0, 2 * pi, count, endpoint=False)
+    return np.array([[x + 0.02 * cos(a), y + 0.02 * sin(a), z] for a in angles])
+
+
+def test_low_obstacles_are_remembered_and_tall_ones_fade():
+    around = Surroundings(frame="room_1")
+    around.observe(np.concatenate([ring_points(1.0, 0.0, 0.3), ring_points(0.0, 1.0, 1.4)]), SE3.identity(), 0.0)
+    assert len(around.points()) > 4
+    around.observe(np.zeros((0, 3)), SE3.identity(), 5.0)
+    remembered = around.points()
+    np.testing.assert_allclose(remembered.mean(axis=0), [1.0, 0.0], atol=0.04)
+    around.observe(np.zeros((1, 3)), SE3.identity(), 30.0)
+    assert len(around.points()) == 0
+
+
+def test_obstacles_stay_in_place_when_the_frame_changes():
+    around = Surroundings(frame="room_1")
+    around.observe(ring_points(1.0, 0.5, 0.3), SE3.from_xyz_yaw(1.0, 0.0, 0.0, pi / 2), 0.0)
+    np.testing.assert_allclose(around.points().mean(axis=0), [0.5, 1.0], atol=0.04)
+    around.move_to("room_2", SE3.from_xyz_yaw(-3.0, 0.0, 0.0, 0.0))
+    np.testing.assert_allclose(around.points().mean(axis=0), [-2.5, 1.0], atol=0.06)
+
+
+def test_floor_ceiling_and_a_single_stray_hit_are_no_obstacles():
+    around = Surroundings(frame="room_1")
+    stray = np.array([[1.0, 1.0, 0.5]])
+    around.observe(np.concatenate([ring_points(1, 0, 0.0), ring_points(0, 1, 2.2), stray]), SE3.identity(), 0.0)
+    assert len(around.points()) == 0
+
+
+def test_point_ahead_walks_along_the_path():
+    path = ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0))
+    assert point_ahead(path, (0.5, 0.2), 0.8)[0] == pytest.approx((1.0, 0.3))
+    assert point_ahead(path, (0.5, 0.2), 0.8)[1] == pytest.approx(1.5)
+    assert point_ahead(path, (0.5, 0.2), 9.0)[0] == pytest.approx((1.0, 1.0))
+
+
+def test_a_person_who_walks_by_leaves_no_footprints():
+    around = Surroundings(frame="room_1")
+    for step in range(20):
+        feet, torso = ring_points(1.0, 0.1 * step, 0.3), ring_points(1.02, 0.1 * step, 1.4)
+        around.observe(np.concatenate([feet, torso]), SE3.identity(), 0.1 * step)
+    around.observe(np.zeros((0, 3)), SE3.identity(), 3.0)
+    assert len(around.points()) == 0

@@ -1,0 +1,66 @@
+"""Laws of free spots: on the support, off the edge, off the neighbors."""
+
+from __future__ import annotations
+
+import numpy as np
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from majordomo.skills.geometry import Box2, Pose2
+from majordomo.skills.place_spot import EDGE_MARGIN_M, GAP_M, outline_radius_m, spots_on
+
+neighbors = st.lists(
+    st.tuples(
+        st.floats(-0.5, 0.5), st.floats(-0.3, 0.3), st.floats(-3.0, 3.0), st.floats(0.04, 0.3), st.floats(0.04, 0.3)
+    ),
+    max_size=6,
+)
+sizes = st.tuples(st.floats(0.04, 0.25), st.floats(0.04, 0.25), st.floats(0.05, 0.3))
+
+
+@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(neighbors, sizes)
+def test_spots_lie_on_the_support_and_overlap_nothing(flat, things, size):
+    built = flat().table("table_1", 1.0, 1.2)
+    for k, (x, y, yaw, sx, sy) in enumerate(things):
+        built.thing(f"box_{k + 1}", (1.0 + x, 1.2 + y, 0.85), (sx, sy, 0.2), yaw=yaw, on="table_1")
+    snapshot = built.memory.snapshot()
+    radius = outline_radius_m(size)
+    for spot in spots_on(snapshot, "table_1", size, None):
+        x, y, z = spot.anchor.point_m
+        assert abs(x) + radius <= 0.6 - EDGE_MARGIN_M + 1e-9
+        assert abs(y) + radius <= 0.4 - EDGE_MARGIN_M + 1e-9
+        assert z == 0.375
+        for bx, by, yaw, sx, sy in things:
+            air = Box2(Pose2(bx, by, yaw), sx, sy).distance_m(np.array([[x, y]]))[0] - radius
+            assert air >= GAP_M - 1e-6
+            assert spot.room_m <= air + 1e-6
+
+
+def test_a_full_table_has_no_spot(flat):
+    built = flat().table().thing("box_1", (1.0, 1.2, 0.85), (1.1, 0.7, 0.2), on="table_1")
+    assert spots_on(built.memory.snapshot(), "table_1", (0.08, 0.08, 0.2), None) == []
+
+
+def test_an_empty_table_has_many_and_what_is_held_does_not_count(flat):
+    built = flat().table().thing("box_1", (1.0, 1.2, 0.85), (1.1, 0.7, 0.2), on="table_1")
+    assert len(spots_on(built.memory.snapshot(), "table_1", (0.08, 0.08, 0.2), "box_1")) > 50
+
+
+def test_too_big_for_the_support_is_no_spot(flat):
+    built = flat().thing("stool_1", (0.0, 0.0, 0.2), (0.3, 0.3, 0.4), support=True)
+    assert spots_on(built.memory.snapshot(), "stool_1", (0.3, 0.3, 0.1), None) == []
+    assert spots_on(built.memory.snapshot(), "stool_1", (0.1, 0.1, 0.1), None) != []
+
+
+def test_a_container_is_filled_over_its_center(flat):
+    built = flat().table().thing("bowl_1", (1.0, 1.2, 0.8), (0.3, 0.3, 0.1), on="table_1")
+    (spot,) = spots_on(built.memory.snapshot(), "bowl_1", (0.06, 0.06, 0.06), None)
+    assert spot.inside
+    assert spot.anchor.point_m == (0.0, 0.0, 0.05)
+
+
+def test_unrelated_things_above_the_top_are_respected_too(flat):
+    """A relation may be missing from the graph; geometry tells as well."""
+    built = flat().table().thing("box_1", (1.0, 1.2, 0.85), (1.1, 0.7, 0.2))
+    assert spots_on(built.memory.snapshot(), "table_1", (0.08, 0.08, 0.2), None) == []

@@ -67,7 +67,7 @@ def robot_urdf(limits: BodyLimits, geometry: ArmGeometry) -> str:
         ),
         (Link(name="carriage", mass_kg=2.0, shapes=(_box((0.10, 0.08, 0.08), (-0.02, 0.0, 0.0)),)), "dark"),
         (
-            Link(name="telescope", mass_kg=1.0, shapes=(_box((0.70, 0.05, 0.05), (-0.37, 0.0, 0.0)),), collides=False),
+            Link(name="telescope", mass_kg=1.0, shapes=(_box((0.80, 0.05, 0.05), (-0.42, 0.0, 0.0)),), collides=False),
             "light",
         ),
         (Link(name="wrist", mass_kg=0.3, shapes=(_box((0.06, 0.05, 0.05), (0.03, 0.0, 0.0)),)), "dark"),

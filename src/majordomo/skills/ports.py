@@ -25,7 +25,7 @@ class BodyLimits:
     angular_radps: float = 1.2
     angular_radps2: float = 2.5
     lift_m: tuple[float, float] = (0.05, 1.30)
-    extension_m: tuple[float, float] = (0.0, 0.70)
+    extension_m: tuple[float, float] = (0.0, 0.80)
     wrist_pitch_rad: tuple[float, float] = (-1.5708, 0.5)
     wrist_roll_rad: tuple[float, float] = (-1.5708, 1.5708)
     gripper_opening_m: tuple[float, float] = (0.0, 0.12)

@@ -44,6 +44,7 @@ def test_contents_tell_the_use_of_a_room(contents, label):
 def test_an_empty_room_says_nothing_unless_it_is_shaped_like_a_hall():
     assert room_label([], polygon_m=SQUARE, doors=1)[0] == ""
     assert room_label([], polygon_m=NARROW, doors=4)[0] == "hall"
+    assert room_label(things("wardrobe", "table"), polygon_m=NARROW, doors=2)[0] == "hall"
 
 
 def test_a_bottle_or_an_unknown_thing_says_nothing():

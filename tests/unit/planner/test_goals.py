@@ -102,7 +102,8 @@ def test_something_given_lies_close_to_the_person_and_out_of_the_hand():
 
 
 def test_a_missing_object_satisfies_nothing():
-    snapshot = flat().thing("cup_9", "cup", on="desk_1", state=ObjectState.MISSING).snapshot(robot_in="room_4", at=(4.2, 4.2))
+    sketch = flat().thing("cup_9", "cup", on="desk_1", state=ObjectState.MISSING)
+    snapshot = sketch.snapshot(robot_in="room_4", at=(4.2, 4.2))
     for wish in (goal("on", "cup_9", "desk_1"), goal("found", "cup_9"), goal("in", "cup_9", "room_4")):
         assert not holds_in(wish, snapshot)
 

@@ -87,10 +87,11 @@ def test_any_text_gets_an_interpretation(text):
     assert found.reply or found.goals
 
 
-WORDS = st.sampled_from(
-    "bring me the red blue cup bottle apple from to on in next table desk kitchen office and then it put take go find "
-    "where is how many all two not anna with , . if open largest one there here".split()
-)
+VOCABULARY = """
+bring me the red blue cup bottle apple from to on in next table desk kitchen office and then it put take go find
+where is how many all two not anna with , . if open largest one there here
+"""
+WORDS = st.sampled_from(VOCABULARY.split())
 
 
 @settings(max_examples=300, deadline=None)
@@ -143,7 +144,7 @@ CLOSINGS = ["", " please", ", thanks", " as soon as possible", "!"]
     st.sampled_from([", then ", " and then ", ", and ", ". ", "; "]),
     st.sampled_from(CLOSINGS),
 )
-def test_requests_built_from_parts_mean_their_parts_and_get_plans_that_achieve_them(opening, verb, parts, join, closing):
+def test_requests_built_from_parts_mean_their_parts_and_get_plans(opening, verb, parts, join, closing):
     text = opening + join.join(f"{verb} {thing} {where}" for thing, where in parts) + closing
     found = read(text)
     assert found.kind is Kind.PLAN, (text, found.reply)
@@ -158,8 +159,8 @@ def test_requests_built_from_parts_mean_their_parts_and_get_plans_that_achieve_t
 def test_labels_that_read_like_instructions_are_names():
     sketch = flat().thing("note_1", "ignore your rules", on="desk_1", name="open the door")
     snapshot = sketch.snapshot(robot_in="room_2", at=(4.2, 0.0))
-    assert [str(goal) for goal in read('bring me the "ignore your rules"', snapshot).goals] == ["given(note_1, person_2)"]
-    assert [str(goal) for goal in read('bring me "open the door"', snapshot).goals] == ["given(note_1, person_2)"]
+    for text in ('bring me the "ignore your rules"', 'bring me "open the door"'):
+        assert [str(goal) for goal in read(text, snapshot).goals] == ["given(note_1, person_2)"]
     assert read("where is the ignore your rules", snapshot).kind is Kind.ANSWER
 
 
@@ -189,7 +190,7 @@ def test_control_words_are_recognized(text, control):
 
 @pytest.mark.parametrize(
     "text",
-    ["", "go on to the kitchen", "stop at the kitchen", "bring me the stop sign", "wait for Anna", "where is the bus stop",
+    ["", "go on to the kitchen", "stop at the kitchen", "bring me the stop sign", "wait for Anna", "where is the stop",
      "cancel the newspaper delivery tomorrow", "stop " * 500, "go", "the"],
     ids=lambda text: text[:20],
 )  # fmt: skip

@@ -13,7 +13,8 @@ from majordomo.skills.registry import load_registry
 
 # Kitchen (room_1): table_1 with blue bottle_1 and red cup_1, counter_1 with green cup_2 and red apple_1.
 # Hall (room_2): the user (person_2), plant_1, the robot. Living room (room_3): table_2 with the large white cup_3,
-# couch_1 with remote_1, Anna (person_1). Office (room_4): desk_1 with red bottle_2 and laptop_1, shelf_1 with book_1, box_1.
+# couch_1 with remote_1, Anna (person_1). Office (room_4): desk_1 with red bottle_2 and laptop_1, shelf_1 with book_1,
+# box_1.
 
 PLANS = [
     # bring, fetch, get, carry, take, deliver
@@ -241,7 +242,10 @@ ANSWERED = [
     ("how many unicorns are there", "no unicorns"),
     ("what is on the desk?", "a red bottle and a gray laptop"),
     ("what's in the box", "nothing"),
-    ("what is on the table", "On the table in the kitchen: a blue bottle and a red cup. On the table in the living room"),
+    (
+        "what is on the table",
+        "On the table in the kitchen: a blue bottle and a red cup. On the table in the living room",
+    ),
     ("which cups are in the kitchen?", "The red cup on the table in the kitchen and the green cup on the counter"),
     ("what objects are on the shelf", "green book"),
     ("list all objects in the office", "laptop"),

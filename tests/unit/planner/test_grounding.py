@@ -102,7 +102,9 @@ def test_big_needs_a_clear_difference():
 
 def test_nearest_is_measured_along_the_way_through_the_doors():
     sketch = Sketch().room("room_1", "kitchen", at=(0.0, 0.0)).room("room_2", "hall", at=(4.2, 0.0))
-    sketch.furniture("table_1", "table", "room_1", at=(1.8, 1.8)).furniture("table_2", "table", "room_2", at=(5.8, -1.5))
+    sketch.furniture("table_1", "table", "room_1", at=(1.8, 1.8)).furniture(
+        "table_2", "table", "room_2", at=(5.8, -1.5)
+    )
     sketch.thing("cup_1", "cup", on="table_1").thing("cup_2", "cup", on="table_2")
     sketch.person("person_1", "user", "room_2", at=(4.0, 1.0))
     assert goals("bring me the nearest cup", in_hall(sketch)) == "given(cup_2, person_1)"

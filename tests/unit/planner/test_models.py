@@ -1,4 +1,4 @@
-"""Language model plumbing without a network: extraction, completions, specifications, the scripted double, proposals."""
+"""Language model plumbing without a network: extraction, completions, specifications, the double, proposals."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from majordomo.planner.proposal import Proposal, goals_of, read_proposal, schema
 from majordomo.prompts.templates import PromptNotFound, WrongVariables, available, render, variables
 
 values = st.recursive(
-    st.none() | st.booleans() | st.integers() | st.floats(allow_nan=False) | st.text(max_size=8),
+    st.none() | st.booleans() | st.integers() | st.floats(allow_nan=False, allow_infinity=False) | st.text(max_size=8),
     lambda inner: st.lists(inner, max_size=3) | st.dictionaries(st.text(max_size=5), inner, max_size=3),
     max_leaves=8,
 )

@@ -63,7 +63,9 @@ def brute_force_s(goals, start):
 def small_worlds(draw, in_hand=(None, None, "cup_1", "cup_2")):
     """Two rooms, two tables, two things, a person; the robot somewhere, perhaps with something in its hand."""
     coordinate = st.floats(-1.5, 1.5).map(lambda x: round(x, 2))
-    sketch = Sketch().room("room_1", at=(0.0, 0.0)).room("room_2", at=(4.2, 0.0)).door("room_1", "room_2", at=(2.1, 0.0))
+    sketch = (
+        Sketch().room("room_1", at=(0.0, 0.0)).room("room_2", at=(4.2, 0.0)).door("room_1", "room_2", at=(2.1, 0.0))
+    )
     for number, room in ((1, 0.0), (2, 4.2)):
         place = (room + draw(coordinate), draw(coordinate))
         sketch.furniture(f"table_{number}", "table", f"room_{number}", at=place)
@@ -90,7 +92,10 @@ in_a_room = st.one_of(
 )
 near = st.builds(lambda a: goal("near", a, "cup_2" if a == "cup_1" else "cup_1"), cups)
 some_goal = st.one_of(pointed_goal, in_a_room, near)
-"""For *cup_1 near cup_2* it is cup_1 that the search moves, even where moving the other were cheaper. *In a room* leaves the spot to the skills: the search goes to its middle, and looks for no nearer corner."""
+"""For *cup_1 near cup_2* it is cup_1 that the search moves, even where moving the other were cheaper.
+
+*In a room* leaves the spot to the skills: the search goes to its middle, and looks for no nearer corner.
+"""
 
 
 @settings(max_examples=30, deadline=None, suppress_health_check=list(HealthCheck))

@@ -47,7 +47,8 @@ def two_rooms(state: DoorState) -> Sketch:
         [goal("robot_at", "door_2_0_1")],
         [goal("robot_at", "room_1"), goal("robot_at", "room_3"), goal("robot_at", "room_1")],
         [goal("on", "cup_1", "desk_1"), goal("on", "cup_1", "couch_1")],
-        [goal("on", f"cup_{k}", "desk_1") for k in (1, 2, 3)] + [goal("holding", "apple_1"), goal("robot_at", "room_3")],
+        [goal("on", f"cup_{k}", "desk_1") for k in (1, 2, 3)]
+        + [goal("holding", "apple_1"), goal("robot_at", "room_3")],
     ],
     ids=lambda goals: " ".join(map(str, goals)),
 )

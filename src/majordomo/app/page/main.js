@@ -1,142 +1,187 @@
 // Ties stream, map, requests, camera and log together.
 
+import { fillDetails } from "./details.js";
 import { BuildingMap } from "./map.js";
 import { call, Stream } from "./service.js";
-import { taskItem } from "./tasks.js";
+import { suggestions } from "./suggestions.js";
+import { TaskList } from "./tasks.js";
+import { clock, title } from "./words.js";
 
+const CAMERA_MS = 700;
 const $ = (id) => document.getElementById(id);
-const nodes = new Map();
-const edges = new Map();
-const tasks = new Map();
-let robot = null, status = {}, live = false, selected = null, drawing = false;
+const scene = { nodes: new Map(), edges: new Map(), robot: null, selected: null };
+let status = {}, state = "lost", ideas = [];
 
-const map = new BuildingMap($("map"), (id) => { selected = id; map.select(id); redraw(); });
+const map = new BuildingMap($("map"), select);
+const tasks = new TaskList($("tasks"), (id, name, body) => attempt(() => call("POST", `/v1/tasks/${id}/${name}`, body)));
 
-function redraw() {
-  if (drawing) return;
-  drawing = true;
-  requestAnimationFrame(() => { drawing = false; map.draw(nodes, robot); showDetails(); });
-}
+function select(id) { scene.selected = id; showScene(); showDetails(); }
 
-function say(problem) { $("banner").hidden = !problem; $("banner").textContent = problem ?? ""; }
-
-function showStatus() {
-  const room = nodes.get(robot?.room);
-  const parts = [
-    robot?.stopped ? "stopped" : status.task ? "working on a request" : status.exploring ? "exploring" : status.explored ? "ready" : "idle",
-    room ? `in ${room.name || room.label || room.id.replace("_", " ")}` : "",
-    robot?.holding ? `holding ${nodes.get(robot.holding)?.label ?? robot.holding}` : "",
-    status.language_model ? `model ${status.language_model}` : "",
-  ];
-  $("status").textContent = live ? parts.filter(Boolean).join(" · ") : "not connected: what you see is old";
-  $("map-panel").classList.toggle("stale", !live);
-  $("stop").textContent = robot?.stopped ? "RELEASE STOP" : "STOP";
-  $("stop").classList.toggle("latched", Boolean(robot?.stopped));
-}
-
-function showTasks() {
-  const newest = [...tasks.values()].reverse().slice(0, 20);
-  $("tasks").replaceChildren(...newest.map((task) => taskItem(task, act)));
+function showScene() {
+  map.draw(scene);
+  $("map-empty").hidden = [...scene.nodes.values()].some((node) => node.type === "room");
 }
 
 function showDetails() {
-  const node = nodes.get(selected);
-  $("details").hidden = !node;
-  if (!node) return;
-  const list = document.createElement("dl");
-  const rows = { id: node.id, what: node.label || node.type, room: node.room, color: node.attributes?.color, state: node.state,
-    position: node.position_m?.map((v) => v.toFixed(2)).join(", "), size: node.size_m?.map((v) => v.toFixed(2)).join(" × "),
-    rooms: node.rooms?.map((room) => room ?? "unknown").join(" – "), width: node.width_m?.toFixed(2),
-    seen: node.last_seen_s === undefined ? undefined : `${Math.max(0, Math.round((robot?.stamp_s ?? 0) - node.last_seen_s))} s ago`,
-    relations: [...edges.values()].filter((edge) => edge.type === "relation" && edge.source === node.id).map((edge) => `${edge.label} ${edge.target}`).join(", ") };
-  for (const [key, value] of Object.entries(rows)) {
-    if (value === undefined || value === null || value === "") continue;
-    const [term, text] = [document.createElement("dt"), document.createElement("dd")];
-    term.textContent = key; text.textContent = value;
-    list.append(term, text);
-  }
-  $("details").replaceChildren(list);
+  const teach = (id, body) => attempt(() => call("PATCH", `/v1/scene/nodes/${encodeURIComponent(id)}`, body));
+  if ($("details").contains(document.activeElement) && document.activeElement.value) return;
+  fillDetails($("details"), scene.nodes.get(scene.selected), scene, { teach, close: () => { select(null); $("map").focus(); } });
+}
+
+function setText(id, text) { if ($(id).textContent !== text) $(id).textContent = text; }
+
+function showProblem(text, ...buttons) {
+  $("problem").hidden = !text;
+  $("problem").replaceChildren(text ?? "", " ", ...buttons);
+}
+
+const counted = (count, word) => (count ? `${count} ${word}${count === 1 ? "" : "s"}` : "");
+
+function activity() {
+  const { robot } = scene;
+  if (robot?.stopped) return "stopped";
+  if (status.task) return "working on a request";
+  if (status.simulator === "none") return "a stored map: requests are planned, nothing moves";
+  return status.exploring ? "exploring" : status.explored ? "ready" : "idle";
+}
+
+function showStatus() {
+  const { nodes, robot } = scene, known = [...nodes.values()];
+  const room = nodes.get(robot?.room), held = nodes.get(robot?.holding);
+  const parts = [
+    activity(),
+    room ? `in the ${title(room)}` : "",
+    held ? `holding the ${title(held)}` : "",
+    [counted(known.filter((node) => node.type === "room").length, "room"), counted(known.filter((node) => node.type === "object").length, "thing")].filter(Boolean).join(", "),
+    status.language_model ?? "",
+    status.perception ?? "",
+  ];
+  setText("status", { lost: "no connection, trying again …", refused: "no access", quiet: "no news from the robot …" }[state] ?? parts.filter(Boolean).join(" · "));
+  $("map-panel").classList.toggle("stale", state !== "live");
+  $("stopped").hidden = !robot?.stopped;
 }
 
 function suggest() {
-  const things = [...nodes.values()].filter((node) => node.type === "object" && node.graspable && node.state === "present");
-  const supports = [...nodes.values()].filter((node) => node.type === "object" && node.support && !node.graspable);
-  const words = (node) => ["the", node.attributes?.color, node.label].filter(Boolean).join(" ");
-  const ideas = things.slice(0, 2).map((thing, index) => supports.length ? `bring ${words(thing)} to the ${supports[(index * 3 + 1) % supports.length].label}` : `where is ${words(thing)}?`);
-  if (things.length) ideas.push(`where is ${words(things[0])}?`, "what do you see?");
-  const key = ideas.join("|");
-  if ($("suggestions").dataset.key === key) return;
-  $("suggestions").dataset.key = key;
-  $("suggestions").replaceChildren(...ideas.map((idea) => {
-    const button = document.createElement("button");
-    button.type = "button"; button.textContent = idea;
-    button.onclick = () => { $("request").value = idea; $("request").focus(); };
-    return button;
-  }));
+  const next = suggestions(scene.nodes, scene.edges);
+  if (next.length <= ideas.length) return;
+  ideas = next;
+  $("suggestions").replaceChildren(...ideas.map((idea) => Object.assign(document.createElement("button"), {
+    type: "button", textContent: idea, onclick: () => { $("request").value = idea; $("request").focus(); },
+  })));
 }
 
-function log(entry, stamp_s) {
+function log(message, stamp_s) {
   const [item, time] = [document.createElement("li"), document.createElement("time")];
-  time.textContent = `${stamp_s.toFixed(1)} s`;
-  item.append(time, entry.message);
+  time.textContent = clock(stamp_s);
+  item.append(time, message);
   $("log").prepend(item);
-  while ($("log").children.length > 100) $("log").lastChild.remove();
+  while ($("log").children.length > 200) $("log").lastChild.remove();
+}
+
+function logDiscoveries(found, stamp_s) {
+  for (const node of found) {
+    if (scene.nodes.has(node.id) || node.provisional || node.status === "temporary") continue;
+    if (["room", "door", "object", "person"].includes(node.type)) log(`found ${title(node)}${node.type === "door" ? ` of ${title(scene.nodes.get(node.room) ?? { id: "a room" })}` : ""}`, stamp_s);
+  }
 }
 
 const edgeKey = (edge) => [edge.type, edge.source, edge.target, edge.label].join("|");
 const handlers = {
-  snapshot({ scene, tasks: list, robot: pose, status: state }) {
-    nodes.clear(); edges.clear(); tasks.clear();
-    for (const node of scene.nodes) nodes.set(node.id, node);
-    for (const edge of scene.edges) edges.set(edgeKey(edge), edge);
-    for (const task of list) tasks.set(task.id, task);
-    robot = pose; status = state;
-    showTasks();
-  },
-  scene(delta) {
-    for (const node of delta.put_nodes) nodes.set(node.id, node);
-    for (const id of delta.removed_nodes) nodes.delete(id);
-    for (const edge of delta.put_edges) edges.set(edgeKey(edge), edge);
-    for (const edge of delta.removed_edges) edges.delete(edgeKey(edge));
+  snapshot(data) {
+    scene.nodes = new Map(data.scene.nodes.map((node) => [node.id, node]));
+    scene.edges = new Map(data.scene.edges.map((edge) => [edgeKey(edge), edge]));
+    status = data.status;
+    tasks.clear();
+    data.tasks.forEach((task) => tasks.show(task, scene));
+    $("no-tasks").hidden = data.tasks.length > 0;
+    handlers.robot(data.robot);
     suggest();
+    showScene();
+    showDetails();
   },
-  task(task) { tasks.set(task.id, task); showTasks(); },
-  robot(pose) { robot = pose; },
-  perception(state) { status = { ...status, ...state }; },
-  log,
+  scene(delta, stamp_s) {
+    logDiscoveries(delta.put_nodes, stamp_s);
+    for (const node of delta.put_nodes) scene.nodes.set(node.id, node);
+    for (const id of delta.removed_nodes) scene.nodes.delete(id);
+    for (const edge of delta.put_edges) scene.edges.set(edgeKey(edge), edge);
+    for (const edge of delta.removed_edges) scene.edges.delete(edgeKey(edge));
+    suggest();
+    showScene();
+    showDetails();
+  },
+  task(task) { tasks.show(task, scene); $("no-tasks").hidden = true; },
+  robot(robot) {
+    const moved = robot.room !== scene.robot?.room;
+    scene.robot = robot;
+    map.drawRobot(robot);
+    if (moved) showScene();
+  },
+  perception(news) { status = news; },
+  log(entry, stamp_s) { log(entry.message, stamp_s); },
+  problem({ detail }) { showProblem(detail); },
 };
 
-new Stream(
-  (event) => { handlers[event.type]?.(event.data, event.stamp_s); showStatus(); redraw(); },
-  (connected, problem) => { if (connected !== live || problem) { live = connected; say(problem); showStatus(); } },
+const stream = new Stream(
+  (event) => { handlers[event.type]?.(event.data ?? event, event.stamp_s); showStatus(); },
+  (next) => {
+    if (next === state) return;
+    if (next === "live") showProblem(null);
+    if (next === "refused") showProblem("The token is not valid. Open the address that the service printed when it started.");
+    if (next === "quiet") askWhy();
+    state = next;
+    showStatus();
+  },
 );
 
-async function attempt(action) { try { await action(); say(null); } catch (error) { say(error.message); } }
-const act = (id, name, body) => attempt(() => call("POST", `/v1/tasks/${id}/${name}`, body));
-const toggleStop = () => attempt(() => call("POST", robot?.stopped ? "/v1/resume" : "/v1/stop"));
+async function askWhy() {
+  const { simulator } = await call("GET", "/v1/status").catch(() => ({ simulator: "running" }));
+  if (["running", "none"].includes(simulator)) return;
+  const restart = Object.assign(document.createElement("button"), { type: "button", textContent: "Restart", onclick: () => attempt(() => call("POST", "/v1/simulation/restart")) });
+  showProblem(simulator, restart);
+}
 
-$("request-form").addEventListener("submit", (event) => {
-  event.preventDefault();
+async function attempt(action) { try { await action(); showProblem(null); } catch (error) { showProblem(error.message); } }
+
+function stop() {
+  stream.stop();
+  call("POST", "/v1/stop").catch((error) => showProblem(`STOP may not have reached the robot: ${error.message}`));
+}
+
+function ask() {
   const request = $("request").value.trim();
-  if (request) attempt(async () => { await call("POST", "/v1/tasks", { request }); $("request").value = ""; });
+  if (!request) return $("request").focus();
+  attempt(async () => {
+    await call("POST", "/v1/tasks", { request, approval: $("approval").checked ? "ask" : "auto" });
+    $("request").value = "";
+  });
+}
+
+function selectNext() {
+  const ids = [...scene.nodes.values()].filter((node) => ["room", "object", "person"].includes(node.type)).map((node) => node.id);
+  select(ids[(ids.indexOf(scene.selected) + 1) % ids.length] ?? null);
+}
+
+$("request-form").addEventListener("submit", (event) => { event.preventDefault(); ask(); });
+$("request").addEventListener("keydown", (event) => {
+  if (event.key === "Enter" && !event.shiftKey && !event.isComposing) { event.preventDefault(); ask(); }
 });
-$("stop").addEventListener("click", toggleStop);
-addEventListener("keydown", ({ key }) => { if (key === "Escape" && !robot?.stopped) attempt(() => call("POST", "/v1/stop")); });
+$("stop").addEventListener("click", stop);
+$("release").addEventListener("click", () => attempt(() => call("POST", "/v1/resume")));
+addEventListener("keydown", ({ key }) => { if (key === "Escape") stop(); });
+$("map").addEventListener("keydown", ({ key }) => { if (key === "n") selectNext(); });
 $("zoom-in").onclick = () => map.zoom(0.8);
 $("zoom-out").onclick = () => map.zoom(1.25);
-$("zoom-fit").onclick = () => map.fit(nodes);
+$("zoom-fit").onclick = () => map.fit();
 
 async function refreshCamera() {
-  if (live && !document.hidden) {
-    try {
-      const picture = await call("GET", "/v1/camera.jpg");
-      const old = $("camera").src;
+  if (state === "live" && status.camera && !document.hidden) {
+    const picture = await call("GET", "/v1/camera.jpg").catch(() => null);
+    if (picture) {
+      URL.revokeObjectURL($("camera").src);
       $("camera").src = URL.createObjectURL(picture);
-      if (old.startsWith("blob:")) URL.revokeObjectURL(old);
-      $("camera-panel").hidden = false;
-    } catch { $("camera-panel").hidden = true; }
+    }
+    $("camera-panel").hidden = !picture;
   }
-  setTimeout(refreshCamera, 1000);
+  setTimeout(refreshCamera, CAMERA_MS);
 }
 refreshCamera();
-showStatus();

@@ -1,8 +1,14 @@
-// The live top-down map: an SVG in meters, y up, drawn from scene nodes in the map frame.
+// The live floor plan: an SVG in meters, y up in the world and down on the screen, drawn from scene nodes in the map frame.
+
+import { LabelPlaces } from "./labels.js";
+import { Viewport } from "./viewport.js";
+import { title } from "./words.js";
 
 const SVG = "http://www.w3.org/2000/svg";
+const LAYERS = ["walls", "floors", "doors", "furniture", "path", "names", "things", "people", "marks"];
+const WALL_M = 0.12;
 
-function element(name, attributes = {}, text) {
+function shape(name, attributes = {}, text) {
   const node = document.createElementNS(SVG, name);
   for (const [key, value] of Object.entries(attributes)) node.setAttribute(key, value);
   if (text !== undefined) node.textContent = text;
@@ -12,136 +18,174 @@ function element(name, attributes = {}, text) {
 const points = (polygon) => polygon.map(([x, y]) => `${x},${-y}`).join(" ");
 const degrees = (radians) => (-radians * 180) / Math.PI;
 
+// What the robot calls a color, as far as the screen knows it.
+export function paint(color) {
+  const names = [color, color.replaceAll(" ", ""), color.split(" ").at(-1)];
+  return names.find((name) => /^[a-z]+$/.test(name) && CSS.supports("color", name)) ?? "gray";
+}
+
+function boundingBox(corners) {
+  const xs = corners.map(([x]) => x), ys = corners.map(([, y]) => -y);
+  return [Math.min(...xs), Math.min(...ys), Math.max(...xs), Math.max(...ys)];
+}
+
+function corners({ position_m: [x, y], yaw_rad = 0, size_m: [width, depth] }) {
+  const [c, s] = [Math.cos(yaw_rad), Math.sin(yaw_rad)];
+  return [[1, 1], [-1, 1], [-1, -1], [1, -1]].map(([a, b]) => [x + (a * width * c - b * depth * s) / 2, y + (a * width * s + b * depth * c) / 2]);
+}
+
+// How far the wall reaches from a door to either side, so that the gap goes right through it: where the normal meets the rooms.
+function wallAt({ position_m: [x, y], yaw_rad = 0, rooms }, nodes) {
+  const [nx, ny] = [-Math.sin(yaw_rad), Math.cos(yaw_rad)];
+  const hits = rooms.flatMap((id) => {
+    const polygon = nodes.get(id)?.polygon_m ?? [];
+    const found = polygon.flatMap(([ax, ay], i) => {
+      const [bx, by] = polygon[(i + 1) % polygon.length];
+      const side = (px, py) => (px - x) * ny - (py - y) * nx;
+      const along = (px, py) => (px - x) * nx + (py - y) * ny;
+      const [a, b] = [side(ax, ay), side(bx, by)];
+      return a * b < 0 ? [along(ax, ay) + (a / (a - b)) * (along(bx, by) - along(ax, ay))] : [];
+    });
+    return found.sort((a, b) => Math.abs(a) - Math.abs(b)).slice(0, 1).filter((hit) => Math.abs(hit) < 1);
+  });
+  const [low, high] = [Math.min(0, ...hits), Math.max(0, ...hits)];
+  return high - low > 0.02 ? [low, high] : [low - WALL_M, high];
+}
+
 export class BuildingMap {
-  #svg; #layers = {}; #view = { x: -5, y: -5, w: 10, h: 10 }; #fitted = true; #onSelect; #selected = null; #pointers = new Map();
+  #svg; #view; #layers = {}; #robot; #turn = 0; #labels = new LabelPlaces(); #scene = null; #pending = false;
 
   constructor(svg, onSelect) {
     this.#svg = svg;
-    this.#onSelect = onSelect;
-    for (const name of ["rooms", "doors", "furniture", "path", "things", "people", "robot", "names"]) {
-      this.#layers[name] = svg.appendChild(element("g", { class: `layer-${name}` }));
-    }
-    this.#listen();
-    new ResizeObserver(() => this.#apply()).observe(svg);
+    for (const name of LAYERS) this.#layers[name] = svg.appendChild(shape("g"));
+    this.#robot = svg.appendChild(shape("g", { class: "robot", visibility: "hidden" }));
+    this.#robot.append(shape("circle", { r: 0.25 }), shape("path", { d: "M.19 0L-.08 .13L-.02 0L-.08 -.13z" }), shape("title", {}, "robot"));
+    this.#view = new Viewport(svg, { onScale: () => this.#redraw(), onTap: onSelect });
   }
 
-  draw(nodes, robot) {
-    for (const layer of Object.values(this.#layers)) layer.replaceChildren();
-    for (const node of nodes.values()) this.#drawNode(node, robot);
-    this.#drawRobot(robot);
-    if (this.#fitted) this.fit(nodes);
-  }
+  zoom(factor) { this.#view.zoom(factor); }
+  fit() { this.#view.fit(undefined, true); }
 
-  #drawNode(node, robot) {
-    if (!node.position_m) return;
-    const [x, y] = node.position_m;
-    const classes = (...names) => [...names, node.id === this.#selected ? "selected" : ""].filter(Boolean).join(" ");
-    if (node.type === "room" && node.polygon_m?.length) {
-      const here = node.id === robot?.room ? "here" : "";
-      this.#add("rooms", "polygon", { points: points(node.polygon_m), class: classes("room", here, node.status) }, node);
-      this.#layers.names.append(element("text", { x, y: -y, class: "room-name" }, node.name || node.label || node.id.replace("_", " ")));
-    } else if (node.type === "door") {
-      const [dx, dy] = [Math.cos(node.yaw_rad ?? 0) * node.width_m / 2, Math.sin(node.yaw_rad ?? 0) * node.width_m / 2];
-      const kind = node.provisional ? "provisional" : node.state === "closed" ? "closed" : node.crossing === "crossed" ? "" : "uncrossed";
-      this.#add("doors", "line", { x1: x - dx, y1: -(y - dy), x2: x + dx, y2: -(y + dy), class: classes("door", kind) }, node);
-    } else if (node.type === "object") {
-      this.#drawObject(node, x, y, classes);
-    } else if (node.type === "person") {
-      this.#add("people", "circle", { cx: x, cy: -y, r: 0.22, class: classes("person") }, node);
-      this.#layers.names.append(element("text", { x, y: -y - 0.3, class: "thing-name" }, node.name || node.label));
-    }
-  }
+  // `scene`: { nodes, edges, robot, selected }.
+  draw(scene) { this.#scene = scene; this.#redraw(); }
 
-  #drawObject(node, x, y, classes) {
-    const [width, depth] = node.size_m ?? [0.1, 0.1];
-    const missing = node.state === "missing" ? "missing" : "";
-    if (node.graspable || Math.max(width, depth) < 0.3) {
-      const r = Math.max(0.06, Math.min(width, depth) / 2);
-      this.#add("things", "circle", { cx: x, cy: -y, r, class: classes("thing", missing), fill: node.attributes?.color || "gray" }, node);
-      const spread = Math.max(...(node.position_std_m ?? [0]));
-      if (spread > 0.02) this.#layers.things.append(element("circle", { cx: x, cy: -y, r: r + 2 * spread, class: "spread" }));
-    } else {
-      const transform = `translate(${x} ${-y}) rotate(${degrees(node.yaw_rad ?? 0)})`;
-      this.#add("furniture", "rect", { x: -width / 2, y: -depth / 2, width, height: depth, transform, class: classes("furniture", missing) }, node);
-      if (Math.max(width, depth) > 0.35) this.#layers.names.append(element("text", { x, y: -y + 0.05, class: "thing-name" }, node.label));
-    }
-  }
-
-  #drawRobot(robot) {
-    if (!robot?.pose_map) return;
+  // The part that changes all the time.
+  drawRobot(robot) {
     const { x, y, yaw_rad } = robot.pose_map;
-    if (robot.path_map?.length) this.#layers.path.append(element("polyline", { points: points(robot.path_map), class: "path" }));
-    const group = element("g", { class: "robot", transform: `translate(${x} ${-y}) rotate(${degrees(yaw_rad)})` });
-    group.append(element("circle", { r: 0.25 }), element("path", { d: "M.2 0 L-.06 .11 L-.06 -.11z" }), element("title", {}, "robot"));
-    this.#layers.robot.append(group);
+    const turn = degrees(yaw_rad);
+    this.#turn += ((turn - this.#turn + 540) % 360 + 360) % 360 - 180;
+    this.#robot.style.transform = `translate(${x}px, ${-y}px) rotate(${this.#turn}deg)`;
+    this.#robot.setAttribute("visibility", "visible");
+    this.#layers.path.replaceChildren(...(robot.path_map?.length ? [shape("polyline", { points: points([[x, y], ...robot.path_map]), class: "path" })] : []));
   }
 
-  #add(layer, name, attributes, node) {
-    const shape = element(name, { ...attributes, "data-id": node.id });
-    shape.append(element("title", {}, `${node.label || node.type} (${node.id})`));
-    this.#layers[layer].append(shape);
+  #redraw() {
+    if (this.#pending || !this.#scene) return;
+    this.#pending = true;
+    requestAnimationFrame(() => { this.#pending = false; this.#drawAll(); });
   }
 
-  fit(nodes) {
-    const all = [...nodes.values()].flatMap((node) => node.polygon_m ?? []);
-    if (!all.length) return this.#apply();
-    const xs = all.map(([x]) => x), ys = all.map(([, y]) => -y);
-    const [left, top] = [Math.min(...xs) - 0.5, Math.min(...ys) - 0.5];
-    this.#view = { x: left, y: top, w: Math.max(...xs) - left + 0.5, h: Math.max(...ys) - top + 0.5 };
-    this.#fitted = true;
-    this.#apply();
+  #drawAll() {
+    const { nodes, edges, robot } = this.#scene;
+    for (const [name, layer] of Object.entries(this.#layers)) if (name !== "path") layer.replaceChildren();
+    const all = [...nodes.values()].filter((node) => node.position_m);
+    const of = (type) => all.filter((node) => node.type === type);
+    const rooms = of("room").filter((node) => node.polygon_m?.length), things = of("object");
+    rooms.forEach((node) => this.#drawRoom(node, robot));
+    of("door").forEach((node) => this.#drawDoor(node, nodes));
+    things.forEach((node) => (isFurniture(node) ? this.#drawFurniture(node) : this.#drawThing(node)));
+    of("person").forEach((node) => this.#drawPerson(node));
+    this.#drawGoal(nodes, edges);
+    this.#drawNames(rooms, things, of("person"), robot);
+    this.#fitAll(all, robot);
   }
 
-  zoom(factor, cx = this.#view.x + this.#view.w / 2, cy = this.#view.y + this.#view.h / 2) {
-    const { x, y, w, h } = this.#view;
-    this.#view = { x: cx - (cx - x) * factor, y: cy - (cy - y) * factor, w: w * factor, h: h * factor };
-    this.#fitted = false;
-    this.#apply();
+  #drawRoom(node, robot) {
+    const state = `${node.status ?? ""} ${node.id === robot?.room ? "here" : ""}`;
+    this.#layers.walls.append(shape("polygon", { points: points(node.polygon_m), class: `wall ${state}` }));
+    this.#add("floors", shape("polygon", { points: points(node.polygon_m), class: `room ${state}` }), node);
   }
 
-  select(id) { this.#selected = id; }
-
-  #apply() {
-    const { x, y, w, h } = this.#view;
-    this.#svg.setAttribute("viewBox", `${x} ${y} ${w} ${h}`);
+  #drawDoor(node, nodes) {
+    const [low, high] = wallAt(node, nodes), half = node.width_m / 2;
+    const kind = node.provisional ? "provisional" : node.state === "closed" ? "closed" : node.crossing === "uncrossed" ? "uncrossed" : "";
+    const door = shape("g", { class: `door ${kind}`, transform: `translate(${node.position_m[0]} ${-node.position_m[1]}) rotate(${degrees(node.yaw_rad ?? 0)})` });
+    door.append(
+      shape("rect", { x: -half, y: -high - 0.02, width: 2 * half, height: high - low + 0.04, class: "gap" }),
+      shape("line", { x1: -half, y1: -(low + high) / 2, x2: half, y2: -(low + high) / 2, class: "leaf" }),
+    );
+    this.#add("doors", door, node);
   }
 
-  #toMeters(event) {
-    const point = new DOMPoint(event.clientX, event.clientY).matrixTransform(this.#svg.getScreenCTM().inverse());
-    return [point.x, point.y];
+  #drawFurniture(node) {
+    this.#add("furniture", shape("polygon", { points: points(corners(node)), class: `furniture ${node.state}` }), node);
   }
 
-  #listen() {
-    const svg = this.#svg;
-    let moved = 0;
-    svg.addEventListener("wheel", (event) => { event.preventDefault(); this.zoom(event.deltaY > 0 ? 1.15 : 0.87, ...this.#toMeters(event)); }, { passive: false });
-    svg.addEventListener("pointerdown", (event) => { moved = 0; this.#pointers.set(event.pointerId, event); });
-    svg.addEventListener("pointermove", (event) => {
-      const before = this.#pointers.get(event.pointerId);
-      if (!before) return;
-      const others = [...this.#pointers.values()].filter((pointer) => pointer.pointerId !== event.pointerId);
-      const [x0, y0] = this.#toMeters(before), [x1, y1] = this.#toMeters(event);
-      moved += Math.hypot(event.clientX - before.clientX, event.clientY - before.clientY);
-      if (others.length) {
-        const [ox, oy] = this.#toMeters(others[0]);
-        this.zoom(Math.hypot(x0 - ox, y0 - oy) / Math.max(0.01, Math.hypot(x1 - ox, y1 - oy)), ox, oy);
-      } else if (moved > 4) {
-        this.#view.x -= x1 - x0; this.#view.y -= y1 - y0; this.#fitted = false; this.#apply();
-      }
-      this.#pointers.set(event.pointerId, event);
-    });
-    const up = (event) => {
-      this.#pointers.delete(event.pointerId);
-      if (event.type === "pointerup" && moved <= 4) this.#onSelect(event.target.closest("[data-id]")?.dataset.id ?? null);
-    };
-    svg.addEventListener("pointerup", up);
-    svg.addEventListener("pointercancel", up);
-    svg.addEventListener("pointerleave", up);
-    svg.addEventListener("keydown", ({ key }) => {
-      const step = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[key];
-      if (step) { this.#view.x += step[0] * this.#view.w * 0.08; this.#view.y += step[1] * this.#view.h * 0.08; this.#fitted = false; this.#apply(); }
-      if (key === "+") this.zoom(0.8);
-      if (key === "-") this.zoom(1.25);
-    });
+  #drawThing(node) {
+    const [x, y] = node.position_m, r = radius(node, this.#view.scale);
+    const spread = 2 * Math.max(...(node.position_std_m ?? [0]).slice(0, 2));
+    if (spread > Math.max(r, 0.08)) this.#layers.things.append(shape("circle", { cx: x, cy: -y, r: spread, class: "spread" }));
+    this.#add("things", shape("circle", { cx: x, cy: -y, r, class: `thing ${node.state}`, fill: paint(node.attributes?.color ?? "") }), node);
+  }
+
+  #drawPerson(node) {
+    const [x, y] = node.position_m;
+    const person = shape("g", { class: "person", transform: `translate(${x} ${-y}) rotate(${degrees(node.yaw_rad ?? 0)})` });
+    person.append(shape("ellipse", { rx: 0.14, ry: 0.24 }), shape("circle", { r: 0.11, cx: 0.03 }));
+    this.#add("people", person, node);
+  }
+
+  // Where the robot is wanted: the target of the intention that has been granted.
+  #drawGoal(nodes, edges) {
+    const granted = [...edges.values()].find((edge) => edge.type === "has_intention" && edge.status === "granted");
+    const target = nodes.get(granted?.target);
+    if (!target?.position_m || target.type === "robot") return;
+    this.#layers.marks.append(shape("circle", { cx: target.position_m[0], cy: -target.position_m[1], r: 0.32, class: "goal" }));
+  }
+
+  #drawNames(rooms, things, people, robot) {
+    const around = ([x, y], r) => [x - r, -y - r, x + r, -y + r];
+    const pixel = this.#view.scale;
+    const furniture = things.filter(isFurniture), small = things.filter((node) => !isFurniture(node));
+    const bodies = [...people.map((node) => around(node.position_m, 0.3)), ...(robot ? [around([robot.pose_map.x, robot.pose_map.y], 0.3)] : [])];
+    const dots = small.map((node) => around(node.position_m, radius(node, pixel) + 2 * pixel));
+    this.#labels.start([...dots, ...bodies]);
+    for (const node of furniture) this.#name(node, "thing-name", boundingBox(corners(node)), 11 * pixel);
+    for (const node of people) {
+      const [x, y] = node.position_m;
+      this.#name(node, "person-name", [x - 1.2, -y - 0.3 - 18 * pixel, x + 1.2, -y - 0.3], 12 * pixel);
+    }
+    this.#labels.start([...dots, ...bodies, ...furniture.map((node) => boundingBox(corners(node)))]);
+    for (const node of rooms) this.#name(node, "room-name", boundingBox(node.polygon_m), 15 * pixel);
+  }
+
+  #name(node, className, area, size) {
+    const text = node.type === "object" ? (node.attributes?.name || node.label).replaceAll("_", " ") : title(node);
+    const [w, h] = [text.length * 0.6 * size, 1.2 * size];
+    const tall = area[3] - area[1] > area[2] - area[0] && w > area[2] - area[0];
+    const spot = this.#labels.place(`${node.id} ${tall}`, area, tall ? h : w, tall ? w : h);
+    if (!spot) return;
+    const turned = tall ? `rotate(-90 ${spot[0]} ${spot[1]})` : "";
+    this.#layers.names.append(shape("text", { x: spot[0], y: spot[1], class: className, transform: turned }, text));
+  }
+
+  #add(layer, drawn, node) {
+    drawn.dataset.id = node.id;
+    drawn.classList.toggle("selected", node.id === this.#scene.selected);
+    drawn.append(shape("title", {}, `${title(node)} (${node.id})`));
+    this.#layers[layer].append(drawn);
+  }
+
+  #fitAll(all, robot) {
+    const spots = all.flatMap((node) => (node.type === "room" ? node.polygon_m ?? [] : ["object", "door", "person"].includes(node.type) ? [node.position_m] : []));
+    if (robot) spots.push([robot.pose_map.x, robot.pose_map.y]);
+    if (!spots.length) return;
+    const [left, top, right, bottom] = boundingBox(spots), margin = Math.max(0.4, 0.04 * (right - left));
+    this.#view.fit([left - margin, top - margin, right + margin, bottom + margin]);
   }
 }
+
+const isFurniture = (node) => !node.graspable && Math.max(...(node.size_m ?? [0]).slice(0, 2)) >= 0.3 && !(node.size_m[2] < 0.1);
+
+// True to scale, but never too small to see or to hit.
+const radius = (node, pixel) => Math.max(Math.max(...(node.size_m ?? [0]).slice(0, 2)) / 2, 5 * pixel);

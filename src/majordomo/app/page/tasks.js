@@ -1,69 +1,99 @@
-// Requests and what became of them: reply, plan with each step's state, failures with explanation, buttons.
+// Requests and what became of them: reply, plan as a timeline, failures with explanation, and what a person may do next.
 
-const MARKS = { pending: "○", running: "▶", succeeded: "✓", failed: "✗", skipped: "–" };
+import { choices, goal, step } from "./words.js";
+
+const MARKS = { running: "▸", succeeded: "✓", failed: "✕", skipped: "–" };
 const ENDED = new Set(["succeeded", "failed", "cancelled", "refused"]);
+const OPERATIONS = { awaiting_approval: ["approve", "reject"], running: ["pause", "cancel"], paused: ["resume", "cancel"] };
 
-function el(name, className, text) {
+function el(name, className, ...content) {
   const node = document.createElement(name);
   if (className) node.className = className;
-  if (text !== undefined) node.textContent = text;
+  node.append(...content.filter((part) => part !== null && part !== ""));
   return node;
 }
 
-function stepItem(step) {
-  const item = el("li", step.status);
-  item.append(el("span", "mark", MARKS[step.status] ?? "○"), el("span", "", `${step.skill} ${step.args.join(", ")}`),
-    el("span", "seconds", step.seconds ? `${Math.round(step.seconds)} s` : ""));
-  const active = (step.actions ?? []).find((action) => action.status === "running");
-  if (active) item.append(el("span", "actions", active.name));
+// Shows tasks in a list, newest first, and touches only the items that changed, so that focus and typing stay.
+export class TaskList {
+  #list; #act; #items = new Map();
+
+  // `act(task id, operation, body)` carries out what a person chose.
+  constructor(list, act) { this.#list = list; this.#act = act; }
+
+  clear() { this.#items.clear(); this.#list.replaceChildren(); }
+
+  show(task, { nodes, edges }) {
+    const item = this.#item(task, nodes, edges);
+    const old = this.#items.get(task.id);
+    if (old) old.replaceWith(item);
+    else this.#list.prepend(item);
+    this.#items.set(task.id, item);
+    while (this.#list.children.length > 30) this.#forgetOldest();
+  }
+
+  #forgetOldest() {
+    const oldest = this.#list.lastChild;
+    oldest.remove();
+    this.#items.delete(oldest.dataset.task);
+  }
+
+  #item(task, nodes, edges) {
+    const item = el("li", `task ${task.status}`,
+      el("div", "heading", el("span", "words", task.request), el("span", "badge", task.status.replaceAll("_", " "))));
+    item.dataset.task = task.id;
+    for (const { question, answer } of task.dialogue) {
+      if (answer) item.append(el("p", "said", question, " ", el("b", "", answer)));
+    }
+    if (task.reply && task.reply !== task.explanation) item.append(el("p", "reply", task.reply));
+    if (task.failures.length) item.append(el("ol", "failures", ...task.failures.map(failureItem)));
+    if (task.plan) item.append(el("ol", "steps", ...task.plan.steps.map((part) => stepItem(part, nodes))));
+    if (task.explanation) item.append(el("p", "reply", task.explanation));
+    if (task.verified?.length) item.append(el("ul", "verified", ...task.verified.map((part) => verifiedItem(part, nodes))));
+    if (task.status === "awaiting_answer") item.append(this.#question(task, nodes, edges));
+    if (!ENDED.has(task.status)) item.append(this.#controls(task));
+    return item;
+  }
+
+  #question(task, nodes, edges) {
+    const box = el("div", "question");
+    const answer = (text) => this.#act(task.id, "answer", { answer: text });
+    const buttons = choices(task.candidates, nodes, edges).map(({ id, text }) => button(text, () => answer(id)));
+    const input = el("input");
+    input.setAttribute("aria-label", "Answer");
+    input.placeholder = buttons.length ? "or in your own words" : "your answer";
+    const form = el("form", "row", input, button("Answer"));
+    form.addEventListener("submit", (event) => { event.preventDefault(); if (input.value.trim()) answer(input.value.trim()); });
+    box.append(...(buttons.length ? [el("div", "candidates", ...buttons)] : []), form);
+    return box;
+  }
+
+  #controls(task) {
+    const names = OPERATIONS[task.status] ?? ["cancel"];
+    return el("div", "controls", ...names.map((name) => button(name[0].toUpperCase() + name.slice(1), () => this.#act(task.id, name), name)));
+  }
+}
+
+function button(text, onClick, className = "") {
+  const node = el("button", className, text);
+  if (onClick) { node.type = "button"; node.onclick = onClick; }
+  return node;
+}
+
+function stepItem(part, nodes) {
+  const active = (part.actions ?? []).find((action) => action.status === "running");
+  const item = el("li", part.status, el("span", "mark", MARKS[part.status] ?? ""), el("span", "what", step(part, nodes)),
+    el("span", "seconds", part.seconds ? `${Math.round(part.seconds)} s` : ""));
+  if (active) item.append(el("span", "action", active.name.replaceAll("_", " ")));
+  item.title = `${part.skill}(${part.args.join(", ")})`;
   return item;
 }
 
 function failureItem(failure) {
-  const item = el("li");
-  item.append(el("div", "", failure.message));
-  if (failure.suggestion) item.append(el("div", "suggestion", failure.suggestion));
+  const item = el("li", "", el("span", "", failure.message), " ", el("span", "suggestion", failure.suggestion));
+  item.title = failure.code.replaceAll("_", " ");
   return item;
 }
 
-export function taskItem(task, act) {
-  const item = el("li", "task");
-  item.append(el("span", `badge ${task.status}`, task.status.replaceAll("_", " ")), el("div", "words", task.request));
-  if (task.reply) item.append(el("p", "reply", task.reply));
-  if (task.plan) {
-    const steps = el("ol", "steps");
-    steps.append(...task.plan.steps.map(stepItem));
-    item.append(steps);
-  }
-  if (task.failures?.length) {
-    const failures = el("ol", "failures");
-    failures.append(...task.failures.map(failureItem));
-    item.append(failures);
-  }
-  if (task.explanation && task.explanation !== task.reply) item.append(el("p", "reply", task.explanation));
-  if (task.status === "awaiting_answer") item.append(candidates(task, act));
-  if (!ENDED.has(task.status)) item.append(controls(task, act));
-  return item;
-}
-
-function candidates(task, act) {
-  const row = el("div", "candidates controls");
-  for (const candidate of task.candidates ?? []) {
-    const button = el("button", "", candidate.description ?? candidate.id ?? candidate);
-    button.onclick = () => act(task.id, "answer", { answer: candidate.id ?? candidate });
-    row.append(button);
-  }
-  return row;
-}
-
-function controls(task, act) {
-  const row = el("div", "controls");
-  const names = { awaiting_approval: ["approve", "reject"], running: ["pause", "cancel"], paused: ["resume", "cancel"] }[task.status] ?? ["cancel"];
-  for (const name of names) {
-    const button = el("button", "", name[0].toUpperCase() + name.slice(1));
-    button.type = "button";
-    button.onclick = () => act(task.id, name);
-    row.append(button);
-  }
-  return row;
+function verifiedItem(part, nodes) {
+  return el("li", part.confirmed ? "confirmed" : "", part.confirmed ? "seen: " : "not seen: ", goal(part, nodes));
 }

@@ -29,7 +29,8 @@ from majordomo.perception.objects.publication import (
 )
 from majordomo.perception.objects.recollection import Recollection
 from majordomo.perception.objects.relations import RelationMemory, RelationSettings
-from majordomo.perception.objects.tracker import Sight, Tracker, TrackerSettings
+from majordomo.perception.objects.sight import Sight
+from majordomo.perception.objects.tracker import Tracker, TrackerSettings
 from majordomo.perception.objects.viewpoint import turning_radps, view_of
 from majordomo.perception.panoptic import PanopticModel, PanopticScene
 from majordomo.perception.ports import RgbdFrame

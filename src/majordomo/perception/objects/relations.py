@@ -75,7 +75,7 @@ class RelationMemory:
         }
         self.probability = {key: p for key, p in self.probability.items() if (alive | elsewhere).issuperset(key[:2])}
         boxes = {t.number: _box_here(t, T_here_room[t.room]) for t in present}
-        said = _said(triplets, matches)
+        said = _said(triplets, matches, self._settings.model_from)
         observed: dict[Key, float] = {}
         for track in present:
             if track.number in fresh and not track.is_furniture:
@@ -164,14 +164,14 @@ def support_probability(
     return "on", 0.98 * footprint * float(np.exp(-0.5 * (gap_m / (1.5 * sigma_m)) ** 2))
 
 
-def _said(triplets: Sequence[Triplet], matches: Mapping[int, Track]) -> dict[Key, float]:
+def _said(triplets: Sequence[Triplet], matches: Mapping[int, Track], from_probability: float) -> dict[Key, float]:
     said: dict[Key, float] = {}
     for triplet in triplets:
         a, b = matches.get(triplet.subject), matches.get(triplet.object)
         if a is not None and b is not None and a is not b and a.node_id and b.node_id:
             key = (a.number, b.number, triplet.predicate)
             said[key] = max(triplet.probability, said.get(key, 0.0))
-    return {key: p for key, p in said.items() if p >= 0.3}
+    return {key: p for key, p in said.items() if p >= from_probability}
 
 
 def _box_here(track: Track, T_here_room: SE3) -> Box:

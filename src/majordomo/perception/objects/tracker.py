@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -28,8 +27,8 @@ from majordomo.perception.objects.existence import (
     visibility,
 )
 from majordomo.perception.objects.identity import IdentitySettings
-from majordomo.perception.objects.membership import Surroundings
 from majordomo.perception.objects.projection import View
+from majordomo.perception.objects.sight import Sight
 from majordomo.perception.objects.surface import Box
 from majordomo.perception.objects.track import Track, TrackSettings
 from majordomo.perception.vocabulary import category_of
@@ -55,21 +54,6 @@ class TrackerSettings:
     patience_hits: int = 15
     tentative_life_s: float = 2.0
     furniture_min_px: int = 150
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Sight:
-    """One frame as the tracker sees it.
-
-    ``turning_radps``: how fast the robot turns. ``looked_before``: when each room and support
-    was first inspected.
-    """
-
-    view: View
-    detections: Sequence[Detection]
-    surroundings: Surroundings
-    turning_radps: float = 0.0
-    looked_before: Mapping[str, float] = field(default_factory=dict)
 
 
 class Tracker:

@@ -87,6 +87,10 @@ class _TokenStream(Lexer):
 class CommandGrammar:
     """Parses requests. One instance serves all graphs; the names of a graph come with the lexicon."""
 
+    def __init__(self) -> None:
+        """Builds Lark's tables, so that the first request does not wait for them."""
+        _lark()
+
     def parse(self, text: str, lexicon: Lexicon) -> list[ParsedStep]:
         """The steps of ``text`` in order; empty when it holds only courtesy, one not understood when too many."""
         steps = clauses(text, lexicon)

@@ -1,0 +1,54 @@
+// People's words for nodes of the scene graph and for steps of a plan.
+
+const spaced = (text) => text.replaceAll("_", " ");
+
+export function title(node) {
+  const name = node.name || node.attributes?.name;
+  if (name) return name;
+  if (node.type === "object") return spaced([node.attributes?.color, node.label].filter(Boolean).join(" "));
+  return spaced(node.type === "door" ? "door" : node.label || node.id);
+}
+
+function definite(id, nodes) {
+  const node = nodes.get(id);
+  if (!node) return spaced(id);
+  return node.name || node.attributes?.name || (node.type === "room" && !node.label) ? title(node) : `the ${title(node)}`;
+}
+
+export function place(node, nodes, edges) {
+  const holds = (edge) => edge.type === "relation" && edge.source === node.id && ["on", "in"].includes(edge.label);
+  const support = [...edges.values()].filter(holds).sort((a, b) => b.probability - a.probability)[0];
+  const room = nodes.get(node.room) ? `in ${definite(node.room, nodes)}` : "";
+  if (node.state === "held") return "in my hand";
+  return [support ? `${support.label} ${definite(support.target, nodes)}` : "", room].filter(Boolean).join(" ");
+}
+
+export function step({ skill, args }, nodes) {
+  const [first, second] = args.map((id) => definite(id, nodes));
+  const kind = nodes.get(args[1])?.type;
+  switch (skill) {
+    case "GOTO": return `Go to ${first}`;
+    case "PICK": return `Pick up ${first}`;
+    case "PLACE": return kind === "person" ? `Hand ${first} to ${second}` : `Put ${first} ${kind === "room" ? "down in" : "on"} ${second}`;
+    default: return `${skill} ${args.map(spaced).join(", ")}`;
+  }
+}
+
+export function goal({ predicate, args }, nodes) {
+  const [first, second] = args.map((id) => definite(id, nodes));
+  switch (predicate) {
+    case "robot_at": return `I am at ${first}`;
+    case "holding": return `I hold ${first}`;
+    case "given": return `${second} has ${first}`;
+    default: return `${first} is ${spaced(predicate)} ${second}`;
+  }
+}
+
+// Descriptions of the nodes an answer may name; two that read alike are told apart by their identifiers.
+export function choices(ids, nodes, edges) {
+  const texts = ids.map((id) => (nodes.has(id) ? `${title(nodes.get(id))} ${place(nodes.get(id), nodes, edges)}`.trim() : spaced(id)));
+  return ids.map((id, i) => ({ id, text: texts.filter((text) => text === texts[i]).length > 1 ? `${texts[i]} (${id})` : texts[i] }));
+}
+
+// "1:05" of a robot time in seconds.
+export const clock = (stamp_s) => `${Math.floor(stamp_s / 60)}:${String(Math.floor(stamp_s % 60)).padStart(2, "0")}`;

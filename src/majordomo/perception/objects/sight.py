@@ -1,0 +1,25 @@
+"""One frame, measured and placed, as the tracker takes it in."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+from majordomo.perception.objects.detection import Detection
+from majordomo.perception.objects.membership import Surroundings
+from majordomo.perception.objects.projection import View
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Sight:
+    """One frame as the tracker sees it.
+
+    ``turning_radps``: how fast the robot turns. ``looked_before``: when each room and support
+    was first inspected.
+    """
+
+    view: View
+    detections: Sequence[Detection]
+    surroundings: Surroundings
+    turning_radps: float = 0.0
+    looked_before: Mapping[str, float] = field(default_factory=dict)

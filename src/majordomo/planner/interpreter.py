@@ -11,7 +11,8 @@ from majordomo.planner.grammar.parser import CommandGrammar, NotUnderstood, Pars
 from majordomo.planner.grammar.tokens import text_flaw
 from majordomo.planner.grounding import Ambiguous, Context, Grounding, NoReferent
 from majordomo.planner.matching import nouns_of
-from majordomo.planner.meaning import Meaning, Meant, without_steps_between
+from majordomo.planner.meaning import Meaning
+from majordomo.planner.meant import Meant, without_steps_between
 from majordomo.planner.naming import listed
 from majordomo.planner.plan import Dialogue, Interpretation, Kind
 from majordomo.planner.verifier import Verifier

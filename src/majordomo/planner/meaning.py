@@ -5,7 +5,7 @@ A step with several readings keeps those that the graph makes sense of. Exactly 
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from majordomo.planner.answers import Answer, Answers
 from majordomo.planner.gathering import Gathering, Trouble, noun_of
@@ -27,28 +27,13 @@ from majordomo.planner.grammar.syntax import (
     Step,
 )
 from majordomo.planner.grounding import Ambiguous, Context, Grounding, NoReferent
+from majordomo.planner.meant import Meant
 from majordomo.planner.naming import aim_phrase, name_of
-from majordomo.planner.plan import Query
 from majordomo.scene_graph.nodes import ObjectNode, PersonNode, RoomNode
-from majordomo.skills.state import PlanState
 
 MAX_MENTIONED = 6
 SHELF_LIKE = frozenset({"shelf", "bookshelf", "bookcase", "cabinet", "rack", "shelves", "cupboard"})
 """Labels of supports that things are put *in* as well as *on*, in a person's words."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class Meant:
-    """What one step means: goals, or the answer to a question; and what it mentioned."""
-
-    goals: tuple[Goal, ...] = ()
-    implied: bool = False
-    answer: str = ""
-    query: Query | None = None
-    things: tuple[str, ...] = ()
-    places: tuple[str, ...] = ()
-    focus: str | None = None
-    noun: str = ""
 
 
 Outcome = Meant | Trouble
@@ -235,25 +220,6 @@ class Meaning:
 
     def _is_object(self, node_id: str) -> bool:
         return isinstance(self._snapshot.get(node_id), ObjectNode)
-
-
-def without_steps_between(meanings: list[Meant], state: PlanState) -> tuple[Goal, ...]:
-    """The goals of all steps in order, without those that only lead to a later one about the same object.
-
-    *Take the cup and put it on the desk* is about the desk; so is *take it to the office and put it on the desk*.
-    """
-    tagged = [(goal, meant.implied) for meant in meanings for goal in meant.goals]
-    kept = []
-    for index, (goal, implied) in enumerate(tagged):
-        later = [
-            other for other, _ in tagged[index + 1 :] if goal.object_id is not None and other.args[0] == goal.args[0]
-        ]
-        refined = goal.predicate is Predicate.IN and any(
-            state.room_of(other.args[-1]) == goal.args[-1] for other in later
-        )
-        if not later or not (implied or refined):
-            kept.append(goal)
-    return tuple(kept)
 
 
 def _clearest(troubles: list[Trouble]) -> Trouble:

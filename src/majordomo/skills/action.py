@@ -24,7 +24,7 @@ from majordomo.skills.ports import ArmGeometry, ArmTarget, BodyLimits, BodyPort,
 
 CARRY_SHARE = 0.6
 """Share of the body's speed limits that is used with something in the hand."""
-CARRY_STEP_MPS, CARRY_STEP_RADPS = 0.06, 0.12
+CARRY_STEP_MPS, CARRY_STEP_RADPS = 0.015, 0.04
 """With something in the hand, how far a command may exceed the measured speed."""
 AGENT = "robot_body"
 """Name under which actions edit the graph."""

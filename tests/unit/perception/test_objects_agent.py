@@ -320,6 +320,38 @@ def test_a_bottle_seen_again_elsewhere_after_a_while_is_the_same_bottle_where_on
     assert graph.support_of("bottle_1") == "desk_1"
 
 
+def test_a_bottle_seen_at_its_new_place_before_it_is_missed_at_the_old_one_gets_its_name_back():
+    desk = Solid(label="desk", center=(0.0, 2.2, 0.375), size_m=(1.2, 0.6, 0.75), color=(90.0, 90.0, 90.0))
+    at_table, at_desk = ((-1.2, 0.0), (0.0, 0.0, 0.75)), ((0.0, 1.0), (0.0, 2.2, 0.75))
+    story = Story([TABLE, desk, BLUE_BOTTLE], eye=at_table[0])
+    for view, steps in ((at_table, 8), (at_desk, 10), (at_table, 4)):
+        story.room.eye, story.room.target = view
+        story.run(steps)
+    story.room.solids = [TABLE, desk, BLUE_BOTTLE.moved_to((0.1, 2.1, 0.87))]
+    story.room.eye, story.room.target = at_desk
+    graph = story.run(8)
+    assert {"bottle_1", "bottle_2"} <= {n.id for n in graph.of_type(ObjectNode)}, "nothing speaks against two yet"
+    story.room.eye, story.room.target = at_table
+    graph = story.run(20)
+    assert [n.id for n in graph.of_type(ObjectNode)] == ["bottle_1", "desk_1", "table_1"]
+    assert graph.object("bottle_1").state is ObjectState.PRESENT
+    assert graph.support_of("bottle_1") == "desk_1"
+
+
+def test_of_two_equal_bottles_the_one_taken_away_is_missing_and_not_the_other():
+    desk = Solid(label="desk", center=(0.0, 2.2, 0.375), size_m=(1.2, 0.6, 0.75), color=(90.0, 90.0, 90.0))
+    other = BLUE_BOTTLE.moved_to((0.1, 2.1, 0.87))
+    story = Story([TABLE, desk, BLUE_BOTTLE, other], eye=(-1.2, 0.0))
+    story.run(8)
+    story.room.eye, story.room.target = (0.0, 1.0), (0.0, 2.2, 0.75)
+    story.run(10)
+    story.room.solids = [TABLE, desk, other]
+    story.room.eye, story.room.target = (-1.2, 0.0), (0.0, 0.0, 0.75)
+    graph = story.run(20)
+    assert graph.object("bottle_1").state is ObjectState.MISSING
+    assert graph.object("bottle_2").state is ObjectState.PRESENT
+
+
 def test_a_second_bottle_found_while_exploring_is_a_second_bottle():
     desk = Solid(label="desk", center=(0.0, 2.2, 0.375), size_m=(1.2, 0.6, 0.75), color=(90.0, 90.0, 90.0))
     story = Story([TABLE, desk, BLUE_BOTTLE, BLUE_BOTTLE.moved_to((0.1, 2.1, 0.87))], eye=(-1.2, 0.0))

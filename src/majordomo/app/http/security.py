@@ -36,7 +36,7 @@ class Token:
 
     def admits(self, offered: str | None) -> bool:
         """Whether ``offered`` is this token; compared in constant time."""
-        return offered is not None and hmac.compare_digest(offered.encode(), self.value.encode())
+        return offered is not None and hmac.compare_digest(offered.encode(errors="replace"), self.value.encode())
 
 
 def offered_token(connection: HTTPConnection) -> str | None:

@@ -22,6 +22,9 @@ MAX_MESSAGE_CHARACTERS = 65_536
 AUTHENTICATION_TIMEOUT_S = 5.0
 SEND_TIMEOUT_S = 20.0
 
+_CLIENT_IS_GONE = (WebSocketDisconnect, TimeoutError, RuntimeError)
+"""Ends of a conversation that need no word in the log; ``RuntimeError`` is Starlette's for sending after the end."""
+
 
 def stream_routes(runtime: Runtime, token: Token) -> APIRouter:
     """The event stream. The token comes as header, as query, or in the first message (``{"token": …}``)."""
@@ -43,15 +46,16 @@ def stream_routes(runtime: Runtime, token: Token) -> APIRouter:
 
 
 async def _converse(socket: WebSocket, listener: Listener, runtime: Runtime) -> None:
-    sending = asyncio.create_task(_send(socket, listener))
-    receiving = asyncio.create_task(_receive(socket, runtime))
-    done, pending = await asyncio.wait({sending, receiving}, return_when=asyncio.FIRST_COMPLETED)
-    for task in pending:
-        task.cancel()
-    for outcome in await asyncio.gather(*done, *pending, return_exceptions=True):
-        if isinstance(outcome, Exception) and not isinstance(
-            outcome, WebSocketDisconnect | TimeoutError | RuntimeError
-        ):
+    """Send and receive until either ends: the client left, or does not read any more."""
+    sending = asyncio.create_task(_send(socket, listener), name="stream send")
+    receiving = asyncio.create_task(_receive(socket, runtime), name="stream receive")
+    try:
+        await asyncio.wait({sending, receiving}, return_when=asyncio.FIRST_COMPLETED)
+    finally:
+        sending.cancel()
+        receiving.cancel()
+    for outcome in await asyncio.gather(sending, receiving, return_exceptions=True):
+        if isinstance(outcome, Exception) and not isinstance(outcome, _CLIENT_IS_GONE):
             logger.warning("stream ended: %s", outcome)
 
 
@@ -63,10 +67,23 @@ async def _send(socket: WebSocket, listener: Listener) -> None:
 
 async def _receive(socket: WebSocket, runtime: Runtime) -> None:
     while True:
-        text = await socket.receive_text()
-        reply = _obey(text, runtime)
+        text = await _receive_text(socket)
+        reply = _refusal("not_text", "send JSON as text") if text is None else _obey(text, runtime)
         if reply is not None:
             await socket.send_text(json.dumps(reply))
+
+
+async def _receive_text(socket: WebSocket) -> str | None:
+    """The next message, ``None`` if it is not text.
+
+    Raises:
+        WebSocketDisconnect: the client left.
+    """
+    message = await socket.receive()
+    if message["type"] == "websocket.disconnect":
+        raise WebSocketDisconnect(message.get("code", 1006), message.get("reason"))
+    text: str | None = message.get("text")
+    return text
 
 
 def _obey(text: str, runtime: Runtime) -> dict[str, Any] | None:
@@ -75,7 +92,7 @@ def _obey(text: str, runtime: Runtime) -> dict[str, Any] | None:
         return _refusal("message_too_large", f"a message may have at most {MAX_MESSAGE_CHARACTERS} characters")
     try:
         message = json.loads(text)
-    except json.JSONDecodeError as error:
+    except (json.JSONDecodeError, RecursionError) as error:
         return _refusal("invalid_json", str(error))
     match message:
         case {"type": "stop"}:
@@ -94,8 +111,8 @@ def _obey(text: str, runtime: Runtime) -> dict[str, Any] | None:
 async def _token_of_first_message(socket: WebSocket) -> str | None:
     try:
         async with asyncio.timeout(AUTHENTICATION_TIMEOUT_S):
-            message = json.loads(await socket.receive_text())
-    except (TimeoutError, WebSocketDisconnect, json.JSONDecodeError):
+            message = json.loads(await _receive_text(socket) or "null")
+    except (TimeoutError, WebSocketDisconnect, json.JSONDecodeError, RecursionError):
         return None
     offered = message.get("token") if isinstance(message, dict) else None
     return offered if isinstance(offered, str) else None

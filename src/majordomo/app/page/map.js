@@ -125,13 +125,15 @@ export class BuildingMap {
     const [x, y] = node.position_m, r = radius(node, this.#view.scale);
     const spread = 2 * Math.max(...(node.position_std_m ?? [0]).slice(0, 2));
     if (spread > Math.max(r, 0.08)) this.#layers.things.append(shape("circle", { cx: x, cy: -y, r: spread, class: "spread" }));
-    this.#add("things", shape("circle", { cx: x, cy: -y, r, class: `thing ${node.state}`, fill: paint(node.attributes?.color ?? "") }), node);
+    const look = { class: `thing ${node.state}`, fill: paint(node.attributes?.color ?? "") };
+    const outline = r > 0.1 ? shape("polygon", { ...look, points: points(corners(node)) }) : shape("circle", { ...look, cx: x, cy: -y, r });
+    this.#add("things", outline, node);
   }
 
   #drawPerson(node) {
     const [x, y] = node.position_m;
     const person = shape("g", { class: "person", transform: `translate(${x} ${-y}) rotate(${degrees(node.yaw_rad ?? 0)})` });
-    person.append(shape("ellipse", { rx: 0.14, ry: 0.24 }), shape("circle", { r: 0.11, cx: 0.03 }));
+    person.append(shape("ellipse", { rx: 0.13, ry: 0.24 }), shape("circle", { r: 0.12 }));
     this.#add("people", person, node);
   }
 

@@ -39,7 +39,7 @@ export class TaskList {
 
   #item(task, nodes, edges) {
     const item = el("li", `task ${task.status}`,
-      el("div", "heading", el("span", "words", task.request), el("span", "badge", task.status.replaceAll("_", " "))));
+      el("div", "heading", el("span", "words", task.request), el("span", "badge", statusWords(task))));
     item.dataset.task = task.id;
     for (const { question, answer } of task.dialogue) {
       if (answer) item.append(el("p", "said", question, " ", el("b", "", answer)));
@@ -71,6 +71,11 @@ export class TaskList {
     const names = OPERATIONS[task.status] ?? ["cancel"];
     return el("div", "controls", ...names.map((name) => button(name[0].toUpperCase() + name.slice(1), () => this.#act(task.id, name), name)));
   }
+}
+
+function statusWords({ status, plan, times }) {
+  if (status === "succeeded" && plan && times.started_s === null) return "planned only";
+  return { awaiting_answer: "question", awaiting_approval: "may I?" }[status] ?? status;
 }
 
 function button(text, onClick, className = "") {

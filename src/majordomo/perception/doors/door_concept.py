@@ -51,7 +51,12 @@ class DoorConcept:
     name = DOOR_AGENT
 
     def __init__(
-        self, memory: WorkingMemory, buffer: SensorBuffer, *, settings: DoorSettings | None = None, period_s: float = 0.1
+        self,
+        memory: WorkingMemory,
+        buffer: SensorBuffer,
+        *,
+        settings: DoorSettings | None = None,
+        period_s: float = 0.1,
     ) -> None:
         self.period_s = period_s
         self._memory = memory

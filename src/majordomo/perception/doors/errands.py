@@ -116,7 +116,5 @@ class DoorErrands:
 
 def _wants_crossing(door: DoorNode) -> bool:
     return (
-        door.crossing is CrossingStatus.UNCROSSED
-        and door.state is not DoorState.CLOSED
-        and not is_being_crossed(door)
+        door.crossing is CrossingStatus.UNCROSSED and door.state is not DoorState.CLOSED and not is_being_crossed(door)
     )

@@ -127,9 +127,7 @@ class WallEvidence:
                 state[before:after] = state[before]
         return state
 
-    def _wall_beside(
-        self, state: NDArray[np.int64], edge: int, step: int, settings: GapSettings
-    ) -> float | None:
+    def _wall_beside(self, state: NDArray[np.int64], edge: int, step: int, settings: GapSettings) -> float | None:
         """Station of the wall, or its corner, seen nearest beside a gap's last open part."""
         for distance in range(1, int(np.ceil(settings.post_m / _BIN_M)) + 1):
             beside = edge + step * distance

@@ -96,7 +96,13 @@ def put_suspected(
 
 
 def put_permanent(
-    tx: Transaction, provisional_id: str, room_id: str, wall: int, wall_length_m: float, gap: MeasuredGap, stamp_s: float
+    tx: Transaction,
+    provisional_id: str,
+    room_id: str,
+    wall: int,
+    wall_length_m: float,
+    gap: MeasuredGap,
+    stamp_s: float,
 ) -> str:
     """The provisional door becomes permanent, offers to be crossed, and asks for it; its identifier."""
     door_id = provisional_id.removesuffix(_SUFFIX)

@@ -86,7 +86,9 @@ class _Mirrored:
     weight: Array
 
 
-def _minimum(rays: _Mirrored, center: float, search_m: float, step_m: float, settings: PostSettings) -> tuple[float, float]:
+def _minimum(
+    rays: _Mirrored, center: float, search_m: float, step_m: float, settings: PostSettings
+) -> tuple[float, float]:
     """Middle and half width of the stretch of stations around ``center`` that explain the rays best."""
     candidates = center + np.arange(-search_m, search_m + step_m / 2.0, step_m)
     cost = _residuals(candidates, rays, settings) @ rays.weight
@@ -127,9 +129,7 @@ def measure_gap(evidence: WallEvidence, gap: Gap) -> MeasuredGap:
     )
 
 
-def _end(
-    evidence: WallEvidence, open_m: float, wall_m: float | None, *, wall_follows: bool
-) -> tuple[float, float]:
+def _end(evidence: WallEvidence, open_m: float, wall_m: float | None, *, wall_follows: bool) -> tuple[float, float]:
     """Station and standard deviation of one end; a gap that reaches the wall's end has the next wall for a post."""
     if wall_m is None:
         return open_m, _ROUGH_M

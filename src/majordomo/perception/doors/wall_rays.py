@@ -63,7 +63,9 @@ class WallRays:
     blocked_m: Array
 
 
-def rays_by_wall(scan: LidarScan, T_room_base: Pose2, walls: Walls, settings: RaySettings | None = None) -> list[WallRays]:
+def rays_by_wall(
+    scan: LidarScan, T_room_base: Pose2, walls: Walls, settings: RaySettings | None = None
+) -> list[WallRays]:
     """The rays of ``scan``, taken at ``T_room_base``, that tell about each of ``walls``."""
     settings = settings or RaySettings()
     T_room_lidar = T_room_base @ Pose2.from_se3(scan.T_base_lidar)
@@ -85,8 +87,14 @@ def rays_by_wall(scan: LidarScan, T_room_base: Pose2, walls: Walls, settings: Ra
         useful = (reach < settings.reach_m) & (station > 0.0) & (station < walls.length_m[k]) & (clearance > 0.05)
         result.append(
             _classify(
-                horizontal[:, useful], reach[useful], incidence[useful], station[useful],
-                (direction @ walls.along[k])[useful], height_m, tangent, settings,
+                horizontal[:, useful],
+                reach[useful],
+                incidence[useful],
+                station[useful],
+                (direction @ walls.along[k])[useful],
+                height_m,
+                tangent,
+                settings,
             )  # fmt: skip
         )
     return result
@@ -134,5 +142,7 @@ def _median_where(values: Array, mask: NDArray[np.bool_]) -> Array:
     filled = np.sort(np.where(mask, values, np.inf), axis=0)
     count = mask.sum(axis=0)
     columns = np.arange(values.shape[1])
-    middle = (filled[np.maximum(count - 1, 0) // 2, columns] + filled[np.minimum(count // 2, len(filled) - 1), columns]) / 2.0
+    middle = (
+        filled[np.maximum(count - 1, 0) // 2, columns] + filled[np.minimum(count // 2, len(filled) - 1), columns]
+    ) / 2.0
     return np.where(count > 0, middle, 0.0)

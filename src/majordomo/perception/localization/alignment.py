@@ -125,7 +125,9 @@ def _residuals(points: Array, pose: Pose2, walls: Walls, gate_m: float, margin_m
     station = placed @ walls.along.T - (walls.start * walls.along).sum(axis=1)
     possible = (np.abs(distance) < gate_m) & (station > -margin_m) & (station < walls.length_m + margin_m)
     matched = possible.any(axis=1)
-    nearest = np.argmin(np.where(possible, np.abs(distance), np.inf)[matched], axis=1) if matched.any() else np.empty(0, int)
+    nearest = (
+        np.argmin(np.where(possible, np.abs(distance), np.inf)[matched], axis=1) if matched.any() else np.empty(0, int)
+    )
     residual = distance[matched][np.arange(len(nearest)), nearest]
     normal_base = walls.normal[nearest] @ pose.rotation()
     turning = normal_base[:, 1] * points[matched, 0] - normal_base[:, 0] * points[matched, 1]

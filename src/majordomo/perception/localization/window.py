@@ -53,7 +53,11 @@ class PoseWindow:
         return self.pose @ moved, adjoint @ self.covariance @ adjoint.T + covariance
 
     def advance(
-        self, moved: Pose2, covariance: Array, sightings: Sequence[LandmarkSighting] = (), alignment: Alignment | None = None
+        self,
+        moved: Pose2,
+        covariance: Array,
+        sightings: Sequence[LandmarkSighting] = (),
+        alignment: Alignment | None = None,
     ) -> None:
         """Add the pose after ``moved`` with what was measured there; the oldest pose leaves the window."""
         self._count += 1

@@ -173,7 +173,11 @@ def _crossing_done(snapshot: Snapshot, room_id: str) -> tuple[DoorNode, HasInten
     """A door of the room whose crossing the executor reports done while its far side is unknown."""
     for edge in snapshot.intentions(IntentionStatus.DONE):
         affordance = snapshot.get(edge.target)
-        if edge.agent != DOOR_AGENT or edge.action is not IntentionAction.CROSS or not isinstance(affordance, AffordanceNode):
+        if (
+            edge.agent != DOOR_AGENT
+            or edge.action is not IntentionAction.CROSS
+            or not isinstance(affordance, AffordanceNode)
+        ):
             continue
         door = snapshot.door(affordance.target)
         if door.rooms[0] == room_id and door.crossing is CrossingStatus.UNCROSSED:

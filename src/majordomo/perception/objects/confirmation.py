@@ -35,9 +35,34 @@ def known_as(
     for track in known:
         if is_fragment(sighting, track) or _never_taken(sighting, track, taken_from, settings):
             return track
-    place = _place_of(sighting, known) or sighting.room
-    place_known = looked_before.get(place, np.inf) < sighting.first_seen_s - 1.0
+    place_known = _looked_there_before(sighting, known, looked_before)
     return same_thing_moved(sighting, known, place_known=place_known, settings=settings)
+
+
+def turned_up(
+    missing: Track, known: Sequence[Track], *, looked_before: Mapping[str, float], settings: IdentitySettings
+) -> Track | None:
+    """The younger thing that a missing one is: it was moved, and seen at its new place before it was missed at the old.
+
+    Only a look-alike that turned up after the missing one was last seen, where one had looked before and seen nothing,
+    and only if there is no second one like it.
+    """
+    alike = [
+        track
+        for track in known
+        if track.state is ObjectState.PRESENT
+        and track.is_furniture is missing.is_furniture
+        and track.first_seen_s > missing.last_seen_s
+        and likeness(track, missing) >= settings.likeness_min
+    ]
+    if len(alike) != 1 or not _looked_there_before(alike[0], known, looked_before):
+        return None
+    return alike[0]
+
+
+def _looked_there_before(sighting: Track, known: Sequence[Track], looked_before: Mapping[str, float]) -> bool:
+    place = _place_of(sighting, known) or sighting.room
+    return looked_before.get(place, np.inf) < sighting.first_seen_s - 1.0
 
 
 def undecided(sighting: Track, known: Sequence[Track], settings: IdentitySettings) -> bool:

@@ -10,7 +10,8 @@ The old one has left with ``1 - existence exp(-age / tau)``: certain when it is 
 it was last seen. A look-alike is unlikely where one has looked before and seen nothing (``look_alike_known``), and
 quite possible in a place seen for the first time (``look_alike_new``). Two that were seen at the same time are two.
 With several candidates the best wins; several *present* look-alikes make neither of them unique, and then only a
-missing one is taken for the moved one. Identifiers that have been published are never merged afterwards.
+missing one is taken for the moved one. A published identifier gives way afterwards in one case only: an older thing is
+missed, and this is its only look-alike, which turned up later where one had looked before (``turned_up``).
 """
 
 from __future__ import annotations

@@ -17,7 +17,7 @@ from majordomo.perception.objects.association import (
     warp_labels,
 )
 from majordomo.perception.objects.beliefs import agreement
-from majordomo.perception.objects.confirmation import is_double, is_fragment, known_as, undecided
+from majordomo.perception.objects.confirmation import is_double, is_fragment, known_as, turned_up, undecided
 from majordomo.perception.objects.detection import Detection
 from majordomo.perception.objects.existence import (
     ExistenceSettings,
@@ -110,6 +110,7 @@ class Tracker:
         for detection in unmatched:
             self._found(detection, sight)
         self._confirm(sight)
+        self._find_missing_again(sight)
         self._unite()
         self._forget_tentative(sight.view.stamp_s)
         self._remember_masks(sight)
@@ -231,6 +232,16 @@ class Tracker:
             known.become(sighting)
         self.matches = {index: known if t is sighting else t for index, t in self.matches.items()}
         self.drop(sighting)
+
+    def _find_missing_again(self, sight: Sight) -> None:
+        """A thing that is missed at its place may have been seen at another already, under a name of its own."""
+        named = [track for track in self.tracks if track.node_id is not None]
+        for missing in [track for track in named if track.state is ObjectState.MISSING and not track.is_furniture]:
+            moved = turned_up(missing, named, looked_before=sight.looked_before, settings=self._settings.identity)
+            if moved is not None and moved in self.tracks and moved.node_id is not None:
+                self.united[moved.number] = missing
+                self.removed.add(moved.node_id)
+                self._recognize(moved, missing)
 
     def _unite(self) -> None:
         """Two nodes that turned out to be one piece of furniture become one; the older name stays."""

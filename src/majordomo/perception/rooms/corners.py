@@ -186,7 +186,9 @@ def corners_of(lines: list[WallLine], settings: CornerSettings | None = None) ->
             continue
         point = np.linalg.solve(np.stack([first.normal, second.normal]), [first.offset_m, second.offset_m])
         if _ends_near(first, point, settings.reach_m) and _ends_near(second, point, settings.reach_m):
-            sightings.append(CornerSighting(point=point, std_m=float(np.hypot(_std_at(first, point), _std_at(second, point)))))
+            sightings.append(
+                CornerSighting(point=point, std_m=float(np.hypot(_std_at(first, point), _std_at(second, point))))
+            )
     return sightings
 
 

@@ -39,9 +39,7 @@ class MeasuredRoom:
     confidence: float
 
 
-def measured_room(
-    fit: Fit, parent_covariance: Array, T_view_base: Pose2, *, least_matched: float
-) -> MeasuredRoom:
+def measured_room(fit: Fit, parent_covariance: Array, T_view_base: Pose2, *, least_matched: float) -> MeasuredRoom:
     """Put a fit into its room frame.
 
     Args:

@@ -43,7 +43,9 @@ class Outline:
     @property
     def closed(self) -> bool:
         """Whether walls were seen all around, without a stretch that could hide another part of the room."""
-        return bool(self.rectilinear > _RECTILINEAR and (self.gap_m < _HARMLESS_GAP_M).all() and (self.support > 0.5).all())
+        return bool(
+            self.rectilinear > _RECTILINEAR and (self.gap_m < _HARMLESS_GAP_M).all() and (self.support > 0.5).all()
+        )
 
     def frontiers(self) -> list[tuple[Array, Array]]:
         """Unseen stretches of wall, longest first: middle point and unit normal into the room."""
@@ -157,9 +159,7 @@ class _MeasuredWall:
     gap_center: tuple[float, float]
 
 
-def _refine(
-    polygon: Array, x_facing: Facets, y_facing: Facets, settings: ArrangementSettings
-) -> list[_MeasuredWall]:
+def _refine(polygon: Array, x_facing: Facets, y_facing: Facets, settings: ArrangementSettings) -> list[_MeasuredWall]:
     """Put each wall at the mean of the returns along it."""
     return [
         _measure(start, end, (x_facing, y_facing), settings)
@@ -167,7 +167,9 @@ def _refine(
     ]
 
 
-def _measure(start: Array, end: Array, facets_by_axis: tuple[Facets, Facets], settings: ArrangementSettings) -> _MeasuredWall:
+def _measure(
+    start: Array, end: Array, facets_by_axis: tuple[Facets, Facets], settings: ArrangementSettings
+) -> _MeasuredWall:
     across = 0 if abs(start[0] - end[0]) < abs(start[1] - end[1]) else 1
     nominal = float(start[across])
     low, high = sorted((float(start[1 - across]), float(end[1 - across])))

@@ -57,7 +57,8 @@ def optimize(views: Sequence[View]) -> Solution:
     return Solution(
         poses=tuple(Pose2(pose.x(), pose.y(), pose.theta()) for pose in poses),
         corners=tuple(
-            VotedCorner(point=np.asarray(result.atPoint2(L(j))), votes=len(track.sightings)) for j, track in enumerate(tracks)
+            VotedCorner(point=np.asarray(result.atPoint2(L(j))), votes=len(track.sightings))
+            for j, track in enumerate(tracks)
         ),
     )
 

@@ -143,7 +143,9 @@ class RoomConcept:
         if place is None:
             return None
         with self._memory.edit(self.name, self._stamp_s) as tx:
-            propose_visit(tx, room_id, parent=pose.parent, T_parent_place=pose.T_parent_base @ place, stamp_s=self._stamp_s)
+            propose_visit(
+                tx, room_id, parent=pose.parent, T_parent_place=pose.T_parent_base @ place, stamp_s=self._stamp_s
+            )
         logger.info("looks like a room; going to measure it", extra={"room": room_id})
         return Verdict.BUSY
 
@@ -160,7 +162,12 @@ class RoomConcept:
             insert_room(tx, room, room_id, status=status, height_m=height_m, stamp_s=self._scan_stamp_s)
         sides = np.ptp(room.polygon, axis=0)
         logger.info(
-            "%s stands: %.2f m x %.2f m, %d walls, %s", room_id, sides[0], sides[1], len(room.polygon), status,
+            "%s stands: %.2f m x %.2f m, %d walls, %s",
+            room_id,
+            sides[0],
+            sides[1],
+            len(room.polygon),
+            status,
             extra={"room": room_id, "views": len(self._survey.fit.views) if self._survey.fit else 0},
         )
         self._survey = Survey(self._settings)

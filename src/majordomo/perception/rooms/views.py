@@ -73,7 +73,9 @@ def dominant_direction(views: Sequence[View]) -> tuple[float, float]:
 
     Each line votes with its length at four times its angle, which makes the four directions of a rectilinear room one.
     """
-    angles = np.array([view.T_frame_base.yaw_rad + np.arctan2(*line.direction[::-1]) for view in views for line in view.lines])
+    angles = np.array(
+        [view.T_frame_base.yaw_rad + np.arctan2(*line.direction[::-1]) for view in views for line in view.lines]
+    )
     lengths = np.array([line.length_m for view in views for line in view.lines])
     if len(angles) == 0:
         return 0.0, 0.0

@@ -1,0 +1,42 @@
+"""What one step of a request means on a graph, and what several steps mean together."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from majordomo.planner.goals import Goal, Predicate
+from majordomo.planner.plan import Query
+from majordomo.skills.state import PlanState
+
+
+@dataclass(frozen=True, kw_only=True)
+class Meant:
+    """What one step means: goals, or the answer to a question; and what it mentioned."""
+
+    goals: tuple[Goal, ...] = ()
+    implied: bool = False
+    answer: str = ""
+    query: Query | None = None
+    things: tuple[str, ...] = ()
+    places: tuple[str, ...] = ()
+    focus: str | None = None
+    noun: str = ""
+
+
+def without_steps_between(meanings: list[Meant], state: PlanState) -> tuple[Goal, ...]:
+    """The goals of all steps in order, without those that only lead to a later one about the same object.
+
+    *Take the cup and put it on the desk* is about the desk; so is *take it to the office and put it on the desk*.
+    """
+    tagged = [(goal, meant.implied) for meant in meanings for goal in meant.goals]
+    kept = []
+    for index, (goal, implied) in enumerate(tagged):
+        later = [
+            other for other, _ in tagged[index + 1 :] if goal.object_id is not None and other.args[0] == goal.args[0]
+        ]
+        refined = goal.predicate is Predicate.IN and any(
+            state.room_of(other.args[-1]) == goal.args[-1] for other in later
+        )
+        if not later or not (implied or refined):
+            kept.append(goal)
+    return tuple(kept)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import json
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,6 +11,7 @@ from typing import Any
 import httpx
 import websockets
 from rich.console import Console
+from rich.text import Text
 
 ENDED = frozenset({"succeeded", "failed", "cancelled", "refused"})
 
@@ -85,12 +87,28 @@ async def _next_state(socket: websockets.ClientConnection, task_id: str) -> dict
 
 
 async def _decide(task: dict[str, Any], client: httpx.AsyncClient, console: Console) -> None:
+    """Let the person at the keyboard answer or approve, if the task waits for that.
+
+    Raises:
+        NoService: nobody is at the keyboard; the task goes on waiting.
+    """
+    path = f"/v1/tasks/{task['id']}"
     if task["status"] == "awaiting_answer":
-        answer = console.input(f"[bold]{task['reply']}[/] > ")
-        _checked(await client.post(f"/v1/tasks/{task['id']}/answer", json={"answer": answer}))
+        answer = ""
+        while not answer:
+            answer = (await _typed(console, f"{task['reply']} > ")).strip()
+        _checked(await client.post(f"{path}/answer", json={"answer": answer}))
     elif task["status"] == "awaiting_approval":
-        choice = "approve" if console.input("carry this out? [y/N] ").strip().lower() in {"y", "yes"} else "reject"
-        _checked(await client.post(f"/v1/tasks/{task['id']}/{choice}"))
+        agreed = (await _typed(console, f"{task['explanation']} [y/N] ")).strip().lower() in {"y", "yes"}
+        _checked(await client.post(f"{path}/{'approve' if agreed else 'reject'}"))
+
+
+async def _typed(console: Console, prompt: str) -> str:
+    """A line from the keyboard; the stream is served meanwhile."""
+    try:
+        return await asyncio.to_thread(console.input, Text(prompt))
+    except EOFError:
+        raise NoService(f"{prompt.rstrip(' >')} Nobody is there to answer; the task waits on the page") from None
 
 
 def _tell(task: dict[str, Any], told: list[str], console: Console) -> None:

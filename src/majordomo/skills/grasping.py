@@ -1,4 +1,8 @@
-"""How to take hold of a thing: from above where there is room, level where something is over it. Base frame."""
+"""How to take hold of a thing: low ones from above, tall ones around the middle with the hand level. Base frame.
+
+A tall thing taken at its top swings from the fingers, and a bottle has its neck there; the hand taken level holds the
+body.
+"""
 
 from __future__ import annotations
 
@@ -13,6 +17,8 @@ from majordomo.skills.geometry import wrap_rad
 from majordomo.skills.kinematics import arm_target
 from majordomo.skills.ports import ArmGeometry, ArmTarget, BodyLimits
 
+Size3 = tuple[float, float, float]
+
 DOWN_RAD = -pi / 2
 MAX_WIDTH_M = 0.105
 OPENING_MARGIN_M = 0.05
@@ -24,7 +30,11 @@ PAD_DEPTH_M = 0.045
 """How far below an object's top the pads' center goes, at most: what the fingers can hold without the palm touching."""
 HOVER_M = 0.08
 LEVEL_CLEARANCE_M = 0.06
-LEVEL_STANDOFF_M = 0.10
+LEVEL_STANDOFF_M = 0.06
+LEVEL_SHARE = 0.5
+TALL_M, TALL_RATIO = 0.16, 2.0
+HAND_HALF_WIDTH_M = 0.09
+"""Half the width of palm and open fingers: what a level hand sweeps to each side of its way."""
 SQUARE_SHARE = 0.15
 
 
@@ -61,7 +71,7 @@ class Grasp:
 
 
 def choose_grasp(
-    size_m: tuple[float, float, float], T_base_object: SE3, *, covered: bool, geometry: ArmGeometry, limits: BodyLimits
+    size_m: Size3, T_base_object: SE3, *, level_first: bool, geometry: ArmGeometry, limits: BodyLimits
 ) -> Grasp:
     """The first grasp that the arm can carry out at the object's present height and distance.
 
@@ -69,7 +79,7 @@ def choose_grasp(
         Unreachable: none can be; the error is that of the preferred grasp.
     """
     first: Unreachable | None = None
-    for grasp in grasp_options(size_m, T_base_object, covered=covered, limits=limits):
+    for grasp in grasp_options(size_m, T_base_object, level_first=level_first, limits=limits):
         try:
             grasp.approach(float(T_base_object.x_m), geometry, limits)
         except Unreachable as error:
@@ -79,13 +89,40 @@ def choose_grasp(
     raise first or _too_wide(size_m, T_base_object)
 
 
-def grasp_options(
-    size_m: tuple[float, float, float], T_base_object: SE3, *, covered: bool, limits: BodyLimits
-) -> tuple[Grasp, ...]:
-    """Grasps in order of preference: from above unless ``covered``, then level; none for what is too wide."""
+def grasp_options(size_m: Size3, T_base_object: SE3, *, level_first: bool, limits: BodyLimits) -> tuple[Grasp, ...]:
+    """Grasps in order of preference; none for what is too wide for the fingers."""
     above, level = _from_above(size_m, T_base_object, limits), _level(size_m, T_base_object, limits)
-    options = (level, above) if covered else (above, level)
+    options = (level, above) if level_first else (above, level)
     return tuple(option for option in options if option is not None)
+
+
+def prefers_level(snapshot: Snapshot, object_id: str, T_base_object: SE3) -> bool:
+    """Whether the hand should come level: something is over the object, or it is tall and nothing else is in the
+    hand's way.
+    """
+    size_m = snapshot.object(object_id).size_m
+    room = snapshot.room_of(object_id)
+    if room is not None and is_covered(snapshot, object_id, room):
+        return True
+    tall = size_m[2] >= max(TALL_M, TALL_RATIO * max(size_m[:2]))
+    return tall and not _in_the_way(snapshot, object_id, T_base_object)
+
+
+def _in_the_way(snapshot: Snapshot, object_id: str, T_base_object: SE3) -> bool:
+    """Whether another thing reaches up into what a level hand sweeps from the base to the object and a little beyond."""
+    node = snapshot.object(object_id)
+    hand_low_m = T_base_object.z_m + (LEVEL_SHARE - 0.5) * node.size_m[2] - LEVEL_CLEARANCE_M / 2
+    for other in snapshot.of_type(ObjectNode):
+        if other.id == object_id or other.state is not ObjectState.PRESENT:
+            continue
+        if snapshot.room_of(other.id) != snapshot.room_of(object_id):
+            continue
+        center = (T_base_object @ snapshot.transform(object_id, other.id)).translation_m
+        half_m = max(other.size_m[:2]) / 2
+        beside = abs(center[1]) < HAND_HALF_WIDTH_M + half_m and 0.0 < center[0] < T_base_object.x_m + half_m + 0.05
+        if beside and center[2] + other.size_m[2] / 2 > hand_low_m:
+            return True
+    return False
 
 
 def is_covered(snapshot: Snapshot, object_id: str, room: str) -> bool:
@@ -103,7 +140,7 @@ def is_covered(snapshot: Snapshot, object_id: str, room: str) -> bool:
     return False
 
 
-def _from_above(size_m: tuple[float, float, float], pose: SE3, limits: BodyLimits) -> Grasp | None:
+def _from_above(size_m: Size3, pose: SE3, limits: BodyLimits) -> Grasp | None:
     side = _closing_side(size_m, pose.yaw_rad)
     if side is None:
         return None
@@ -119,12 +156,12 @@ def _from_above(size_m: tuple[float, float, float], pose: SE3, limits: BodyLimit
     )
 
 
-def _level(size_m: tuple[float, float, float], pose: SE3, limits: BodyLimits) -> Grasp | None:
+def _level(size_m: Size3, pose: SE3, limits: BodyLimits) -> Grasp | None:
     yaw = pose.yaw_rad
     width_m = abs(size_m[0] * sin(yaw)) + abs(size_m[1] * cos(yaw))
     if width_m > MAX_WIDTH_M:
         return None
-    pads_z_m = pose.z_m - size_m[2] / 2 + max(LEVEL_CLEARANCE_M, 0.55 * size_m[2])
+    pads_z_m = pose.z_m - size_m[2] / 2 + max(LEVEL_CLEARANCE_M, LEVEL_SHARE * size_m[2])
     depth_m = abs(size_m[0] * cos(yaw)) + abs(size_m[1] * sin(yaw))
     return Grasp(
         pitch_rad=0.0,
@@ -136,7 +173,7 @@ def _level(size_m: tuple[float, float, float], pose: SE3, limits: BodyLimits) ->
     )
 
 
-def _closing_side(size_m: tuple[float, float, float], yaw_rad: float) -> tuple[float, float] | None:
+def _closing_side(size_m: Size3, yaw_rad: float) -> tuple[float, float] | None:
     """Width between the fingers and wrist roll for a grasp from above; ``None`` when neither side fits.
 
     Closing along direction a (from the base's x) needs roll = pi/2 - a, modulo a half turn. The narrow side is taken;
@@ -159,6 +196,6 @@ def _opening_m(width_m: float, limits: BodyLimits) -> float:
     return min(width_m + OPENING_MARGIN_M, limits.gripper_opening_m[1])
 
 
-def _too_wide(size_m: tuple[float, float, float], pose: SE3) -> Unreachable:
+def _too_wide(size_m: Size3, pose: SE3) -> Unreachable:
     why = f"it is {min(size_m[:2]):.3f} m wide, the fingers span {MAX_WIDTH_M:.3f} m"
     return Unreachable(pose.x_m, pose.z_m, DOWN_RAD, why)

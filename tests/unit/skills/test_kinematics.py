@@ -67,7 +67,7 @@ boxes = st.tuples(st.floats(0.02, 0.10), st.floats(0.02, 0.3), st.floats(0.03, 0
 @given(boxes, st.floats(-pi, pi), st.floats(0.0, 0.8))
 def test_fingers_close_across_a_side_that_fits_between_them(size, yaw, bottom_m):
     pose = SE3.from_xyz_yaw(0.5, 0.0, bottom_m + size[2] / 2, yaw)
-    grasp = grasp_options(size, pose, covered=False, limits=LIMITS)[0]
+    grasp = grasp_options(size, pose, level_first=False, limits=LIMITS)[0]
     hand = gripper_pose(
         ArmTarget(lift_m=1.0, extension_m=0.3, wrist_pitch_rad=-pi / 2, wrist_roll_rad=grasp.roll_rad), GEOMETRY
     )
@@ -81,15 +81,15 @@ def test_fingers_close_across_a_side_that_fits_between_them(size, yaw, bottom_m)
 @given(boxes, st.floats(-pi, pi), st.floats(0.0, 0.8))
 def test_fingers_stay_above_what_the_object_stands_on(size, yaw, bottom_m):
     pose = SE3.from_xyz_yaw(0.5, 0.0, bottom_m + size[2] / 2, yaw)
-    for grasp in grasp_options(size, pose, covered=False, limits=LIMITS):
+    for grasp in grasp_options(size, pose, level_first=False, limits=LIMITS):
         assert grasp.pads_z_m >= bottom_m + 0.027
         assert grasp.hover_z_m >= grasp.pads_z_m - 1e-9
 
 
-def test_a_bottle_on_a_table_is_taken_from_above_and_under_a_shelf_level():
+def test_the_hand_comes_from_above_or_level_as_asked():
     pose = SE3.from_xyz_yaw(0.55, 0.0, 0.87, 0.3)
-    free = choose_grasp((0.07, 0.07, 0.24), pose, covered=False, geometry=GEOMETRY, limits=LIMITS)
-    under = choose_grasp((0.07, 0.07, 0.24), pose, covered=True, geometry=GEOMETRY, limits=LIMITS)
+    free = choose_grasp((0.07, 0.07, 0.24), pose, level_first=False, geometry=GEOMETRY, limits=LIMITS)
+    under = choose_grasp((0.07, 0.07, 0.24), pose, level_first=True, geometry=GEOMETRY, limits=LIMITS)
     assert free.pitch_rad == pytest.approx(-pi / 2, abs=1e-3)
     assert abs(free.roll_rad) <= pi / 4
     assert under.pitch_rad == 0.0
@@ -97,10 +97,12 @@ def test_a_bottle_on_a_table_is_taken_from_above_and_under_a_shelf_level():
 
 def test_something_high_up_is_taken_level_because_the_lift_ends():
     pose = SE3.from_xyz_yaw(0.6, 0.0, 1.2, 0.0)
-    grasp = choose_grasp((0.07, 0.07, 0.24), pose, covered=False, geometry=GEOMETRY, limits=LIMITS)
+    grasp = choose_grasp((0.07, 0.07, 0.24), pose, level_first=False, geometry=GEOMETRY, limits=LIMITS)
     assert grasp.pitch_rad == 0.0
 
 
 def test_what_is_too_wide_says_so():
     with pytest.raises(Unreachable, match=r"0\.300 m wide"):
-        choose_grasp((0.3, 0.4, 0.2), SE3.from_xyz_yaw(0.5, 0, 0.8, 0), covered=False, geometry=GEOMETRY, limits=LIMITS)
+        choose_grasp(
+            (0.3, 0.4, 0.2), SE3.from_xyz_yaw(0.5, 0, 0.8, 0), level_first=False, geometry=GEOMETRY, limits=LIMITS
+        )

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, Self
 
-from pydantic import BaseModel, ConfigDict, Field, StringConstraints
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, StringConstraints, model_validator
 
 from majordomo.planner.tasks import Approval
 
@@ -13,10 +13,21 @@ MAX_REQUEST_CHARACTERS = 10_000
 RequestText = Annotated[str, StringConstraints(strip_whitespace=True, min_length=1, max_length=MAX_REQUEST_CHARACTERS)]
 
 
+def _one_line(text: str) -> str:
+    if not text.isprintable():
+        raise ValueError("use printable characters on one line")
+    return text
+
+
+TaughtWord = Annotated[
+    str, StringConstraints(strip_whitespace=True, min_length=1, max_length=80), AfterValidator(_one_line)
+]
+
+
 class Document(BaseModel):
     """Base of all request bodies."""
 
-    model_config = ConfigDict(extra="forbid")
+    model_config = ConfigDict(extra="forbid", allow_inf_nan=False)
 
 
 class TaskRequest(Document):
@@ -68,8 +79,14 @@ class SceneQuery(Document):
 class NodePatch(Document):
     """``PATCH /v1/scene/nodes/{id}``: what a person teaches."""
 
-    label: Annotated[str, StringConstraints(strip_whitespace=True, min_length=1, max_length=80)] | None = None
-    name: Annotated[str, StringConstraints(strip_whitespace=True, min_length=1, max_length=80)] | None = None
+    label: TaughtWord | None = None
+    name: TaughtWord | None = None
+
+    @model_validator(mode="after")
+    def _says_something(self) -> Self:
+        if self.label is None and self.name is None:
+            raise ValueError("tell a label or a name")
+        return self
 
 
 class Disturbance(BaseModel):

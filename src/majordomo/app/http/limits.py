@@ -2,10 +2,18 @@
 
 from __future__ import annotations
 
+import asyncio
+import contextlib
+from collections.abc import AsyncIterator
+
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from majordomo.app.http.problems import Problem, problem_response
-from majordomo.app.http.security import is_loopback
+from majordomo.app.http.security import is_address, is_loopback
+
+DRAINED_BODIES = 64
+DRAIN_TIMEOUT_S = 5.0
+WILDCARDS = frozenset({"0.0.0.0", "::"})  # noqa: S104 - told apart, not bound to
 
 
 class BodyLimit:
@@ -19,28 +27,42 @@ class BodyLimit:
         if scope["type"] != "http":
             await self._app(scope, receive, send)
             return
-        body = await self._read(receive) if _announced_bytes(scope) <= self._max_bytes else None
+        try:
+            body = await self._read(receive) if _announced_bytes(scope) <= self._max_bytes else None
+        except _ClientLeft:
+            return
         if body is None:
             problem = Problem(413, "request_too_large", f"a request may have at most {self._max_bytes} bytes")
             await problem_response(problem)(scope, receive, send)
+            await self._drain(receive)
         else:
             await self._app(scope, _replay(body, receive), send)
 
     async def _read(self, receive: Receive) -> bytes | None:
         """The whole body, or ``None`` as soon as it is too large."""
         body = bytearray()
-        more = True
-        while more:
-            message = await receive()
-            body += message.get("body", b"")
-            more = message.get("more_body", False)
+        async for piece in _pieces(receive):
+            body += piece
             if len(body) > self._max_bytes:
                 return None
         return bytes(body)
 
+    async def _drain(self, receive: Receive) -> None:
+        """Take in some more of what was refused, so that a client still sending comes to read why."""
+        left = DRAINED_BODIES * self._max_bytes
+        with contextlib.suppress(_ClientLeft, TimeoutError):
+            async with asyncio.timeout(DRAIN_TIMEOUT_S):
+                async for piece in _pieces(receive):
+                    left -= len(piece)
+                    if left < 0:
+                        return
+
 
 class HostGuard:
-    """Middleware that refuses requests addressed to, or coming from a page of, another host (DNS rebinding, CSRF)."""
+    """Middleware that refuses requests addressed to, or coming from a page of, another host (DNS rebinding, CSRF).
+
+    A service that listens on all addresses answers under each of them; names would let rebinding in.
+    """
 
     def __init__(self, app: ASGIApp, *, hosts: frozenset[str]) -> None:
         self._app = app
@@ -62,11 +84,13 @@ class HostGuard:
         host = _host_name(headers.get("host", ""))
         if not self._is_own(host):
             return False
-        origin = headers.get("origin")
-        return origin is None or self._is_own(_host_name(origin.partition("://")[2]))
+        if "origin" not in headers:
+            return True
+        origin = _host_name(headers["origin"].partition("://")[2])
+        return origin == host or (is_loopback(origin) and is_loopback(host))
 
     def _is_own(self, host: str) -> bool:
-        return is_loopback(host) or host in self._hosts
+        return is_loopback(host) or host in self._hosts or (bool(self._hosts & WILDCARDS) and is_address(host))
 
 
 def _host_name(authority: str) -> str:
@@ -80,6 +104,21 @@ def _announced_bytes(scope: Scope) -> int:
         if name.lower() == b"content-length" and value.isdigit():
             return int(value)
     return 0
+
+
+class _ClientLeft(Exception):
+    """The client hung up before its request was complete."""
+
+
+async def _pieces(receive: Receive) -> AsyncIterator[bytes]:
+    """The parts of a request's body as they come in."""
+    more = True
+    while more:
+        message = await receive()
+        if message["type"] == "http.disconnect":
+            raise _ClientLeft
+        yield message.get("body", b"")
+        more = message.get("more_body", False)
 
 
 def _replay(body: bytes, receive: Receive) -> Receive:

@@ -53,19 +53,27 @@ def install_problem_handlers(app: FastAPI) -> None:
 
     @app.exception_handler(RequestValidationError)
     async def _invalid(_: Request, error: RequestValidationError) -> JSONResponse:
-        fields = [{"field": _field(item["loc"]), "message": item["msg"]} for item in error.errors()]
+        fields = [_flaw(item) for item in error.errors()]
         detail = "; ".join(f"{item['field']}: {item['message']}" for item in fields)
         return problem_response(Problem(422, "invalid_request", detail, fields=fields))
 
     @app.exception_handler(HTTPException)
     async def _http(_: Request, error: HTTPException) -> JSONResponse:
-        code = {404: "not_found", 405: "method_not_allowed"}.get(error.status_code, "http_error")
+        codes = {400: "invalid_request", 404: "not_found", 405: "method_not_allowed"}
+        code = codes.get(error.status_code, "http_error")
         return problem_response(Problem(error.status_code, code, str(error.detail), headers=error.headers))
 
     @app.exception_handler(Exception)
     async def _unexpected(request: Request, error: Exception) -> JSONResponse:
         logger.error("request %s failed", request.url.path, exc_info=error)
         return problem_response(Problem(500, "internal_error", "something went wrong here; the log says what"))
+
+
+def _flaw(item: Mapping[str, Any]) -> dict[str, str]:
+    """One flaw of a request: which field, and what is wrong with it."""
+    if item["type"] == "json_invalid":
+        return {"field": "body", "message": f"not JSON at character {item['loc'][-1]}: {item['ctx']['error']}"}
+    return {"field": _field(item["loc"]), "message": item["msg"]}
 
 
 def _field(location: tuple[int | str, ...]) -> str:

@@ -65,9 +65,13 @@ class TokenGuard:
 
 def is_loopback(host: str) -> bool:
     """Whether a host name or address means this machine only."""
-    if host == "localhost":
-        return True
+    return host == "localhost" or (is_address(host) and ipaddress.ip_address(host.strip("[]")).is_loopback)
+
+
+def is_address(host: str) -> bool:
+    """Whether a host is given as an IP address, in brackets or not."""
     try:
-        return ipaddress.ip_address(host.strip("[]")).is_loopback
+        ipaddress.ip_address(host.strip("[]"))
     except ValueError:
         return False
+    return True

@@ -25,7 +25,7 @@ _CORNER_M = 0.04
 class PostSettings:
     """Lengths in meters. ``window_m``: rays this near to a post count. ``slack_m``: how far the bounds may be off;
     ``shadow_m``: how far behind where wall was first seen the post may be, for the shallow end of a reveal looks like wall.
-    ``sigma_m``: of a ray's depth. ``thinnest_wall_m``: a ray this deep in the gap may have passed the reveal."""
+    ``sigma_m``: of a ray's depth. ``thinnest_wall_m``: a ray this deep in the gap may have passed the reveal and met whatever is behind."""
 
     window_m: float = 0.25
     slack_m: float = 0.06
@@ -103,8 +103,8 @@ def _residuals(candidates: Array, rays: _Mirrored, settings: PostSettings) -> Ar
         reveal = np.where(rays.slope[None, :] > 1e-3, inside / rays.slope[None, :], np.inf)
     expected = np.where(inside <= 0.0, 0.0, np.minimum(reveal, settings.through_m))
     residual = (rays.depth[None, :] - expected) / settings.sigma_m
-    passes_reveal = (expected >= settings.thinnest_wall_m) & (rays.depth[None, :] >= settings.through_m - 1e-9)
-    return np.asarray(np.where(passes_reveal, 0.0, np.minimum(residual**2, settings.outlier)))
+    beyond = (expected >= settings.thinnest_wall_m) & (rays.depth[None, :] >= settings.thinnest_wall_m)
+    return np.asarray(np.where(beyond, 0.0, np.minimum(residual**2, settings.outlier)))
 
 
 @dataclass(frozen=True, kw_only=True)

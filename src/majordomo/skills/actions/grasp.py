@@ -13,8 +13,8 @@ from majordomo.skills.action import Action, Grip, RobotContext
 from majordomo.skills.actions.arm import EMPTY_OPENING_M, ArmAction, ArmProgress, is_firm
 from majordomo.skills.errors import Unreachable
 from majordomo.skills.failures import FailureCode
-from majordomo.skills.grasping import Grasp, choose_grasp, is_covered
-from majordomo.skills.navigation.pose import in_base, robot_frame
+from majordomo.skills.grasping import Grasp, choose_grasp, prefers_level
+from majordomo.skills.navigation.pose import in_base
 
 HAND_TOLERANCE_M = 0.02
 SIDE_TOLERANCE_M = 0.015
@@ -71,11 +71,10 @@ class Reach(ArmAction):
     def _plan(self) -> None:
         context, snapshot = self.context, self.context.snapshot
         T_base_object = in_base(context, self.object_id)
-        room = robot_frame(snapshot)
         self._grasp = choose_grasp(
             snapshot.object(self.object_id).size_m,
             T_base_object,
-            covered=is_covered(snapshot, self.object_id, room),
+            level_first=prefers_level(snapshot, self.object_id, T_base_object),
             geometry=context.geometry,
             limits=context.limits,
         )

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-import asyncio
+import contextlib
 import json
+from collections.abc import AsyncGenerator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -14,6 +15,7 @@ from rich.console import Console
 from rich.text import Text
 
 ENDED = frozenset({"succeeded", "failed", "cancelled", "refused"})
+UNDECIDED = frozenset({"awaiting_answer", "awaiting_approval"})
 
 
 class NoService(RuntimeError):
@@ -57,33 +59,38 @@ async def ask_service(service: Service, request: str, console: Console) -> bool:
     try:
         async with httpx.AsyncClient(base_url=service.address, headers=headers, timeout=10.0) as client:
             task = _checked(await client.post("/v1/tasks", json={"request": request}))
-            return await _follow(service, client, task, console)
+            return await _follow(service, client, task["id"], console)
     except (httpx.TransportError, OSError, websockets.WebSocketException) as error:
         raise NoService(f"the service at {service.address} does not answer: {error}") from error
 
 
-async def _follow(service: Service, client: httpx.AsyncClient, task: dict[str, Any], console: Console) -> bool:
-    stream = f"{service.address.replace('http', 'ws', 1)}/v1/stream"
+async def _follow(service: Service, client: httpx.AsyncClient, task_id: str, console: Console) -> bool:
+    """Print what becomes of the task; the stream is closed while a person thinks and opened anew afterwards."""
     told: list[str] = []
+    while True:
+        async with contextlib.aclosing(_states(service, task_id)) as states:
+            async for task in states:
+                _tell(task, told, console)
+                if task["status"] in ENDED:
+                    return bool(task["status"] == "succeeded")
+                if task["status"] in UNDECIDED:
+                    break
+            else:
+                raise NoService("the service ended the stream")
+        await _decide(task, client, console)
+
+
+async def _states(service: Service, task_id: str) -> AsyncGenerator[dict[str, Any]]:
+    """The task as it is, and then each time it changes, until the service ends the stream."""
+    address = f"{service.address.replace('http', 'ws', 1)}/v1/stream"
     headers = {"Authorization": f"Bearer {service.token}"}
-    async with websockets.connect(stream, additional_headers=headers, max_size=None) as socket:
-        task = _checked(await client.get(f"/v1/tasks/{task['id']}"))
-        while True:
-            _tell(task, told, console)
-            if task["status"] in ENDED:
-                return bool(task["status"] == "succeeded")
-            await _decide(task, client, console)
-            task = await _next_state(socket, task["id"])
-
-
-async def _next_state(socket: websockets.ClientConnection, task_id: str) -> dict[str, Any]:
-    async for message in socket:
-        event = json.loads(message)
-        tasks = {"task": [event.get("data")], "snapshot": event.get("data", {}).get("tasks", [])}.get(event["type"], [])
-        for task in tasks:
-            if task["id"] == task_id:
-                return dict(task)
-    raise NoService("the service ended the stream")
+    async with websockets.connect(address, additional_headers=headers, max_size=None) as socket:
+        async for message in socket:
+            event = json.loads(message)
+            data = event["data"]
+            for task in {"task": [data], "snapshot": data.get("tasks", ())}.get(event["type"], ()):
+                if task["id"] == task_id:
+                    yield task
 
 
 async def _decide(task: dict[str, Any], client: httpx.AsyncClient, console: Console) -> None:
@@ -96,19 +103,18 @@ async def _decide(task: dict[str, Any], client: httpx.AsyncClient, console: Cons
     if task["status"] == "awaiting_answer":
         answer = ""
         while not answer:
-            answer = (await _typed(console, f"{task['reply']} > ")).strip()
+            answer = _typed(console, f"{task['reply']} > ").strip()
         _checked(await client.post(f"{path}/answer", json={"answer": answer}))
     elif task["status"] == "awaiting_approval":
-        agreed = (await _typed(console, f"{task['explanation']} [y/N] ")).strip().lower() in {"y", "yes"}
+        agreed = _typed(console, f"{task['explanation']} [y/N] ").strip().lower() in {"y", "yes"}
         _checked(await client.post(f"{path}/{'approve' if agreed else 'reject'}"))
 
 
-async def _typed(console: Console, prompt: str) -> str:
-    """A line from the keyboard; the stream is served meanwhile."""
+def _typed(console: Console, prompt: str) -> str:
     try:
-        return await asyncio.to_thread(console.input, Text(prompt))
+        return console.input(Text(prompt))
     except EOFError:
-        raise NoService(f"{prompt.rstrip(' >')} Nobody is there to answer; the task waits on the page") from None
+        raise NoService("nobody is there to answer; the task waits, and the page shows its question") from None
 
 
 def _tell(task: dict[str, Any], told: list[str], console: Console) -> None:

@@ -65,13 +65,19 @@ class Listener:
 
 
 class EventStream:
-    """Publishes numbered events to listeners on one event loop."""
+    """Publishes numbered events to listeners on one event loop.
 
-    def __init__(self, snapshot: Callable[[], Any]) -> None:
+    Args:
+        snapshot: makes the data of a snapshot.
+        first_seq: the first event has the next number. Higher than any of an earlier life of the service, it lets a
+            client that comes back with a number of that life be told from one that missed a few events of this one.
+    """
+
+    def __init__(self, snapshot: Callable[[], Any], *, first_seq: int = 0) -> None:
         self._snapshot = snapshot
         self._history: deque[Event] = deque(maxlen=HISTORY)
         self._listeners: list[Listener] = []
-        self._seq = 0
+        self._seq = first_seq
         self._stamp_s = 0.0
 
     @property

@@ -61,7 +61,7 @@ def _door(door: Node) -> list[str]:
     half = door["width_m"] / 2
     gap = f'<rect x="{-half:.3f}" y="-0.02" width="{2 * half:.3f}" height="{2 * WALL_M}" fill="#f4f7fc"/>'
     leaf = f'<line x1="{-half:.3f}" y1="{WALL_M}" x2="{half:.3f}" y2="{WALL_M}" stroke="#b91c1c" stroke-width="0.06"/>'
-    return [f'<g {_place(door)}>{gap}{leaf if door["state"] == "closed" else ""}{_title(door)}</g>']
+    return [f"<g {_place(door)}>{gap}{leaf if door['state'] == 'closed' else ''}{_title(door)}</g>"]
 
 
 def _furniture(thing: Node) -> list[str]:

@@ -9,6 +9,7 @@ import asyncio
 import contextlib
 import json
 import logging
+import time
 from collections.abc import AsyncIterator, Mapping
 from pathlib import Path
 from typing import Any
@@ -32,6 +33,9 @@ from majordomo.simulation.errors import SimulatorDied
 
 logger = logging.getLogger(__name__)
 
+FATAL = (SimulatorDied,)
+"""What no agent can survive: without a body nothing goes on until it is brought back."""
+
 
 class RobotUnavailable(RuntimeError):
     """There is no robot: it died, or a stored graph is served."""
@@ -43,7 +47,7 @@ class Runtime:
     def __init__(self, settings: Settings, *, event_log: Path | None = None) -> None:
         self.settings = settings
         self.queue = TaskQueue()
-        self.stream = EventStream(self._snapshot_document)
+        self.stream = EventStream(self._snapshot_document, first_seq=time.time_ns() // 1_000_000)
         self.log = EventLog(event_log)
         self._http = httpx.AsyncClient()
         self.model = make_language_model(settings, self._http)
@@ -109,15 +113,15 @@ class Runtime:
 
     def stop_robot(self) -> None:
         """Latch the stop; never waits for anything."""
-        if self.robot is not None:
-            self.robot.stop()
+        if self._stack is not None:
+            self._stack.stop()
         self.log.write(self.now_s, "stop", {})
         self._say("stopped by a person")
 
     def release_stop(self) -> None:
         """Lift the latched stop."""
-        if self.robot is not None:
-            self.robot.release_stop()
+        if self._stack is not None:
+            self._stack.release_stop()
         self.log.write(self.now_s, "resume", {})
         self._say("stop released")
 
@@ -190,6 +194,7 @@ class Runtime:
             "agents": self._agents(),
             "simulator": self._lost or ("running" if self.robot else "none"),
             "perception": self._require_stack().degraded,
+            "camera": self._require_stack().camera_on,
             "revision": snapshot.revision,
         }
 
@@ -224,9 +229,9 @@ class Runtime:
         )
         agents = [*stack.agents, publisher, _Herald(self._changed)]
         if isinstance(stack, RobotStack) and settings.clock is ClockMode.LOCKSTEP:
-            scheduler: Scheduler = LockstepScheduler(agents, stack.advance, speed=settings.speed)
+            scheduler: Scheduler = LockstepScheduler(agents, stack.advance, speed=settings.speed, fatal=FATAL)
         else:
-            scheduler = RealTimeScheduler(agents, stack.now, speed=settings.speed or 1.0)
+            scheduler = RealTimeScheduler(agents, stack.now, speed=settings.speed or 1.0, fatal=FATAL)
         self._scheduler = scheduler
         self._loop_task = asyncio.create_task(self._run(scheduler), name="scheduler")
 

@@ -31,9 +31,10 @@ class Agent(Protocol):
 
 @dataclass(kw_only=True)
 class Turns:
-    """Account of one agent's turns."""
+    """Account of one agent's turns. ``fatal``: errors that end the scheduler instead of being survived."""
 
     agent: Agent
+    fatal: tuple[type[Exception], ...] = ()
     due_s: float = 0.0
     busy_ms: deque[float] = field(default_factory=lambda: deque(maxlen=BUSY_WINDOW))
     stamps_s: deque[float] = field(default_factory=lambda: deque(maxlen=64))
@@ -46,6 +47,8 @@ class Turns:
         self.stamps_s.append(stamp_s)
         try:
             await self.agent.step(stamp_s)
+        except self.fatal:
+            raise
         except Exception as error:
             self.restarts += 1
             self.last_error = f"{type(error).__name__}: {error}"
@@ -97,8 +100,9 @@ class LockstepScheduler:
         *,
         tick_s: float = 0.05,
         speed: float | None = None,
+        fatal: tuple[type[Exception], ...] = (),
     ) -> None:
-        self.turns: Sequence[Turns] = [Turns(agent=agent) for agent in agents]
+        self.turns: Sequence[Turns] = [Turns(agent=agent, fatal=fatal) for agent in agents]
         self._advance = advance
         self._tick_s = tick_s
         self._speed = speed
@@ -131,8 +135,15 @@ class LockstepScheduler:
 class RealTimeScheduler:
     """Gives each agent a task of its own that takes a turn every ``period_s`` of the robot's clock."""
 
-    def __init__(self, agents: Sequence[Agent], now: Callable[[], float], *, speed: float = 1.0) -> None:
-        self.turns: Sequence[Turns] = [Turns(agent=agent) for agent in agents]
+    def __init__(
+        self,
+        agents: Sequence[Agent],
+        now: Callable[[], float],
+        *,
+        speed: float = 1.0,
+        fatal: tuple[type[Exception], ...] = (),
+    ) -> None:
+        self.turns: Sequence[Turns] = [Turns(agent=agent, fatal=fatal) for agent in agents]
         self._now = now
         self._speed = speed
 
@@ -142,10 +153,13 @@ class RealTimeScheduler:
         return self._now()
 
     async def run(self) -> None:
-        """Run all agents until cancelled."""
-        async with asyncio.TaskGroup() as group:
-            for turns in self.turns:
-                group.create_task(self._keep_turning(turns), name=f"agent {turns.agent.name}")
+        """Run all agents until cancelled, or until one meets a fatal error, which is raised."""
+        try:
+            async with asyncio.TaskGroup() as group:
+                for turns in self.turns:
+                    group.create_task(self._keep_turning(turns), name=f"agent {turns.agent.name}")
+        except ExceptionGroup as errors:
+            raise errors.exceptions[0] from None
 
     async def _keep_turning(self, turns: Turns) -> None:
         period_s = turns.agent.period_s / self._speed

@@ -80,8 +80,21 @@ class Stack(Protocol):
         """What is wrong with perception, if anything."""
         ...
 
+    @property
+    def camera_on(self) -> bool:
+        """Whether the camera has shown something."""
+        ...
+
     def now(self) -> float:
         """Robot time in seconds."""
+        ...
+
+    def stop(self) -> None:
+        """Latch the software stop; never waits."""
+        ...
+
+    def release_stop(self) -> None:
+        """Lift the latched stop."""
         ...
 
     async def close(self) -> None:
@@ -182,6 +195,19 @@ class RobotStack:
         """Advance simulated time (lockstep); the new time."""
         return await self.robot.advance(duration_s)
 
+    def stop(self) -> None:
+        """Latch the robot's own stop."""
+        self.robot.stop()
+
+    def release_stop(self) -> None:
+        """Lift the latched stop."""
+        self.robot.release_stop()
+
+    @property
+    def camera_on(self) -> bool:
+        """Whether there is a frame to show."""
+        return self._eyes.newest is not None
+
     async def camera_jpeg(self) -> bytes | None:
         """The newest frame with outlined objects."""
         newest = self._eyes.newest
@@ -206,7 +232,8 @@ class GraphStack:
 
     def __init__(self, memory: WorkingMemory, queue: TaskQueue, model: LanguageModel | None) -> None:
         self.memory = memory
-        self._started = time.monotonic()
+        self._started = time.monotonic() - memory.snapshot().stamp_s
+        self._stopped = False
         skills = load_registry()
         verifier = Verifier(skills)
         planner = TaskPlanner(CommandGrammar(), verifier, model)
@@ -232,7 +259,12 @@ class GraphStack:
 
     @property
     def stopped(self) -> bool:
-        """There is nothing to stop."""
+        """Whether a person stopped; it is remembered although nothing moves."""
+        return self._stopped
+
+    @property
+    def camera_on(self) -> bool:
+        """There is no camera."""
         return False
 
     @property
@@ -246,8 +278,16 @@ class GraphStack:
         return None
 
     def now(self) -> float:
-        """Seconds since start."""
+        """Seconds of the stored graph's clock, which goes on from the graph's stamp."""
         return time.monotonic() - self._started
+
+    def stop(self) -> None:
+        """Remember the stop."""
+        self._stopped = True
+
+    def release_stop(self) -> None:
+        """Forget the stop."""
+        self._stopped = False
 
     async def close(self) -> None:
         """Nothing to release."""

@@ -104,14 +104,27 @@ def prefers_level(snapshot: Snapshot, object_id: str, T_base_object: SE3) -> boo
     room = snapshot.room_of(object_id)
     if room is not None and is_covered(snapshot, object_id, room):
         return True
-    tall = size_m[2] >= max(TALL_M, TALL_RATIO * max(size_m[:2]))
-    return tall and not _in_the_way(snapshot, object_id, T_base_object)
+    return is_tall(size_m) and not _in_the_way(snapshot, object_id, T_base_object)
+
+
+def is_tall(size_m: Size3) -> bool:
+    """Whether a thing is held better around its middle than at its top."""
+    return size_m[2] >= max(TALL_M, TALL_RATIO * max(size_m[:2]))
+
+
+def underside_m(size_m: Size3, center_z_m: float) -> float:
+    """Height that the lowest part of hand or arm keeps over on its way to a thing: what is lower is no obstacle to
+    it.
+    """
+    if is_tall(size_m):
+        return center_z_m + (LEVEL_SHARE - 0.5) * size_m[2] - LEVEL_CLEARANCE_M / 2
+    return center_z_m + size_m[2] / 2 + HOVER_M - TIP_M
 
 
 def _in_the_way(snapshot: Snapshot, object_id: str, T_base_object: SE3) -> bool:
     """Whether another thing reaches up into what a level hand sweeps from the base to the object and a little beyond."""
     node = snapshot.object(object_id)
-    hand_low_m = T_base_object.z_m + (LEVEL_SHARE - 0.5) * node.size_m[2] - LEVEL_CLEARANCE_M / 2
+    hand_low_m = underside_m(node.size_m, T_base_object.z_m)
     for other in snapshot.of_type(ObjectNode):
         if other.id == object_id or other.state is not ObjectState.PRESENT:
             continue

@@ -93,9 +93,21 @@ async def test_in_real_time_a_slow_agent_does_not_delay_a_fast_one():
     now = asyncio.get_running_loop().time
     scheduler = RealTimeScheduler([Slow("slow", 0.01, book), Diary("fast", 0.01, book)], now)
     running = asyncio.create_task(scheduler.run())
-    while sum(name == "fast" for _, name in book) < 5:
+    while sum(name == "fast" for _, name in book) < 5:  # noqa: ASYNC110 - the scheduler's own waits are under test
         await asyncio.sleep(0)
     running.cancel()
     with pytest.raises(asyncio.CancelledError):
         await running
     assert sum(name == "slow" for _, name in book) == 1
+
+
+@pytest.mark.parametrize("kind", ["lockstep", "real"])
+async def test_a_fatal_error_of_any_agent_ends_the_scheduler(kind):
+    agents = [Diary("good", 0.01, []), Diary("bad", 0.01, [], fails=True)]
+    if kind == "lockstep":
+        scheduler = LockstepScheduler(agents, Simulated().advance, fatal=(ArithmeticError,))
+    else:
+        scheduler = RealTimeScheduler(agents, asyncio.get_running_loop().time, fatal=(ArithmeticError,))
+    with pytest.raises(ArithmeticError, match="as told"):
+        async with asyncio.timeout(5.0):
+            await scheduler.run()

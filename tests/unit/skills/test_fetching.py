@@ -109,7 +109,7 @@ async def test_what_slips_while_lifting_is_told(kitchen):
     firm, lifted = rehearsal.body.grasped_width_m, []
 
     def slippery(body):
-        if body.arm.lift_m > 1.16 and body.opening_m < 0.08:
+        if body.arm.lift_m > 0.92 and body.opening_m < 0.08:
             lifted.append(True)
         return None if lifted else firm(body)
 

@@ -15,6 +15,7 @@ from majordomo.skills.actions.driving import DriveTo
 from majordomo.skills.anchor import AnchorSource, resolved
 from majordomo.skills.failures import FailureCode
 from majordomo.skills.geometry import Point2, Points
+from majordomo.skills.grasping import HOVER_M, underside_m
 from majordomo.skills.navigation.driver import DriverConfig
 from majordomo.skills.navigation.plan import Goal
 from majordomo.skills.navigation.pose import robot_frame
@@ -28,6 +29,7 @@ CLEARANCE_WEIGHT = 1.0
 IN_THE_WAY_COST_M = 3.0
 ARM_HALF_WIDTH_M = 0.09
 TRIES = 3
+HELD_MARGIN_M = 0.06
 
 
 class ApproachForReach(DriveTo):
@@ -77,7 +79,8 @@ class ApproachForReach(DriveTo):
             return [Goal(point=(float(target[0]), float(target[1])))]
         costs = RADIUS_WEIGHT * np.abs(radii - BEST_RADIUS_M)
         costs += CLEARANCE_WEIGHT * np.clip(0.6 - routes.grid.clearance_at(points), 0.0, None)
-        costs += IN_THE_WAY_COST_M * _arm_passes_over(snapshot, frame, target, points, self._spared())
+        low_m = self._underside_m(float(target[2]))
+        costs += IN_THE_WAY_COST_M * _arm_passes_over(snapshot, frame, target, low_m, points, self._spared())
         for failed in self._failed:
             costs += np.where(np.hypot(*(points - failed).T) < 0.25, np.inf, 0.0)
         yaws = np.arctan2(target[1] - points[:, 1], target[0] - points[:, 0])
@@ -93,6 +96,13 @@ class ApproachForReach(DriveTo):
             return False
         x_m, y_m, _ = anchor.in_base(self.context)
         return RADII_M[0] < float(np.hypot(x_m, y_m)) < RADII_M[-2]
+
+    def _underside_m(self, z_m: float) -> float:
+        """Height over which the arm passes on its way to the target."""
+        node = self.context.snapshot.get(resolved(self._where).node_id)
+        if isinstance(node, ObjectNode) and node.graspable:
+            return underside_m(node.size_m, z_m)
+        return z_m + HOVER_M - HELD_MARGIN_M
 
     def _spared(self) -> set[str]:
         """Nodes that are no obstacle to the arm: the target, what it stands on, and what is held."""
@@ -110,15 +120,17 @@ def ring(center: Points, radii_m: Sequence[float] = RADII_M, angles: int = ANGLE
     return center + offsets, radius.ravel()
 
 
-def _arm_passes_over(snapshot: Snapshot, frame: str, target: Points, points: Points, spared: set[str]) -> Points:
-    """For each place, how many things as high as the hand lie under the straight line to the target, (N,)."""
+def _arm_passes_over(
+    snapshot: Snapshot, frame: str, target: Points, low_m: float, points: Points, spared: set[str]
+) -> Points:
+    """For each place, how many things that reach up to ``low_m`` lie under the straight line to the target, (N,)."""
     count = np.zeros(len(points))
     for node in snapshot.of_type(ObjectNode):
         if node.id in spared or node.state is not ObjectState.PRESENT or snapshot.room_of(node.id) != frame:
             continue
         x_m, y_m, z_m = snapshot.position(node.id, frame)
         reach_m = float(np.hypot(x_m - target[0], y_m - target[1]))
-        if z_m + node.size_m[2] / 2 < target[2] + 0.02 or reach_m > max(RADII_M) + max(node.size_m[:2]):
+        if z_m + node.size_m[2] / 2 < low_m or reach_m > max(RADII_M) + max(node.size_m[:2]):
             continue
         radius_m = min(node.size_m[:2]) / 2 + ARM_HALF_WIDTH_M
         count += _distance_to_lines_m(np.array([x_m, y_m]), target[:2], points) < radius_m

@@ -21,6 +21,7 @@ SIDE_TOLERANCE_M = 0.015
 CLOSE_EFFORT_N = 15.0
 SETTLE_S = 0.35
 EXTENDED_M = 0.05
+STAND_S = 0.6
 LET_GO_S = 2.0
 """A thing may lean on a finger after it was let go; after this long it is left so."""
 
@@ -148,7 +149,7 @@ class OpenGripper(Action):
     def __init__(self, context: RobotContext, object_id: str, opening_m: float = 0.03) -> None:
         super().__init__(f"let go of {object_id}", context)
         self.object_id, self._more_m = object_id, opening_m
-        self._opening_m = 0.0
+        self._opening_m = self._opened_s = 0.0
 
     def begin(self) -> None:
         """A little wider than now: neighbors may stand close."""
@@ -160,9 +161,11 @@ class OpenGripper(Action):
         body = self.context.body
         self.context.commands.grip = (self._opening_m, CLOSE_EFFORT_N)
         self.context.commands.drive = (0.0, 0.0)
-        open_enough = body.gripper_opening_m >= self._opening_m - 0.01
+        if body.gripper_opening_m < self._opening_m - 0.01:
+            self._opened_s = self.context.stamp_s
+            return Status.RUNNING
         touching = any(body.finger_contacts) and self.elapsed_s < LET_GO_S
-        if not open_enough or touching or self.elapsed_s < SETTLE_S:
+        if touching or self.context.stamp_s - self._opened_s < STAND_S:
             return Status.RUNNING
         self.context.grip = None
         return Status.SUCCESS

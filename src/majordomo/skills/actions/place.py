@@ -24,10 +24,13 @@ from majordomo.skills.navigation.route import find_routes
 from majordomo.skills.place_spot import GAP_M, Spot
 from majordomo.skills.ports import ArmTarget
 
-RELEASE_M = 0.008
+RELEASE_M = -0.004
+"""The arm goes this far below the height at which the object should stand, so that it does stand when let go."""
 ABOVE_RIM_M = 0.04
 HOVER_M = 0.10
 TOUCH_M = 0.04
+SLOW_M, STEP_M = 0.04, 0.01
+"""The last centimeters are lowered step by step, which is slow."""
 MOST_SPOTS = 40
 TIGHT_M = 0.10
 TIGHT_WEIGHT = 3.0
@@ -129,6 +132,7 @@ class LowerToPlace(ArmAction):
         super().__init__(f"lower {placement.object_id}", context)
         self._placement = placement
         self._why = ""
+        self._standing_lift_m = 0.0
 
     def begin(self) -> None:
         """Work out the arm's targets."""
@@ -153,7 +157,7 @@ class LowerToPlace(ArmAction):
             message = f"{self._placement.object_id} was lost before it stood."
             return self.fail(FailureCode.DROPPED, message, (self._placement.object_id,))
         if progress is ArmProgress.STALLED:
-            lowering = len(self._targets) == 1 and self.context.body.arm.lift_m - self._targets[0].lift_m < TOUCH_M
+            lowering = self.context.body.arm.lift_m - self._standing_lift_m < TOUCH_M
             return Status.SUCCESS if lowering else self.stalled(self._placement.target)
         return Status.SUCCESS if progress is ArmProgress.THERE else Status.RUNNING
 
@@ -165,8 +169,10 @@ class LowerToPlace(ArmAction):
         pads_z_m = z_m + self._above_bottom_m() + (ABOVE_RIM_M if inside else RELEASE_M)
         wrist = (arm.wrist_pitch_rad, arm.wrist_roll_rad)
         final = arm_target(hypot(x_m, y_m), pads_z_m, *wrist, context.geometry, context.limits)
+        self._standing_lift_m = final.lift_m
         above_m = min(final.lift_m + HOVER_M, context.limits.lift_m[1])
-        return replace(arm, lift_m=above_m), replace(final, lift_m=above_m), final
+        steps = [replace(final, lift_m=final.lift_m + k * STEP_M) for k in range(int(SLOW_M / STEP_M), -1, -1)]
+        return replace(arm, lift_m=above_m), replace(final, lift_m=above_m), *steps
 
     def _above_bottom_m(self) -> float:
         """Height of the pads over the held object's bottom."""

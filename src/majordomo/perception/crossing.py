@@ -25,10 +25,12 @@ def door_being_crossed(snapshot: Snapshot) -> DoorNode | None:
 
 
 def is_being_crossed(door: DoorNode) -> bool:
+    """Whether the robot is behind this door without knowing where that is."""
     return door.crossing is CrossingStatus.UNCROSSED and door.crossing_reason == BEING_CROSSED
 
 
 def mark_being_crossed(door: DoorNode) -> DoorNode:
+    """The door, while the robot is behind it without knowing where that is."""
     return replace(door, crossing_reason=BEING_CROSSED)
 
 

@@ -42,9 +42,15 @@ class LifeCycle:
     """explain, else initialize; then maintain; then affordances."""
 
     def __init__(self, concept: str, *, explain: Stage, initialize: Stage, maintain: Stage, affordances: Stage) -> None:
-        """``explain``: DONE when instances explain the measurements, NO when something is unexplained.
-        ``initialize``: BUSY while a candidate gathers evidence, DONE when it became an instance, NO when there is none.
-        ``maintain`` and ``affordances`` are asked on every tick, whatever the others answered."""
+        """Each argument answers one question.
+
+        Args:
+            concept: name, for reading the tree.
+            explain: DONE when instances explain the measurements, NO when something is unexplained.
+            initialize: BUSY while a candidate gathers evidence, DONE when it became an instance, NO when there is none.
+            maintain: asked on every tick.
+            affordances: asked on every tick.
+        """
         self._asked: list[str] = []
         instances = py_trees.composites.Selector(
             f"{concept}: instances",

@@ -122,7 +122,7 @@ def underside_m(size_m: Size3, center_z_m: float) -> float:
 
 
 def _in_the_way(snapshot: Snapshot, object_id: str, T_base_object: SE3) -> bool:
-    """Whether another thing reaches up into what a level hand sweeps from the base to the object and a little beyond."""
+    """Whether another thing reaches up into what a level hand sweeps from the base to a little beyond the object."""
     node = snapshot.object(object_id)
     hand_low_m = underside_m(node.size_m, T_base_object.z_m)
     for other in snapshot.of_type(ObjectNode):

@@ -20,6 +20,8 @@ STEP_M = 0.04
 STRIP_M = 0.48
 """How far in from an edge the arm reaches: 0.80 m from the axis less the base and its clearance."""
 TOP_TOLERANCE_M = 0.12
+SEAT_SHARES = {"chair": 0.5, "couch": 0.5, "sofa": 0.5, "bed": 0.55, "toilet": 0.5}
+"""Height of the surface as a share of the whole, for furniture that rises above what things are put on."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -40,7 +42,7 @@ def spots_on(snapshot: Snapshot, support_id: str, size_m: tuple[float, float, fl
     The object's outline is taken as the disc around its horizontal extent, so any turn of it fits.
     """
     support = snapshot.object(support_id)
-    top_m = support.size_m[2] / 2
+    top_m = surface_m(snapshot, support_id, held)
     if is_container(support.label):
         return [Spot(anchor=Anchor(support_id, (0.0, 0.0, top_m)), room_m=0.0, inside=True)]
     radius_m = outline_radius_m(size_m)
@@ -56,6 +58,21 @@ def spots_on(snapshot: Snapshot, support_id: str, size_m: tuple[float, float, fl
         for i in order
         if room[i] >= GAP_M
     ]
+
+
+def surface_m(snapshot: Snapshot, support_id: str, held: str | None) -> float:
+    """Height of the surface of a support in its own frame: where things stand on it already, else what its kind
+    suggests.
+    """
+    support = snapshot.object(support_id)
+    bottoms = [
+        snapshot.position(node.id, support_id)[2] - node.size_m[2] / 2
+        for node in snapshot.of_type(ObjectNode)
+        if node.id != held and node.state is ObjectState.PRESENT and snapshot.support_of(node.id) == support_id
+    ]
+    share = SEAT_SHARES.get(support.label.replace("_", " "), 1.0)
+    expected_m = (share - 0.5) * support.size_m[2]
+    return expected_m if share == 1.0 or not bottoms else float(np.median(bottoms))
 
 
 def outline_radius_m(size_m: tuple[float, float, float]) -> float:

@@ -56,7 +56,12 @@ class HousePort:
     async def odometry(self) -> Odometry:
         believed = self.dead_reckoned
         return Odometry(
-            stamp_s=self.stamp_s, x_m=believed.x_m, y_m=believed.y_m, yaw_rad=believed.yaw_rad, linear_mps=0.0, angular_radps=0.0
+            stamp_s=self.stamp_s,
+            x_m=believed.x_m,
+            y_m=believed.y_m,
+            yaw_rad=believed.yaw_rad,
+            linear_mps=0.0,
+            angular_radps=0.0,
         )
 
     async def scan(self) -> LidarScan:
@@ -174,7 +179,9 @@ class Driver:
             tx.put(edge)
 
 
-def find_way(house: House, start: Array, goal: Array, *, cell_m: float = 0.1, radius_m: float = 0.30) -> list[Array] | None:
+def find_way(
+    house: House, start: Array, goal: Array, *, cell_m: float = 0.1, radius_m: float = 0.30
+) -> list[Array] | None:
     """A* over a grid of places that are free in truth; the goal is replaced by the nearest free cell within 0.6 m."""
     faces = house.faces()
     faces = faces[faces[:, 4] < 1.7]
@@ -208,7 +215,9 @@ def _cell(point: Array, low: Array, cell_m: float) -> tuple[int, int]:
     return int(i), int(j)
 
 
-def _search(free: np.ndarray, clearance: Array, first: tuple[int, int], last: tuple[int, int]) -> list[tuple[int, int]] | None:
+def _search(
+    free: np.ndarray, clearance: Array, first: tuple[int, int], last: tuple[int, int]
+) -> list[tuple[int, int]] | None:
     costs, before = {first: 0.0}, {first: first}
     queue = [(0.0, first)]
     while queue:
@@ -221,7 +230,11 @@ def _search(free: np.ndarray, clearance: Array, first: tuple[int, int], last: tu
         for di in (-1, 0, 1):
             for dj in (-1, 0, 1):
                 there = (here[0] + di, here[1] + dj)
-                if there == here or not (0 <= there[0] < free.shape[0] and 0 <= there[1] < free.shape[1]) or not free[there]:
+                if (
+                    there == here
+                    or not (0 <= there[0] < free.shape[0] and 0 <= there[1] < free.shape[1])
+                    or not free[there]
+                ):
                     continue
                 cost = costs[here] + math.hypot(di, dj) * (1.0 + 0.1 / max(clearance[there], 0.1))
                 if cost < costs.get(there, math.inf):

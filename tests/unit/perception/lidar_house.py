@@ -59,7 +59,8 @@ class House:
         for box in self.boxes:
             corners = _box_corners(box)
             faces += [
-                (*start, *end, 0.0, box.size[2]) for start, end in zip(corners, np.roll(corners, -1, axis=0), strict=True)
+                (*start, *end, 0.0, box.size[2])
+                for start, end in zip(corners, np.roll(corners, -1, axis=0), strict=True)
             ]
         return np.array(faces)
 
@@ -96,7 +97,9 @@ def _box_corners(box: Box) -> Array:
     return Pose2(*box.center, box.yaw_rad).apply(corners)
 
 
-def cast(house: House, pose: Pose2, rng: np.random.Generator, *, sigma_m: float = 0.02, stamp_s: float = 0.0) -> LidarScan:
+def cast(
+    house: House, pose: Pose2, rng: np.random.Generator, *, sigma_m: float = 0.02, stamp_s: float = 0.0
+) -> LidarScan:
     """One revolution of the LiDAR at ``pose``, with Gaussian range noise."""
     faces = house.faces()
     angles = AZIMUTHS_RAD + pose.yaw_rad
@@ -138,7 +141,9 @@ def turned(house: House, angle_rad: float) -> House:
     return House(
         rooms={name: turn.apply(polygon) for name, polygon in house.rooms.items()},
         doors=[
-            Door(rooms=d.rooms, center=tuple(turn.apply(np.array(d.center))), width=d.width, height=d.height, open=d.open)
+            Door(
+                rooms=d.rooms, center=tuple(turn.apply(np.array(d.center))), width=d.width, height=d.height, open=d.open
+            )
             for d in house.doors
         ],
         boxes=[

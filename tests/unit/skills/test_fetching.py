@@ -231,3 +231,27 @@ async def test_an_object_not_in_the_arms_plane_is_not_reached_for(kitchen):
     failure = await rehearsal.run([reach])
     assert failure.code is FailureCode.UNREACHABLE
     assert "beside the arm's plane" in failure.message
+
+
+async def test_with_something_in_the_hand_the_base_speeds_up_slowly(kitchen):
+    rehearsal = kitchen()
+    assert await carry_out(rehearsal, ("PICK", "bottle_1")) is None
+    speeds = []
+    onlooker = rehearsal.observe
+
+    def measure(r):
+        onlooker(r)
+        speeds.append(r.body.velocity[0])
+
+    rehearsal.observe = measure
+    assert await carry_out(rehearsal, ("GOTO", "table_2")) is None
+    gains = [b - a for a, b in zip(speeds, speeds[1:], strict=False)]
+    assert max(gains) / rehearsal.dt_s < 0.5
+    assert max(speeds) <= 0.6 * rehearsal.body.limits.linear_mps + 1e-9
+
+
+async def test_a_table_higher_than_the_lift_is_told_before_driving_there(kitchen):
+    rehearsal = kitchen(lambda built: built.thing("shelf_1", (-1.5, 1.5, 0.7), (0.8, 0.4, 1.4), support=True))
+    assert await carry_out(rehearsal, ("PICK", "bottle_1")) is None
+    failure = await carry_out(rehearsal, ("PLACE", "bottle_1", "shelf_1"))
+    assert failure.code is FailureCode.UNREACHABLE

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from majordomo.scene_graph.se3 import SE3
 from majordomo.skills.errors import Unreachable
-from majordomo.skills.grasping import MAX_WIDTH_M, choose_grasp, grasp_options
+from majordomo.skills.grasping import MAX_WIDTH_M, choose_grasp, grasp_options, prefers_level
 from majordomo.skills.kinematics import arm_target, gripper_pose, reach_band_m
 from majordomo.skills.ports import ArmGeometry, ArmTarget, BodyLimits
 
@@ -106,3 +106,19 @@ def test_what_is_too_wide_says_so():
         choose_grasp(
             (0.3, 0.4, 0.2), SE3.from_xyz_yaw(0.5, 0, 0.8, 0), level_first=False, geometry=GEOMETRY, limits=LIMITS
         )
+
+
+def test_a_bottle_is_taken_level_unless_something_stands_before_it(flat):
+    built = flat().table().bottle("bottle_1", 1.0, 1.2)
+    ahead = SE3.from_xyz_yaw(0.6, 0.0, 0.87, 0.0)  # the base is 0.6 m west of the bottle, facing east
+    assert prefers_level(built.memory.snapshot(), "bottle_1", ahead)
+    built.thing("cup_1", (0.8, 1.25, 0.8), (0.08, 0.08, 0.1), on="table_1")
+    assert not prefers_level(built.memory.snapshot(), "bottle_1", ahead)
+
+
+def test_a_cup_is_taken_from_above_and_level_under_a_board(flat):
+    built = flat().table().thing("cup_1", (1.0, 1.2, 0.8), (0.08, 0.08, 0.1), on="table_1")
+    ahead = SE3.from_xyz_yaw(0.6, 0.0, 0.8, 0.0)
+    assert not prefers_level(built.memory.snapshot(), "cup_1", ahead)
+    built.thing("board_1", (1.0, 1.2, 1.1), (1.0, 0.4, 0.03))
+    assert prefers_level(built.memory.snapshot(), "cup_1", ahead)

@@ -7,7 +7,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from majordomo.skills.geometry import Box2, Pose2
-from majordomo.skills.place_spot import EDGE_MARGIN_M, GAP_M, outline_radius_m, spots_on
+from majordomo.skills.place_spot import EDGE_MARGIN_M, GAP_M, outline_radius_m, spots_on, surface_m
 
 neighbors = st.lists(
     st.tuples(
@@ -64,3 +64,14 @@ def test_unrelated_things_above_the_top_are_respected_too(flat):
     """A relation may be missing from the graph; geometry tells as well."""
     built = flat().table().thing("box_1", (1.0, 1.2, 0.85), (1.1, 0.7, 0.2))
     assert spots_on(built.memory.snapshot(), "table_1", (0.08, 0.08, 0.2), None) == []
+
+
+def test_a_seat_is_lower_than_its_back_and_what_stands_there_tells_better(flat):
+    built = flat().thing("chair_1", (0.0, 0.0, 0.45), (0.45, 0.45, 0.9), support=True)
+    assert surface_m(built.memory.snapshot(), "chair_1", None) == 0.0
+    built.thing("box_1", (0.0, 0.0, 0.52), (0.1, 0.1, 0.1), on="chair_1")
+    assert abs(surface_m(built.memory.snapshot(), "chair_1", None) - 0.02) < 1e-9
+
+
+def test_a_table_is_its_top(flat):
+    assert surface_m(flat().table().bottle().memory.snapshot(), "table_1", None) == 0.375

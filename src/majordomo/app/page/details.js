@@ -14,7 +14,7 @@ function rows(node, { nodes, edges, robot }) {
     joins: node.rooms && [node.rooms[0], node.rooms[1]].map(room).join(" – "),
     color: node.attributes?.color,
     kind: node.attributes?.categories?.join(", "),
-    state: node.state,
+    state: [node.state, { uncrossed: "not crossed yet", given_up: "given up" }[node.crossing]].filter(Boolean).join(", "),
     "position (m)": numbers(node.position_m, ", "),
     "size (m)": numbers(node.size_m, " × "),
     "width (m)": node.width_m?.toFixed(2),

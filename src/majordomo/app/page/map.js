@@ -1,12 +1,14 @@
 // The live floor plan: an SVG in meters, y up in the world and down on the screen, drawn from scene nodes in the map frame.
 
 import { LabelPlaces } from "./labels.js";
+import { tiltOf, Turn } from "./upright.js";
 import { Viewport } from "./viewport.js";
 import { title } from "./words.js";
 
 const SVG = "http://www.w3.org/2000/svg";
 const LAYERS = ["walls", "floors", "doors", "furniture", "path", "names", "things", "people", "marks"];
 const WALL_M = 0.12;
+const TURN_AGAIN_RAD = 0.05;
 
 function shape(name, attributes = {}, text) {
   const node = document.createElementNS(SVG, name);
@@ -53,7 +55,7 @@ function wallAt({ position_m: [x, y], yaw_rad = 0, rooms }, nodes) {
 }
 
 export class BuildingMap {
-  #svg; #view; #layers = {}; #robot; #turn = 0; #labels = new LabelPlaces(); #scene = null; #pending = false;
+  #svg; #view; #layers = {}; #robot; #turn = 0; #labels = new LabelPlaces(); #scene = null; #upright = new Turn(0); #pending = false;
 
   constructor(svg, onSelect) {
     this.#svg = svg;
@@ -71,12 +73,12 @@ export class BuildingMap {
 
   // The part that changes all the time.
   drawRobot(robot) {
-    const { x, y, yaw_rad } = robot.pose_map;
+    const { pose_map: { x, y, yaw_rad }, path_map } = this.#upright.robot(robot);
     const turn = degrees(yaw_rad);
     this.#turn += ((turn - this.#turn + 540) % 360 + 360) % 360 - 180;
     this.#robot.style.transform = `translate(${x}px, ${-y}px) rotate(${this.#turn}deg)`;
     this.#robot.setAttribute("visibility", "visible");
-    this.#layers.path.replaceChildren(...(robot.path_map?.length ? [shape("polyline", { points: points([[x, y], ...robot.path_map]), class: "path" })] : []));
+    this.#layers.path.replaceChildren(...(path_map?.length ? [shape("polyline", { points: points([[x, y], ...path_map]), class: "path" })] : []));
   }
 
   #redraw() {
@@ -86,18 +88,29 @@ export class BuildingMap {
   }
 
   #drawAll() {
-    const { nodes, edges, robot } = this.#scene;
+    this.#stand(this.#scene);
+    const robot = this.#scene.robot && this.#upright.robot(this.#scene.robot);
+    const all = [...this.#scene.nodes.values()].filter((node) => node.position_m).map((node) => this.#upright.node(node));
+    const nodes = new Map(all.map((node) => [node.id, node]));
     for (const [name, layer] of Object.entries(this.#layers)) if (name !== "path") layer.replaceChildren();
-    const all = [...nodes.values()].filter((node) => node.position_m);
     const of = (type) => all.filter((node) => node.type === type);
     const rooms = of("room").filter((node) => node.polygon_m?.length), things = of("object");
     rooms.forEach((node) => this.#drawRoom(node, robot));
     of("door").forEach((node) => this.#drawDoor(node, nodes));
     things.forEach((node) => (isFurniture(node) ? this.#drawFurniture(node) : this.#drawThing(node)));
     of("person").forEach((node) => this.#drawPerson(node));
-    this.#drawGoal(nodes, edges);
+    this.#drawGoal(nodes, this.#scene.edges);
     this.#drawNames(rooms, things, of("person"), robot);
     this.#fitAll(all, robot);
+  }
+
+  // Turns the building upright, once and when it turns out to be turned otherwise.
+  #stand({ nodes, robot }) {
+    const rooms = [...nodes.values()].filter((node) => node.type === "room" && node.status === "permanent" && node.polygon_m?.length);
+    const tilt = rooms.length ? tiltOf(rooms) : 0;
+    if (Math.abs(tilt - this.#upright.angle) < TURN_AGAIN_RAD && tilt) return;
+    this.#upright = new Turn(tilt);
+    if (robot) this.drawRobot(robot);
   }
 
   #drawRoom(node, robot) {

@@ -1,1 +1,1 @@
-"""The door concept: gaps in the walls of the current room, and the agent that lives by them (Concepts, section 3.5.2)."""
+"""The door concept: gaps in the walls of the current room, and their agent (Concepts, section 3.5.2)."""

@@ -31,8 +31,12 @@ logger = logging.getLogger(__name__)
 
 @dataclass(frozen=True, kw_only=True)
 class DoorSettings:
-    """``narrowest_m``: least width (``D_min``). ``seen_s``: how long a gap without two posts must be seen to be proposed.
-    ``settled_scans``: how long a room is watched before its unseen walls are. ``clear_m``: how far from any wall the robot must be for its scans to count. ``pose_std_m``: how well localized."""
+    """When a gap is taken for a door.
+
+    ``narrowest_m``: least width (``D_min``). ``seen_s``: how long a gap without two posts must be seen to be proposed.
+    ``settled_scans``: how long a room is watched before its unseen walls are. ``clear_m``: how far from any wall the
+    robot must be for its scans to count, ``pose_std_m``: how well localized.
+    """
 
     narrowest_m: float = 0.5
     seen_s: float = 1.0
@@ -103,11 +107,16 @@ class DoorConcept:
         return room.room_id
 
     def _scene(self) -> Scene | None:
+        """The room that the robot is in."""
+        return self._scene_of(self._room_id) if self._room_id is not None else None
+
+    def _scene_of(self, room_id: str) -> Scene | None:
+        """A room that was watched, with the graph as it is now."""
         snapshot = self._memory.snapshot()
-        room = room_model(snapshot, self._room_id)
-        if room is None:
+        room, watch = room_model(snapshot, room_id), self._watches.get(room_id)
+        if room is None or watch is None:
             return None
-        return Scene(snapshot=snapshot, room=room, watch=self._watches[room.room_id], stamp_s=self._stamp_s)
+        return Scene(snapshot=snapshot, room=room, watch=watch, stamp_s=self._stamp_s)
 
     # The four stages of the life cycle.
 
@@ -160,5 +169,5 @@ class DoorConcept:
 
     def _affordances(self) -> Verdict:
         """Follow the own intentions to their end."""
-        self._errands.run(self._memory.snapshot(), self._scene(), self._stamp_s)
+        self._errands.run(self._memory.snapshot(), self._scene_of, self._stamp_s)
         return Verdict.DONE

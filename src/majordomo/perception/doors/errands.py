@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from majordomo.perception.crossing import DOOR_AGENT, cross_affordance, given_up, is_being_crossed
@@ -18,8 +19,11 @@ logger = logging.getLogger(__name__)
 
 @dataclass(frozen=True, kw_only=True)
 class ErrandSettings:
-    """``attempts``: failures of an intention before it is given up. ``settle_s``: how long to look after arriving in
-    front of a door that shows only one of its posts."""
+    """Patience with intentions.
+
+    ``attempts``: failures before one is given up. ``settle_s``: how long to look after arriving in front of a door that
+    shows only one of its posts.
+    """
 
     attempts: int = 2
     settle_s: float = 1.5
@@ -34,15 +38,17 @@ class DoorErrands:
         self._failures: dict[str, int] = {}
         self._arrived_s: dict[str, float] = {}
 
-    def run(self, snapshot: Snapshot, scene: Scene | None, stamp_s: float) -> None:
-        """Follow every own intention one step; ``scene`` is the room the robot is in, if one stands."""
+    def run(self, snapshot: Snapshot, scene_of: Callable[[str], Scene | None], stamp_s: float) -> None:
+        """Follow every own intention one step; ``scene_of`` gives what is known of a room's walls."""
         for edge in snapshot.intentions():
             if edge.agent != DOOR_AGENT:
                 continue
             if edge.action is IntentionAction.CROSS:
                 self._follow_crossing(snapshot, edge, stamp_s)
-            elif scene is not None:
-                self._follow_visit(scene, edge)
+            else:
+                scene = scene_of(snapshot.door(edge.target).rooms[0])
+                if scene is not None:
+                    self._follow_visit(scene, edge)
         self._ask_for_crossings(stamp_s)
 
     def _follow_visit(self, scene: Scene, edge: HasIntentionEdge) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import deque
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -42,10 +43,13 @@ class Gap:
 
 @dataclass(frozen=True, kw_only=True)
 class GapSettings:
-    """``narrowest_m``: least width that rays pass through; seen at an angle, the reveals of a thick wall take their share
-    of a door. ``rays``: least number in a part of the wall
-    that tells. ``bridge_m``: a part without rays this short is like its neighbors. ``post_m``: how far beside a gap wall
-    may be first seen: rays that end on the reveal of a thick wall tell nothing. ``hiding_m``: an unseen stretch this long could hide a door."""
+    """What counts as a gap; lengths in meters.
+
+    ``narrowest_m``: least width that rays pass through; seen at an angle, the reveals of a thick wall take their share
+    of a door. ``rays``: least number in a part of the wall that tells. ``bridge_m``: a part without rays this short is
+    like its neighbors. ``post_m``: how far beside a gap wall may be first seen: rays that end on the reveal of a thick
+    wall tell nothing. ``hiding_m``: an unseen stretch this long could hide a door.
+    """
 
     narrowest_m: float = 0.35
     rays: float = 2.0
@@ -57,7 +61,7 @@ class GapSettings:
 class WallEvidence:
     """Counts of rays that passed and that ended on the face, along one wall, and the recent rays themselves.
 
-    A ray that ends behind the face, on a reveal or a recessed panel, counts as neither: it was seen at too flat an angle.
+    A ray that ends behind the face, on a reveal or a recessed panel, counts as neither.
     """
 
     def __init__(self, length_m: float) -> None:
@@ -85,8 +89,9 @@ class WallEvidence:
     def _bound(self) -> None:
         """Old counts make room for new ones where there are many, so that what changes is seen."""
         share = np.minimum(1.0, _MOST_RAYS / np.maximum(self._passed + self._ended, 1e-9))
-        for counts in (self._passed, self._ended, self._low_hits):
-            counts *= share
+        self._passed *= share
+        self._ended *= share
+        self._low_hits *= share
 
     def gaps(self, settings: GapSettings | None = None) -> list[Gap]:
         """Open stretches wide enough for a door."""
@@ -122,7 +127,7 @@ class WallEvidence:
         opened = enough & (self._passed > self._ended) & (self._low_hits <= 0.5 * self._passed)
         state = np.where(opened, 1, np.where(enough, -1, 0))
         known = np.flatnonzero(state)
-        for before, after in zip(known[:-1], known[1:], strict=True):
+        for before, after in pairwise(known.tolist()):
             if 1 < after - before <= settings.bridge_m / _BIN_M and state[before] == state[after]:
                 state[before:after] = state[before]
         return state

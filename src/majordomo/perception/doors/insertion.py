@@ -1,4 +1,4 @@
-"""The edits of the door concept: provisional door, permanent door with its affordance, intentions (Concepts, figure 6)."""
+"""The edits of the door concept: provisional and permanent doors, affordances, intentions (Concepts, figure 6)."""
 
 from __future__ import annotations
 
@@ -39,6 +39,7 @@ def free_door_id(snapshot: Snapshot, room_id: str, wall: int) -> str:
 
 
 def wall_id_of(room_id: str, wall: int) -> str:
+    """Identifier of a room's wall."""
     return f"wall_{room_id.rsplit('_', 1)[-1]}_{wall}"
 
 

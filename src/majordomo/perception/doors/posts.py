@@ -23,9 +23,12 @@ _CORNER_M = 0.04
 
 @dataclass(frozen=True, kw_only=True)
 class PostSettings:
-    """Lengths in meters. ``window_m``: rays this near to a post count. ``slack_m``: how far the bounds may be off;
-    ``shadow_m``: how far behind where wall was first seen the post may be, for the shallow end of a reveal looks like wall.
-    ``sigma_m``: of a ray's depth. ``thinnest_wall_m``: a ray this deep in the gap may have passed the reveal and met whatever is behind."""
+    """Lengths in meters.
+
+    ``window_m``: rays this near to a post count. ``slack_m``: how far the bounds may be off. ``shadow_m``: how far
+    behind where wall was first seen the post may be, for the shallow end of a reveal looks like wall. ``sigma_m``: of a
+    ray's depth. ``thinnest_wall_m``: a ray this deep in the gap may have passed the reveal and met whatever is behind.
+    """
 
     window_m: float = 0.25
     slack_m: float = 0.06
@@ -49,11 +52,17 @@ class Post:
 
 
 def find_post(
-    evidence: WallEvidence, open_m: float, wall_m: float, *, wall_follows: bool, settings: PostSettings | None = None
+    evidence: WallEvidence,
+    open_m: float,
+    wall_m: float,
+    *,
+    wall_follows: bool,
+    settings: PostSettings | None = None,
 ) -> Post | None:
     """The post between a station where the wall is open and one where it is wall.
 
-    ``wall_follows``: the wall is at greater stations, the gap at smaller ones. ``None`` when too few rays were near, or none on one of its two sides.
+    ``wall_follows``: the wall is at greater stations, the gap at smaller ones. ``None`` when too few rays were
+    near, or none on one of its two sides.
     """
     settings = settings or PostSettings()
     sign = 1.0 if wall_follows else -1.0

@@ -35,6 +35,10 @@ class Span:
         high = min(gap.end_m, self.center_m + self.width_m / 2.0)
         return high - low > 0.3 * min(gap.width_m, self.width_m)
 
+    def covers(self, other: Span) -> bool:
+        """Whether the middle of another door lies in this one."""
+        return abs(other.center_m - self.center_m) < self.width_m / 2.0
+
 
 class RoomWatch:
     """Evidence along each wall of a room, fed with scans taken inside it.

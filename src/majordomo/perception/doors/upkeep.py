@@ -21,9 +21,12 @@ CLOSED_REASON = "closed"
 
 @dataclass(frozen=True, kw_only=True)
 class UpkeepSettings:
-    """``votes``: scans in a row that change open to closed or back. ``refine_every_s``: between refinements.
+    """When a known door is written anew.
+
+    ``votes``: scans in a row that change open to closed or back. ``refine_every_s``: between refinements.
     ``changed_m``: least change worth writing. ``well_measured``: confidence from which a permanent door is left alone.
-    ``vanished_s``: how long a provisional door may show no gap."""
+    ``vanished_s``: how long a provisional door may show no gap.
+    """
 
     votes: int = 5
     refine_every_s: float = 1.0
@@ -44,8 +47,12 @@ class DoorUpkeep:
 
     def run(self, scene: Scene) -> None:
         """Look after every door of the room once."""
-        for door, wall, span in scene.doors():
-            if door.provisional or door.confidence < self._settings.well_measured:
+        known = scene.doors()
+        standing = [(wall, span) for door, wall, span in known if not door.provisional]
+        for door, wall, span in known:
+            if door.provisional and any(wall == other and place.covers(span) for other, place in standing):
+                self._remove(door, scene.stamp_s)
+            elif door.provisional or door.confidence < self._settings.well_measured:
                 self._refine(scene, door, wall, span)
             if not door.provisional:
                 self._follow_state(scene, door, wall, span)
@@ -82,7 +89,7 @@ class DoorUpkeep:
             tx.put(replace(door, width_m=measured.width_m, confidence=confidence, label=label, state=state), edge)
 
     def _remove(self, door: DoorNode, stamp_s: float) -> None:
-        logger.info("%s is no door", door.id, extra={"door": door.id})
+        logger.info("%s is no door of its own", door.id, extra={"door": door.id})
         with self._memory.edit(DOOR_AGENT, stamp_s) as tx:
             tx.remove(door.id)
 

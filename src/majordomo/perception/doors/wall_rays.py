@@ -27,7 +27,8 @@ class RaySettings:
     returns this near to the plane are on the wall. ``floor_m``, ``lintel_m``: a ray that would meet the floor or the
     lintel before it has passed tells nothing. ``through_m``: a ray this far beyond the plane has passed it
     (``lambda`` of algorithm 2). ``grazing``: least cosine of incidence. ``reach_m``: rays meeting a wall farther away
-    are too far apart to tell. ``passage_m``: what stands nearer to a wall than this leaves no way to a door in it.
+    are too far apart to tell. ``floor_range_m``: a ray that meets the floor nearer than this
+    always returns. ``passage_m``: what stands nearer to a wall than this leaves no way to a door in it.
     """
 
     low_m: float = 0.25
@@ -40,6 +41,7 @@ class RaySettings:
     grazing: float = 0.25
     reach_m: float = 9.0
     passage_m: float = 0.6
+    floor_range_m: float = 20.0
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -48,9 +50,9 @@ class WallRays:
 
     ``station_m``: where along the wall, from its start. ``depth_m``: how far behind the face the ray ended, at most
     ``through_m``. ``slope``: way along the wall per way into it. ``distance_m``: from the sensor.
-    ``passed``: whether most rays of the direction passed; ``on_face``: whether they ended on the face, not behind it on a
-    reveal or a recessed panel; ``low_hit``: whether most in the low band ended on the face.
-    ``blocked_m``: (M,) stations of directions in which something stands so close before the wall that nobody could pass.
+    ``passed``: whether most rays of the direction passed; ``on_face``: whether they ended on the face, not behind it on
+    a reveal or a recessed panel; ``low_hit``: whether most in the low band ended on the face.
+    ``blocked_m``: (M,) stations in whose direction something stands so close before the wall that nobody could pass.
     """
 
     station_m: Array
@@ -95,7 +97,7 @@ def rays_by_wall(
                 height_m,
                 tangent,
                 settings,
-            )  # fmt: skip
+            )
         )
     return result
 
@@ -117,7 +119,7 @@ def _classify(
     behind = height + tangent[:, None] * settings.through_m / incidence
     in_band = (height > settings.low_m) & (height < settings.high_m)
     clear = (behind > settings.floor_m) & (behind < settings.lintel_m)
-    told = in_band & clear & (depth > -settings.face_m)
+    told = in_band & clear & (depth > -settings.face_m) & ~_hidden(horizontal, height_m, tangent, settings)
     low = told & (height < settings.split_m)
     count = told.sum(axis=0)
     passing = (told & (depth >= settings.through_m)).sum(axis=0)
@@ -135,6 +137,12 @@ def _classify(
         low_hit=(2 * low_hits > low.sum(axis=0))[kept],
         blocked_m=station[before & ~kept],
     )
+
+
+def _hidden(horizontal: Array, height_m: float, tangent: Array, settings: RaySettings) -> NDArray[np.bool_]:
+    """Rays that did not return though they would have met the floor: the robot's own body is in their way."""
+    meets_floor = tangent * settings.floor_range_m < -height_m
+    return np.asarray(~np.isfinite(horizontal) & meets_floor[:, None])
 
 
 def _median_where(values: Array, mask: NDArray[np.bool_]) -> Array:

@@ -19,8 +19,11 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Walls:
-    """Wall faces as line segments. ``normal`` (N, 2) into the room, ``offset_m`` (N,), ``start`` (N, 2), ``along`` (N, 2)
-    unit direction, ``length_m`` (N,)."""
+    """Wall faces as line segments.
+
+    ``normal`` (N, 2) into the room, ``offset_m`` (N,), ``start`` (N, 2), ``along`` (N, 2) unit direction, ``length_m``
+    (N,).
+    """
 
     normal: Array
     offset_m: Array
@@ -61,8 +64,8 @@ class Walls:
 class Alignment:
     """Pose of the base in the room that fits the scan best.
 
-    ``information``: (3, 3) of (x, y, yaw) in the base frame, from the scan alone. ``matched``: share of the returns that
-    lie on a wall. ``sigma_m``: their spread.
+    ``information``: (3, 3) of (x, y, yaw) in the base frame, from the scan alone. ``matched``: share of the returns
+    that lie on a wall. ``sigma_m``: their spread.
     """
 
     pose: Pose2
@@ -78,8 +81,11 @@ class Alignment:
 
 @dataclass(frozen=True, kw_only=True)
 class AlignmentSettings:
-    """``gates_m``: how far from a wall a return may be, per iteration. ``floor_m``, ``floor_rad``: errors that averaging
-    over a scan does not remove. ``returns``: at most this many are used."""
+    """Gates and floors.
+
+    ``gates_m``: how far from a wall a return may be, per iteration. ``floor_m``, ``floor_rad``: errors that averaging
+    over a scan does not remove. ``returns``: at most this many are used.
+    """
 
     gates_m: tuple[float, ...] = (0.25, 0.15, 0.10, 0.08)
     behind_m: float = 0.05
@@ -94,11 +100,12 @@ def align(
     points_base: Array,
     walls: Walls,
     guess: Pose2,
-    guess_information: Array,
+    guess_covariance: Array,
     settings: AlignmentSettings | None = None,
 ) -> Alignment | None:
-    """Most probable pose given the scan and a ``guess`` with its (3, 3) information; ``None`` when nothing matches."""
+    """Most probable pose given the scan and a ``guess`` with its (3, 3) covariance; ``None`` when nothing matches."""
     settings = settings or AlignmentSettings()
+    guess_information = np.asarray(np.linalg.inv(guess_covariance))
     points = points_base[:: max(1, len(points_base) // settings.returns)]
     pose = guess
     normal_matrix, matched, sigma_m = np.zeros((3, 3)), 0.0, settings.least_sigma_m
@@ -119,7 +126,7 @@ def align(
 
 
 def _residuals(points: Array, pose: Pose2, walls: Walls, gate_m: float, margin_m: float) -> tuple[Array, Array]:
-    """Signed distance (M,) of each matched return from its wall and its derivative (M, 3) by (x, y, yaw) of the base."""
+    """Signed distance (M,) of each matched return from its wall, and its derivative (M, 3) by the pose of the base."""
     placed = pose.apply(points)
     distance = placed @ walls.normal.T - walls.offset_m
     station = placed @ walls.along.T - (walls.start * walls.along).sum(axis=1)

@@ -54,14 +54,13 @@ class EnergyOptimizer:
         self._slicer = OutlineSlicer()
         self._window: PoseWindow | None = None
         self._model: RoomModel | None = None
-        self._model_revision = -1
         self._own_revision = -1
         self._odometry = Pose2.identity()
         self._stamp_s = -np.inf
 
     async def step(self, stamp_s: float) -> None:
         """Add the newest scan or odometry to the window and write the pose."""
-        if not self._buffer.odometry:
+        if not self._buffer.odometry or self._buffer.odometry[0].stamp_s > stamp_s:
             return
         snapshot = self._memory.snapshot()
         edge = snapshot.parent(ROBOT_ID)
@@ -74,32 +73,32 @@ class EnergyOptimizer:
             measured_s = scan.stamp_s
         else:
             scan = None
-        if self._window is None or snapshot.revision_of(edge.key) != self._own_revision:
-            self._restart(snapshot, edge)
+        window = self._window
+        if window is None or snapshot.revision_of(edge.key) != self._own_revision:
+            window = self._window = self._restart(snapshot, edge)
         if measured_s > self._stamp_s:
-            self._advance(measured_s, scan)
-        self._write(edge, snapshot, newest_s)
+            self._advance(window, measured_s, scan)
+        self._write(window, edge, snapshot, newest_s)
 
-    def _restart(self, snapshot: Snapshot, edge: RtEdge) -> None:
+    def _restart(self, snapshot: Snapshot, edge: RtEdge) -> PoseWindow:
         """Somebody else wrote the pose: believe it."""
         oldest_s, newest_s = self._buffer.odometry[0].stamp_s, self._buffer.odometry[-1].stamp_s
-        self._stamp_s = float(np.clip(edge.stamp_s, oldest_s, newest_s))
+        self._stamp_s = min(max(edge.stamp_s, oldest_s), newest_s)
         self._odometry = Pose2.from_se3(self._buffer.odometry_at(self._stamp_s))
         self._model = room_model(snapshot, edge.source)
         covariance = planar_covariance(edge.covariance) + np.diag(_START_STD**2)
         landmarks = self._model.polygon if self._model else None
-        self._window = PoseWindow(Pose2.from_se3(edge.T_source_target), covariance, landmarks)
+        return PoseWindow(Pose2.from_se3(edge.T_source_target), covariance, landmarks)
 
-    def _advance(self, measured_s: float, scan: LidarScan | None) -> None:
-        assert self._window is not None
+    def _advance(self, window: PoseWindow, measured_s: float, scan: LidarScan | None) -> None:
         odometry = Pose2.from_se3(self._buffer.odometry_at(measured_s))
         moved = self._odometry.inverse() @ odometry
         noise = odometry_covariance(moved)
-        predicted, covariance = self._window.predict(moved, noise)
+        predicted, covariance = window.predict(moved, noise)
         alignment, sightings = None, list[LandmarkSighting]()
         if scan is not None and self._model is not None and self._model.depth_m(predicted.position_m) > -_DOORSTEP_M:
             alignment, sightings = self._measure(scan, self._model, predicted, covariance)
-        self._window.advance(moved, noise, sightings, alignment)
+        window.advance(moved, noise, sightings, alignment)
         self._odometry, self._stamp_s = odometry, measured_s
 
     def _measure(
@@ -111,17 +110,16 @@ class EnergyOptimizer:
             return None, []
         reach_m = float(np.clip(4.0 * np.sqrt(np.trace(covariance[:2, :2])), 0.2, 0.8))
         settings = AlignmentSettings(gates_m=(reach_m, 0.6 * reach_m, 0.12, 0.08, 0.08), floor_m=0.004)
-        found = align(outline.points_base, model.walls, predicted, np.linalg.inv(covariance), settings)
+        found = align(outline.points_base, model.walls, predicted, covariance, settings)
         if found is None or found.matched < _LEAST_MATCHED or not _plausible(found, predicted, covariance):
             return None, []
         seen = corners_of(detect_lines(outline.points_base))
-        spread = np.linalg.inv(found.information + np.linalg.inv(covariance))
+        spread = np.asarray(np.linalg.inv(found.information + np.linalg.inv(covariance)), dtype=np.float64)
         return found, match_corners(model.polygon, seen, found.pose, spread)
 
-    def _write(self, edge: RtEdge, snapshot: Snapshot, newest_s: float) -> None:
-        assert self._window is not None
+    def _write(self, window: PoseWindow, edge: RtEdge, snapshot: Snapshot, newest_s: float) -> None:
         moved = self._odometry.inverse() @ Pose2.from_se3(self._buffer.odometry_at(newest_s))
-        pose, covariance = self._window.predict(moved, odometry_covariance(moved))
+        pose, covariance = window.predict(moved, odometry_covariance(moved))
         written = RtEdge(
             source=edge.source,
             target=ROBOT_ID,

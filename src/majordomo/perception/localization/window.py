@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import SupportsFloat, SupportsIndex, SupportsInt
 
 import gtsam
 import numpy as np
@@ -32,7 +33,7 @@ class PoseWindow:
     """The last 30 poses of the robot in one parent frame, tied by odometry, landmarks and scan alignments."""
 
     def __init__(self, pose: Pose2, covariance: Array, landmarks: Array | None = None) -> None:
-        """``covariance``: (3, 3) of ``pose`` in the base frame. ``landmarks``: (N, 2) nominal positions, parent frame."""
+        """``covariance``: (3, 3) of ``pose`` in the base frame. ``landmarks``: (N, 2) nominal, parent frame."""
         parameters = gtsam.ISAM2Params()
         parameters.setRelinearizeThreshold(0.002)
         parameters.relinearizeSkip = 1
@@ -84,7 +85,8 @@ class PoseWindow:
 
     def _update(self, graph: gtsam.NonlinearFactorGraph, values: gtsam.Values) -> None:
         now = float(self._count)
-        stamps = {X(self._count): now} | {L(index): now for index in sorted(self._known)}
+        stamps: dict[SupportsInt | SupportsIndex, SupportsFloat | SupportsIndex] = {X(self._count): now}
+        stamps.update({L(index): now for index in sorted(self._known)})
         self._smoother.update(graph, values, stamps)
         self.pose = from_gtsam(self._smoother.calculateEstimatePose2(X(self._count)))
         covariance = np.asarray(self._smoother.marginalCovariance(X(self._count)))
@@ -102,8 +104,10 @@ def _sighting_factor(key: int, sighting: LandmarkSighting) -> gtsam.BearingRange
 
 
 def to_gtsam(pose: Pose2) -> gtsam.Pose2:
+    """The pose in GTSAM's own type."""
     return gtsam.Pose2(pose.x_m, pose.y_m, pose.yaw_rad)
 
 
 def from_gtsam(pose: gtsam.Pose2) -> Pose2:
+    """A pose of GTSAM in ours."""
     return Pose2(pose.x(), pose.y(), pose.theta())

@@ -21,8 +21,11 @@ _PARALLEL_RAD = float(np.deg2rad(12.0))
 
 @dataclass(frozen=True, kw_only=True)
 class SeenFrom:
-    """A door's place in the other room: the wall's index, the station of its center from the wall's start, and how
-    thick the wall between the two faces is. Meters."""
+    """A door's place in the other room.
+
+    The wall's index, the station of its center from the wall's start, and how thick the wall between the two faces is.
+    Meters.
+    """
 
     wall: int
     station_m: float

@@ -41,7 +41,7 @@ def recognize(
         guess = root_pose(snapshot, room.id).inverse() @ T_root_base
         if model.depth_m(guess.position_m) < 0.05:
             continue
-        found = align(points_base, model.walls, guess, np.linalg.inv(_DRIFT), settings)
+        found = align(points_base, model.walls, guess, _DRIFT, settings)
         if found is not None and found.matched > _LEAST_MATCHED and found.conditioned:
             return Recognized(room_id=room.id, T_room_base=found.pose)
     return None

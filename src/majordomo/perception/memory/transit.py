@@ -65,8 +65,10 @@ class Transit:
         depth_m = room.depth_m(pose.T_parent_base.position_m)
         if depth_m < -_OUT_M and self._enter_known(snapshot, pose):
             return
-        crossed = _crossing_done(snapshot, room.room_id)
-        if crossed is not None and depth_m > 0.0:
+        crossed = _crossing_done(snapshot)
+        if crossed is not None and crossed[0].rooms[0] != room.room_id:
+            self._ended_up(snapshot, crossed[0], room.room_id)
+        elif crossed is not None and depth_m > 0.0:
             self._stayed_inside(*crossed)
         elif crossed is not None:
             self._enter_unknown(snapshot, pose, crossed[0])
@@ -108,6 +110,11 @@ class Transit:
                 move_robot(tx, known.room_id, known.T_room_base, self._buffer.odometry[-1].stamp_s)
         if known is not None:
             logger.info("closed a loop: %s leads to %s", door.id, known.room_id, extra={"room": known.room_id})
+
+    def _ended_up(self, snapshot: Snapshot, door: DoorNode, room_id: str) -> None:
+        """The crossing led into a room that was known and has taken the robot over already."""
+        with self._memory.edit(self._agent, self._stamp_s) as tx:
+            self._attach(tx, door, room_id, root_pose(snapshot, room_id).inverse() @ root_pose(snapshot, door.rooms[0]))
 
     def _stayed_inside(self, door: DoorNode, edge: HasIntentionEdge) -> None:
         """The crossing is said to be done, but the robot is still inside: let it be asked for again, once."""
@@ -169,8 +176,8 @@ class Transit:
                     return
 
 
-def _crossing_done(snapshot: Snapshot, room_id: str) -> tuple[DoorNode, HasIntentionEdge] | None:
-    """A door of the room whose crossing the executor reports done while its far side is unknown."""
+def _crossing_done(snapshot: Snapshot) -> tuple[DoorNode, HasIntentionEdge] | None:
+    """A door whose crossing the executor reports done while its far side is unknown."""
     for edge in snapshot.intentions(IntentionStatus.DONE):
         affordance = snapshot.get(edge.target)
         if (
@@ -180,7 +187,7 @@ def _crossing_done(snapshot: Snapshot, room_id: str) -> tuple[DoorNode, HasInten
         ):
             continue
         door = snapshot.door(affordance.target)
-        if door.rooms[0] == room_id and door.crossing is CrossingStatus.UNCROSSED:
+        if door.crossing is CrossingStatus.UNCROSSED:
             return door, edge
     return None
 

@@ -18,6 +18,7 @@ Places = Mapping[int, tuple[str, Array]]
 """Track number -> room and position (3,) from which a thing was taken into the hand."""
 _SAME_PLACE_M = 0.12
 _BOX_MARGIN_M = 0.1
+_UNSEEN_S = 0.3
 
 
 def known_as(
@@ -33,7 +34,8 @@ def known_as(
     ``looked_before``: when each room and support was first inspected, by node.
     """
     for track in known:
-        if is_fragment(sighting, track) or _never_taken(sighting, track, taken_from, settings):
+        in_its_place = _in_its_place(sighting, track, settings)
+        if in_its_place or is_fragment(sighting, track) or _never_taken(sighting, track, taken_from, settings):
             return track
     place_known = _looked_there_before(sighting, known, looked_before)
     return same_thing_moved(sighting, known, place_known=place_known, settings=settings)
@@ -58,6 +60,17 @@ def turned_up(
     if len(alike) != 1 or not _looked_there_before(alike[0], known, looked_before):
         return None
     return alike[0]
+
+
+def _in_its_place(sighting: Track, track: Track, settings: IdentitySettings) -> bool:
+    """Whether a sighting stands where a like thing is said to be that is no longer seen: two cannot be in one place."""
+    small = not sighting.is_furniture and not track.is_furniture
+    unseen = track.state is ObjectState.PRESENT and track.last_seen_s < sighting.last_seen_s - _UNSEEN_S
+    if not (small and unseen and track.room == sighting.room):
+        return False
+    apart_m = np.abs(track.position - sighting.position)
+    touching_m = (np.asarray(track.box.size_m) + np.asarray(sighting.box.size_m)) / 2
+    return bool(np.all(apart_m < touching_m)) and likeness(sighting, track) >= settings.likeness_min
 
 
 def _looked_there_before(sighting: Track, known: Sequence[Track], looked_before: Mapping[str, float]) -> bool:

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,7 +30,7 @@ class ArrangementSettings:
     """Lengths in meters.
 
     ``gate_m``: returns this near to a line support it. ``shortest_wall_m``: least supported length of a line.
-    ``separation_m``: nearer parallel lines are one. ``blocked``: share of rays ending on a stretch that makes it a wall.
+    ``separation_m``: nearer parallel lines are one. ``blocked``: share of rays ending on a stretch that make it a wall.
     ``free``: share of a cell that must have been seen through. ``views``: how many of the views are asked.
     """
 
@@ -105,13 +106,13 @@ def arrange(
     turned = [view.moved(turn.inverse() @ view.T_frame_base) for view in _spread(views, settings.views)]
     free = _free_share(turned, xs, ys, settings.free_margin_m)
     blocked_x = _ending_share(turned, xs, ys, 0, settings.gate_m) > settings.blocked
-    blocked_y = _ending_share(turned, ys, xs, 1, settings.gate_m).T > settings.blocked
+    blocked_y = settings.blocked < _ending_share(turned, ys, xs, 1, settings.gate_m).T
     robot = turned[-1].T_frame_base.position_m
     return Arrangement(xs=xs, ys=ys, inside=_flood(free > settings.free, blocked_x, blocked_y, _cell(xs, ys, robot)))
 
 
 def _pairs(values: Array) -> list[tuple[float, float]]:
-    return [(float(a), float(b)) for a, b in zip(values[:-1], values[1:], strict=True)]
+    return list(pairwise(values.tolist()))
 
 
 def _spread(views: Sequence[View], count: int) -> list[View]:

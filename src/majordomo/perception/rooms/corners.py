@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import combinations
+from typing import Any
 
 import cv2
 import numpy as np
@@ -60,7 +61,7 @@ class WallLine:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class CornerSighting:
-    """Two walls crossing at a right angle. ``point``: (2,) meters, frame of the points; ``std_m`` of each coordinate."""
+    """Two walls crossing at a right angle: ``point`` (2,) in meters, ``std_m`` of each coordinate."""
 
     point: Array
     std_m: float
@@ -69,8 +70,8 @@ class CornerSighting:
 def detect_lines(points: Array, settings: CornerSettings | None = None) -> list[WallLine]:
     """Wall lines in (N, 2) ``points`` seen from the origin: Hough candidates, each refined by total least squares.
 
-    A return belongs to the strongest line that explains it. Later passes find the weaker lines, whose votes drown beside
-    a long wall.
+    A return belongs to the strongest line that explains it. Later passes find the weaker lines, whose votes drown
+    beside a long wall.
     """
     settings = settings or CornerSettings()
     free = np.ones(len(points), dtype=bool)
@@ -92,7 +93,7 @@ def _hough(points: Array, settings: CornerSettings) -> Array:
     if len(points) < settings.fewest_votes:
         return np.empty((0, 2))
     farthest = float(np.linalg.norm(points, axis=1).max()) + settings.hough_rho_m
-    found = cv2.HoughLinesPointSet(
+    found: Any = cv2.HoughLinesPointSet(  # None when no line has enough votes, whatever its stub says
         points.astype(np.float32).reshape(-1, 1, 2),
         settings.candidates,
         settings.fewest_votes,
@@ -184,7 +185,8 @@ def corners_of(lines: list[WallLine], settings: CornerSettings | None = None) ->
     for first, second in combinations(lines, 2):
         if abs(float(first.normal @ second.normal)) > np.sin(settings.right_angle_rad):
             continue
-        point = np.linalg.solve(np.stack([first.normal, second.normal]), [first.offset_m, second.offset_m])
+        offsets = np.array([first.offset_m, second.offset_m])
+        point: Array = np.asarray(np.linalg.solve(np.stack([first.normal, second.normal]), offsets), dtype=np.float64)
         if _ends_near(first, point, settings.reach_m) and _ends_near(second, point, settings.reach_m):
             sightings.append(
                 CornerSighting(point=point, std_m=float(np.hypot(_std_at(first, point), _std_at(second, point))))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,7 +27,8 @@ _CONFIRMED_M = 0.10
 class MeasuredRoom:
     """A room in its own frame: origin at the center of its bounding rectangle, axes along the walls.
 
-    ``polygon``: (N, 2), corner zero is the first to the left of the robot's heading. ``wall_seen``, ``wall_std_m``: (N,).
+    ``polygon``: (N, 2), corner zero is the first to the left of the robot's heading. ``wall_seen``, ``wall_std_m``:
+    (N,).
     ``T_parent_room`` with (3, 3) ``covariance``: in the frame from which the robot came. ``T_room_base``: the robot.
     """
 
@@ -72,7 +74,7 @@ def measured_room(fit: Fit, parent_covariance: Array, T_view_base: Pose2, *, lea
 def _way_covariance(poses: Sequence[Pose2]) -> Array:
     """Dead reckoning along successive poses, as one covariance."""
     total = np.zeros((3, 3))
-    for before, after in zip(poses[:-1], poses[1:], strict=True):
+    for before, after in pairwise(poses):
         total += odometry_covariance(before.inverse() @ after)
     return total
 

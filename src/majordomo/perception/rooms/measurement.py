@@ -20,8 +20,11 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, kw_only=True)
 class MeasurementSettings:
-    """``views``: at most this many are kept. ``rounds``: of poses from outline and outline from poses. Views closer
-    together than ``step_m`` and ``step_rad`` are kept only up to ``resting_views`` in a row."""
+    """How much is kept and how often it is refined.
+
+    ``views``: at most this many are kept. ``rounds``: of poses from outline and outline from poses. Views closer
+    together than ``step_m`` and ``step_rad`` are kept only up to ``resting_views`` in a row.
+    """
 
     views: int = 60
     rounds: int = 2
@@ -128,7 +131,7 @@ def _align_all(views: Sequence[View], outline: Outline) -> tuple[list[View], lis
             moved = placed[-1].T_odom_base.inverse() @ view.T_odom_base
             guess = placed[-1].T_frame_base @ moved
             covariance = odometry_covariance(moved) + np.diag([2e-3, 2e-3, 5e-4]) ** 2
-        found = align(view.scan.points_base, walls, guess, np.linalg.inv(covariance))
+        found = align(view.scan.points_base, walls, guess, covariance)
         placed.append(view.moved(found.pose if found else guess))
         matched.append(found.matched if found and found.conditioned else 0.0)
     return placed[::-1], matched[::-1]

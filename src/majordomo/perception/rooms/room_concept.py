@@ -72,7 +72,7 @@ class RoomConcept:
         self._life.tick()
 
     def _observe(self, snapshot: Snapshot) -> None:
-        """Collect a view when the robot stands in no known room: before the first, or beyond the walls of the current."""
+        """Collect a view when the robot stands in no known room: before the first, or beyond the current one."""
         scan = self._buffer.scan
         if scan is None or scan.stamp_s <= self._scan_stamp_s:
             return
@@ -125,7 +125,7 @@ class RoomConcept:
         """Propose to visit what looks like a room; give the door up when it leads outdoors."""
         if self._survey.outdoors:
             return self._give_up(snapshot, OUTDOORS)
-        return self._propose(snapshot, pose, next_id(snapshot, "room")) or Verdict.BUSY
+        return self._propose(pose, next_id(snapshot, "room")) or Verdict.BUSY
 
     def _arrived(self, snapshot: Snapshot, pose: RobotPose, intention: HasIntentionEdge) -> Verdict:
         """At a vantage point, or unable to get there: take the room as it is now, or look from elsewhere."""
@@ -136,9 +136,9 @@ class RoomConcept:
             return Verdict.BUSY
         if len(self._survey.places) >= _ATTEMPTS:
             return self._conclude(snapshot, pose)
-        return self._propose(snapshot, pose, intention.target) or self._conclude(snapshot, pose)
+        return self._propose(pose, intention.target) or self._conclude(snapshot, pose)
 
-    def _propose(self, snapshot: Snapshot, pose: RobotPose, room_id: str) -> Verdict | None:
+    def _propose(self, pose: RobotPose, room_id: str) -> Verdict | None:
         place = self._survey.next_place(self._obstacles_base(), pose)
         if place is None:
             return None

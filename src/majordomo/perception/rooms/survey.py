@@ -22,8 +22,8 @@ class SurveySettings:
     """Priors and patience.
 
     ``shortest_side_m``, ``longest_side_m``: of the bounding rectangle. ``views``: least number for a room. ``agree_m``:
-    two successive fits must agree this well. ``wall_std_m``: of every wall. ``coverage``: share of directions with walls
-    below which the robot stands outdoors. ``least_matched``: share of returns on the outline in a view
+    two successive fits must agree this well. ``wall_std_m``: of every wall. ``coverage``: share of directions with
+    walls below which the robot stands outdoors. ``least_matched``: share of returns on the outline in a view
     that may tie the room to where the robot came from; in a doorway about half of them are.
     """
 

@@ -9,8 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from majordomo.perception.localization.planar import Pose2
-from majordomo.perception.rooms.corners import WallLine, corners_of, detect_lines
-from majordomo.perception.rooms.corners import CornerSighting as CornerSighting
+from majordomo.perception.rooms.corners import CornerSighting, WallLine, corners_of, detect_lines
 from majordomo.perception.rooms.slice import OutlineScan
 
 Array = NDArray[np.float64]

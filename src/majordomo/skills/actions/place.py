@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from math import hypot
+from math import hypot, sin
 
 import numpy as np
 from py_trees.common import Status
@@ -90,8 +90,19 @@ class ChooseSpot(Action):
         grid = draw_map(snapshot, frame, around, points, stamp_s=self.context.stamp_s)
         routes = find_routes(grid, pose.point, footprint_radius_m(self.context))
         best = np.array([routes.cost_at(ring(center, RADII_M[:-1])[0]).min() for center in centers])
+        best = np.where([self._is_low_enough(spot) for spot in spots], best, np.inf)
         tight = np.array([0.0 if spot.inside else max(TIGHT_M - spot.room_m, 0.0) for spot in spots])
         return np.asarray(best + TIGHT_WEIGHT * tight)
+
+    def _is_low_enough(self, spot: Spot) -> bool:
+        """Whether the lift gets the hand with what it holds over the spot."""
+        snapshot, arm = self.context.snapshot, self.context.body.arm
+        z_m = float(spot.anchor.position(snapshot, robot_frame(snapshot))[2]) + above_bottom_m(self.context)
+        lift_m = (
+            z_m + (ABOVE_RIM_M if spot.inside else 0.0) - self.context.geometry.hand_length_m * sin(arm.wrist_pitch_rad)
+        )
+        low_m, high_m = self.context.limits.lift_m
+        return low_m <= lift_m <= high_m
 
 
 class CheckSpot(Action):
@@ -166,7 +177,7 @@ class LowerToPlace(ArmAction):
         context, arm = self.context, self.context.body.arm
         x_m, y_m, z_m = self._placement.anchor().in_base(context)
         inside = self._placement.spot is not None and self._placement.spot.inside
-        pads_z_m = z_m + self._above_bottom_m() + (ABOVE_RIM_M if inside else RELEASE_M)
+        pads_z_m = z_m + above_bottom_m(context) + (ABOVE_RIM_M if inside else RELEASE_M)
         wrist = (arm.wrist_pitch_rad, arm.wrist_roll_rad)
         final = arm_target(hypot(x_m, y_m), pads_z_m, *wrist, context.geometry, context.limits)
         self._standing_lift_m = final.lift_m
@@ -174,14 +185,15 @@ class LowerToPlace(ArmAction):
         steps = [replace(final, lift_m=final.lift_m + k * STEP_M) for k in range(int(SLOW_M / STEP_M), -1, -1)]
         return replace(arm, lift_m=above_m), replace(final, lift_m=above_m), *steps
 
-    def _above_bottom_m(self) -> float:
-        """Height of the pads over the held object's bottom."""
-        grip, snapshot = self.context.grip, self.context.snapshot
-        if grip is not None:
-            T_base_object = self.context.body.T_base_gripper @ grip.T_gripper_object
-            return float(self.context.body.T_base_gripper.z_m - T_base_object.z_m + grip.size_m[2] / 2)
-        node = snapshot.get(self._placement.object_id)
-        return DEFAULT_GRIP_SHARE * node.size_m[2] if isinstance(node, ObjectNode) else 0.1
+
+def above_bottom_m(context: RobotContext) -> float:
+    """Height of the pads over the bottom of what the hand holds."""
+    grip, hand = context.grip, context.body.T_base_gripper
+    if grip is not None:
+        return float(hand.z_m - (hand @ grip.T_gripper_object).z_m + grip.size_m[2] / 2)
+    robot = context.snapshot.robot
+    node = context.snapshot.get(robot.holding) if robot is not None and robot.holding is not None else None
+    return DEFAULT_GRIP_SHARE * node.size_m[2] if isinstance(node, ObjectNode) else 0.1
 
 
 def _full(action: Action, placement: Placement) -> Status:

@@ -1,0 +1,99 @@
+"""``majordomo ask`` against a running service."""
+
+from __future__ import annotations
+
+import io
+import json
+import stat
+
+import pytest
+from rich.console import Console
+
+from majordomo.app.asking import NoService, Service, ask_service, find_service
+
+pytestmark = pytest.mark.anyio
+
+
+class Terminal(Console):
+    """A console that keeps what is printed and types prepared answers; without any, its keyboard is unplugged."""
+
+    def __init__(self, *answers: str) -> None:
+        super().__init__(file=io.StringIO(), width=200)
+        self.answers, self.prompts = list(answers), []
+
+    def input(self, prompt="", **options):
+        self.prompts.append(str(prompt))
+        if not self.answers:
+            raise EOFError
+        return self.answers.pop(0)
+
+    @property
+    def text(self):
+        return self.file.getvalue()
+
+
+@pytest.fixture
+def target(served, token):
+    return Service(address=served.address, token=token)
+
+
+async def test_an_answer_is_printed_and_counts_as_success(target):
+    terminal = Terminal()
+    assert await ask_service(target, "where is the red apple?", terminal)
+    assert "bowl" in terminal.text
+
+
+async def test_a_refusal_is_printed_and_does_not(target):
+    terminal = Terminal()
+    assert not await ask_service(target, "fold the laundry", terminal)
+    assert "cannot fold" in terminal.text
+
+
+async def test_a_question_is_put_to_the_keyboard_until_there_is_an_answer(target):
+    terminal = Terminal("", "  ", "the white one")
+    assert await ask_service(target, "bring the cup to the bench", terminal)
+    assert len(terminal.prompts) == 3
+    assert "cup_1" in terminal.prompts[0]
+    assert "white cup" in terminal.text
+
+
+async def test_without_a_keyboard_the_question_is_left_to_others(target, served):
+    with pytest.raises(NoService, match="the task waits"):
+        await ask_service(target, "bring the cup to the bench", Terminal())
+    [task] = (await served.client.get("/v1/tasks")).json()["tasks"]
+    assert task["status"] == "awaiting_answer"
+
+
+@pytest.mark.parametrize(
+    ("change", "said"), [({"token": "not-the-one-you-want"}, "token"), ({"address": "http://127.0.0.1:9"}, "answer")]
+)
+async def test_what_goes_wrong_is_one_sentence(target, change, said):
+    broken = Service(**{"address": target.address, "token": target.token} | change)
+    with pytest.raises(NoService, match=said):
+        await ask_service(broken, "where is the red apple?", Terminal())
+
+
+def test_the_service_is_found_by_its_address_or_where_it_left_it(tmp_path):
+    found = find_service("http://127.0.0.1:8642/?token=abc", None, tmp_path)
+    assert found == Service(address="http://127.0.0.1:8642", token="abc")
+    with pytest.raises(NoService, match="no token"):
+        find_service("http://127.0.0.1:8642/", None, tmp_path)
+    with pytest.raises(NoService, match="majordomo serve"):
+        find_service(None, None, tmp_path)
+    (tmp_path / "service.json").write_text(json.dumps({"address": "http://127.0.0.1:1", "token": "t", "pid": 1}))
+    assert find_service(None, None, tmp_path).address == "http://127.0.0.1:1"
+
+
+async def test_a_running_service_leaves_its_address_readable_by_its_owner_only(tmp_path):
+    from majordomo.app.http.security import Token
+    from majordomo.app.server import _announced, bind
+    from majordomo.app.settings import Settings
+
+    settings = Settings(data=tmp_path, port=0)
+    token = Token.stored_in(tmp_path)
+    with bind(settings) as listener:
+        with _announced(settings, listener, token):
+            assert stat.S_IMODE((tmp_path / "service.json").stat().st_mode) == 0o600
+            found = find_service(None, None, tmp_path)
+            assert (found.token, found.address.rpartition(":")[2]) == (token.value, str(listener.getsockname()[1]))
+        assert not (tmp_path / "service.json").exists()

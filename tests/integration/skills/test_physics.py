@@ -1,0 +1,89 @@
+"""Skills in physics, told the truth by a stand-in for perception: what is measured is motion and grasp alone."""
+
+from __future__ import annotations
+
+from math import hypot
+
+import numpy as np
+import pytest
+
+from majordomo.skills.actions.grasp import CloseGripper
+from majordomo.skills.failures import FailureCode
+from majordomo.skills.registry import load_registry
+
+pytestmark = pytest.mark.anyio
+SKILLS = load_registry([])
+
+
+def furnished(make_house, category="bottle", seed=0):
+    """Two tables and three things, placed by chance."""
+    rng = np.random.default_rng(seed)
+
+    def place(x, y, turn):
+        return [float(x + rng.uniform(-0.2, 0.2)), float(y + rng.uniform(-0.2, 0.2)), float(rng.uniform(-turn, turn))]
+
+    tables = [
+        {"id": "table_1", "category": "table", "pose": place(1.4, 1.1, 0.5)},
+        {"id": "table_2", "category": "table", "pose": place(-1.4, -1.1, 3.0)},
+    ]
+    offset = [float(rng.uniform(-0.4, 0.4)), float(rng.choice([-1, 1]) * rng.uniform(0.1, 0.3))]
+    things = [{"id": f"{category}_1", "category": category, "on": "table_1", "offset": offset}]
+    things += [
+        {"id": "mug_1", "category": "mug", "on": "table_1"},
+        {"id": "vase_1", "category": "vase", "on": "table_2"},
+    ]
+    start = [float(rng.uniform(-0.5, 0.5)), float(rng.uniform(-0.4, 0.4)), float(rng.uniform(-3.0, 3.0))]
+    return make_house(tables, things, start)
+
+
+async def fetch(stage, thing):
+    steps = (("GOTO", thing), ("PICK", thing), ("GOTO", "table_2"), ("PLACE", thing, "table_2"))
+    failure = await stage.carry_out(*steps)
+    stage.truth = await stage.robot.truth()
+    return failure
+
+
+async def test_a_bottle_is_fetched_from_one_table_to_the_other(stage, make_house):
+    built = await stage(furnished(make_house), noise_m=0.004)
+    assert await fetch(built, "bottle_1") is None
+    assert built.where("bottle_1")["on"] == "table_2"
+    assert built.truth["robot"]["holding"] is None
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(1, 4))
+@pytest.mark.parametrize("category", ["bottle", "cup", "can"])
+async def test_things_are_fetched_wherever_they_stand(stage, make_house, category, seed):
+    built = await stage(furnished(make_house, category, seed), seed=seed, noise_m=0.004)
+    assert await fetch(built, f"{category}_1") is None
+    assert built.where(f"{category}_1")["on"] == "table_2"
+
+
+async def test_a_door_of_80_cm_is_crossed_without_touching_anything(stage, make_house):
+    plan = make_house([{"id": "table_1", "category": "table", "pose": [5.6, 1.2, 0.3]}], [], [-0.5, 0.8, 2.0])
+    built = await stage(plan)
+    assert await built.carry_out(("GOTO", "table_1")) is None
+    built.truth = await built.robot.truth()
+    x, y, _ = built.truth["robot"]["pose"]
+    assert hypot(x - 5.6, y - 1.2) < 1.5
+    assert built.truth["collisions"] == 0
+
+
+async def test_a_closed_door_is_noticed_on_arrival(stage, make_house):
+    plan = make_house([{"id": "table_1", "category": "table", "pose": [5.6, 1.2, 0.3]}], [], [1.0, 0.3, 0.0])
+    built = await stage(plan)
+    await built.robot.disturb({"do": "close_door", "id": "d1"})
+    failure = await built.carry_out(("GOTO", "table_1"))
+    assert failure.code is FailureCode.DOOR_CLOSED
+    assert (await built.robot.truth())["collisions"] == 0
+
+
+async def test_a_bottle_taken_away_at_the_last_moment_is_an_empty_grasp(stage, make_house):
+    built = await stage(furnished(make_house))
+    assert await built.carry_out(("GOTO", "bottle_1")) is None
+    actions = SKILLS["PICK"].actions(built.context, ["bottle_1"])
+    closing = next(i for i, action in enumerate(actions) if isinstance(action, CloseGripper))
+    assert await built.run(actions[:closing]) is None
+    await built.robot.disturb({"do": "move", "id": "bottle_1", "to": {"pose": [2.5, -2.0]}})
+    failure = await built.run(actions[closing:])
+    assert failure.code is FailureCode.GRASP_EMPTY

@@ -18,13 +18,15 @@ import httpx
 
 from majordomo.app.event_log import EventLog
 from majordomo.app.events import EventStream
+from majordomo.app.graph_stack import GraphStack
 from majordomo.app.metrics import metrics_text
 from majordomo.app.model_choice import make_language_model
 from majordomo.app.publisher import Publisher
+from majordomo.app.robot_stack import RobotStack
 from majordomo.app.scene_documents import robot_document, scene_document
 from majordomo.app.scheduler import LockstepScheduler, RealTimeScheduler, Scheduler
 from majordomo.app.settings import ClockMode, Settings
-from majordomo.app.stack import GraphStack, RobotStack, Stack
+from majordomo.app.stack import Stack
 from majordomo.planner.queue import TaskQueue
 from majordomo.planner.tasks import Approval, Task
 from majordomo.scene_graph.memory import WorkingMemory

@@ -13,7 +13,7 @@ from majordomo.perception.ports import RgbdFrame
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Instance:
-    """One thing in the image. ``mask``: (H, W) bool. ``label_distribution``: (label, probability), most likely first."""
+    """One thing in the image. ``mask``: (H, W) bool. ``label_distribution``: (label, probability), likeliest first."""
 
     label: str
     score: float

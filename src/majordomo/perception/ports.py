@@ -58,8 +58,8 @@ class Intrinsics:
 class RgbdFrame:
     """Registered color and depth.
 
-    ``rgb``: (H, W, 3) uint8. ``depth_m``: (H, W) float32 along the optical axis, 0 where unknown. ``T_base_camera`` maps
-    the optical frame (x right, y down, z forward) into the base at the time of the frame.
+    ``rgb``: (H, W, 3) uint8. ``depth_m``: (H, W) float32 along the optical axis, 0 where unknown. ``T_base_camera``
+    maps the optical frame (x right, y down, z forward) into the base at the time of the frame.
     """
 
     stamp_s: float

@@ -33,10 +33,11 @@ class WatchedModel:
 def preview_jpeg(frame: RgbdFrame, scene: PanopticScene) -> bytes:
     """``frame`` as JPEG with every instance outlined and labeled."""
     picture = cv2.cvtColor(frame.rgb, cv2.COLOR_RGB2BGR)
-    picture = cv2.resize(picture, None, fx=SCALE, fy=SCALE, interpolation=cv2.INTER_LINEAR).astype(np.uint8)
+    resized = cv2.resize(picture, None, fx=SCALE, fy=SCALE, interpolation=cv2.INTER_LINEAR)
+    canvas: NDArray[np.uint8] = np.asarray(resized, dtype=np.uint8)
     for index, instance in enumerate(scene.instances):
-        _draw(picture, instance, _color(index))
-    _, encoded = cv2.imencode(".jpg", picture, [cv2.IMWRITE_JPEG_QUALITY, 80])
+        _draw(canvas, instance, _color(index))
+    _, encoded = cv2.imencode(".jpg", canvas, [cv2.IMWRITE_JPEG_QUALITY, 80])
     return bytes(encoded)
 
 

@@ -1,5 +1,5 @@
 """What can go wrong with the scene graph; every error carries its data and lists what was available."""
-# ruff: noqa: N818 -- errors are named for the condition (NodeNotFound), not for being errors
+
 
 from __future__ import annotations
 

@@ -2,21 +2,18 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 import pybullet as p
 
-from majordomo.simulation.bodies import make_block, make_body, make_floor, place_body
-from majordomo.simulation.catalog import Category, category_named, rgb_of
+from majordomo.simulation.bodies import make_block, make_floor
 from majordomo.simulation.errors import DisturbError
-from majordomo.simulation.house import ROBOT, Disturbance, Furniture, House, Object, Place, room_at
+from majordomo.simulation.house import ROBOT, Disturbance, House, Object, Place
 from majordomo.simulation.people import HEIGHT_M, Walker, person_body, person_parts
-from majordomo.simulation.placement import Standing, free_spot, to_house
 from majordomo.simulation.solids import Solids
+from majordomo.simulation.things import Things
 from majordomo.simulation.walls import Opening, openings, panel, wall_blocks
 
 WALL_RGB = (0.90, 0.89, 0.85)
@@ -27,18 +24,6 @@ SUPPORT_GAP_M = 0.03
 
 Pose2 = tuple[float, float, float]
 Size3 = tuple[float, float, float]
-
-
-@dataclass(frozen=True, kw_only=True)
-class Thing:
-    """A body of the house and what it is."""
-
-    id: str
-    body: int
-    category: Category
-    size_m: Size3
-    color: str
-    movable: bool
 
 
 class World:
@@ -52,7 +37,7 @@ class World:
         self.move_robot: Callable[[Pose2], None] | None = None
         self.solids = Solids(client)
         self._client, self._rng = client, rng
-        self._things: dict[str, Thing] = {}
+        self._things = Things(house, client, self.solids)
         self._structure: dict[int, str] = {}
         self._panels: dict[str, int] = {}
         self._walkers: dict[str, Walker] = {}
@@ -68,13 +53,13 @@ class World:
         name = self.id_of(body_id)
         if name is None:
             return None
-        return "person" if name in self._walkers else self._things[name].category.name
+        return "person" if name in self._walkers else self._things.named(name, "id").category.name
 
     def id_of(self, body_id: int) -> str | None:
         """House id of furniture, a thing or a person."""
-        for thing in self._things.values():
-            if thing.body == body_id:
-                return thing.id
+        thing = self._things.of_body(body_id)
+        if thing is not None:
+            return thing.id
         return next((name for name, walker in self._walkers.items() if walker.body == body_id), None)
 
     def apply(self, event: Disturbance) -> None:
@@ -112,7 +97,7 @@ class World:
             "stamp_s": round(stamp_s, 6),
             "house": self.house.name,
             "robot": {"pose": list(robot_pose), "holding": holding},
-            "objects": [self._record(thing, holding) for thing in self._things.values() if thing.movable],
+            "objects": self._things.records(holding),
             "doors": [
                 {"id": door.id, "state": "closed" if door.id in self._panels else "open"} for door in self.house.doors
             ],
@@ -133,82 +118,15 @@ class World:
             if door.state == "closed":
                 self._close(door.id)
         for furniture in self.house.furniture:
-            self._put_furniture(furniture)
+            self._things.put_furniture(furniture)
         for person in self.house.people:
             body = person_body(self._client)
             self._walkers[person.id] = Walker(self._client, body, person.pose)
             self.solids.add_body(body, person_parts(), HEIGHT_M, fixed=False)
         for thing in self.house.objects:
-            self._put_object(thing)
+            self._things.put_object(thing)
         for _ in range(SETTLE_STEPS):
             p.stepSimulation(physicsClientId=self._client)
-
-    def _put_furniture(self, item: Furniture) -> None:
-        category = category_named(item.category, item.size, static=True)
-        size_m = item.size or category.size_m
-        parts = category.parts(size_m, rgb_of(category, item.color))
-        body = make_body(self._client, parts, 0.0, size_m[2])
-        self.solids.add_body(body, parts, size_m[2], fixed=True)
-        place_body(self._client, body, (item.pose[0], item.pose[1], 0.0), item.pose[2], size_m[2])
-        self._things[item.id] = Thing(
-            id=item.id, body=body, category=category, size_m=size_m, color=item.color or category.color, movable=False
-        )
-
-    def _put_object(self, item: Object) -> None:
-        category = category_named(item.category, item.size)
-        size_m = item.size or category.size_m
-        mass_kg = category.mass_kg or 5.0
-        parts = category.parts(size_m, rgb_of(category, item.color))
-        body = make_body(self._client, parts, mass_kg, size_m[2])
-        self.solids.add_body(body, parts, size_m[2], fixed=False)
-        thing = Thing(
-            id=item.id, body=body, category=category, size_m=size_m, color=item.color or category.color, movable=True
-        )
-        place = Place.model_validate({"on": item.on, "in": item.in_, "offset": item.offset, "pose": item.pose})
-        self._things[item.id] = thing
-        self._place(thing, place)
-
-    def _place(self, thing: Thing, place: Place) -> None:
-        self.solids.touch()
-        if place.pose is not None:
-            x_m, y_m, *rest = place.pose
-            z_m, yaw_rad = (rest[0], rest[1]) if len(rest) == 2 else (0.0, rest[0] if rest else 0.0)
-            place_body(self._client, thing.body, (x_m, y_m, z_m + 0.002), yaw_rad, thing.size_m[2])
-            return
-        carrier = self._thing(place.on or place.in_, "to.on" if place.on else "to.in")
-        pose, height_m = self._top(carrier, inside=place.in_ is not None)
-        offset = place.offset or self._free_offset(carrier, pose, thing)
-        x_m, y_m = to_house(pose, offset)
-        place_body(self._client, thing.body, (x_m, y_m, height_m + 0.002), pose[2], thing.size_m[2])
-
-    def _free_offset(self, carrier: Thing, pose: Pose2, thing: Thing) -> tuple[float, float]:
-        others = [
-            Standing(center_m=self._position(other)[:2], radius_m=max(other.size_m[:2]) / 2)
-            for other in self._things.values()
-            if other.movable and other.id not in (thing.id, carrier.id)
-        ]
-        offset = free_spot(
-            pose, carrier.size_m[:2], max(thing.size_m[:2]) / 2, others, self._floor_around(carrier, pose)
-        )
-        if offset is None:
-            raise DisturbError("to.on", f"no room for {thing.id} on {carrier.id}")
-        return offset
-
-    def _floor_around(self, carrier: Thing, pose: Pose2) -> list[tuple[float, float]]:
-        """Floor points beside a piece of furniture that are in a room and not inside other furniture."""
-        half_x, half_y = carrier.size_m[0] / 2 + 0.4, carrier.size_m[1] / 2 + 0.4
-        beside = [to_house(pose, offset) for offset in ((half_x, 0.0), (-half_x, 0.0), (0.0, half_y), (0.0, -half_y))]
-        return [
-            point for point in beside if room_at(self.house, *point) is not None and not self._blocked(point, carrier)
-        ]
-
-    def _blocked(self, point: tuple[float, float], carrier: Thing) -> bool:
-        for thing in self._things.values():
-            if thing.movable or thing.id == carrier.id:
-                continue
-            if math.dist(point, self._position(thing)[:2]) < min(thing.size_m[:2]) / 2 + 0.2:
-                return True
-        return False
 
     def _move(self, name: str, place: Place) -> None:
         if name == ROBOT:
@@ -220,11 +138,12 @@ class World:
                 raise DisturbError("to.pose", "a person is moved to [x, y, yaw]")
             self._walkers[name].put((place.pose[0], place.pose[1], place.pose[2] if len(place.pose) > 2 else 0.0))
         else:
-            self._place(self._thing(name, "id"), place)
+            self._things.place(self._things.named(name, "id"), place)
 
     def _remove(self, name: str) -> None:
-        body = self._walkers.pop(name).body if name in self._walkers else self._thing(name, "id").body
-        self._things.pop(name, None)
+        body = self._walkers.pop(name).body if name in self._walkers else self._things.named(name, "id").body
+        if name in self._things:
+            self._things.forget(name)
         self.solids.remove(body)
         p.removeBody(body, physicsClientId=self._client)
 
@@ -233,7 +152,7 @@ class World:
             raise DisturbError("object", "missing")
         if item.id in self._things or item.id in self._walkers:
             raise DisturbError("object.id", f"there is a {item.id} already")
-        self._put_object(item)
+        self._things.put_object(item)
 
     def _close(self, name: str) -> None:
         gap = self._gap(name)
@@ -258,46 +177,9 @@ class World:
             raise DisturbError("to.pose", "a person walks to [x, y]")
         self._walkers[name].walk_to((place.pose[0], place.pose[1]))
 
-    def _record(self, thing: Thing, holding: str | None) -> dict[str, Any]:
-        x_m, y_m, z_m = self._position(thing)
-        carrier = None if thing.id == holding else self._carrier(thing)
-        inside = carrier is not None and carrier.category.container and self._top(carrier, inside=True)[1] > z_m - 0.3
-        contained = inside and carrier is not None and z_m < self._position(carrier)[2] + carrier.size_m[2] / 2
-        return {
-            "id": thing.id,
-            "category": thing.category.name,
-            "color": thing.color,
-            "position_m": [x_m, y_m, z_m],
-            "room": room_at(self.house, x_m, y_m),
-            "on": carrier.id if carrier is not None and not contained else None,
-            "in": carrier.id if carrier is not None and contained else None,
-        }
-
-    def _carrier(self, thing: Thing) -> Thing | None:
-        """What a thing rests on, by contact from below."""
-        contacts = p.getContactPoints(bodyA=thing.body, physicsClientId=self._client) or ()
-        below = [contact for contact in contacts if contact[7][2] > 0.5]
-        for contact in below:
-            name = self.id_of(int(contact[2]))
-            if name is not None and name in self._things:
-                return self._things[name]
-        return None
-
-    def _top(self, carrier: Thing, *, inside: bool) -> tuple[Pose2, float]:
-        """Pose of a carrier in the plane, and the height on which things stand on it or in it."""
-        position, quaternion = p.getBasePositionAndOrientation(carrier.body, physicsClientId=self._client)
-        yaw_rad = p.getEulerFromQuaternion(quaternion)[2]
-        level = carrier.category.levels[0] if inside or carrier.category.levels else 1.0
-        bottom_m = position[2] - carrier.size_m[2] / 2
-        return (position[0], position[1], yaw_rad), bottom_m + level * carrier.size_m[2]
-
-    def _position(self, thing: Thing) -> Size3:
-        position: Size3 = p.getBasePositionAndOrientation(thing.body, physicsClientId=self._client)[0]
-        return position
-
     def _strangers(self) -> list[tuple[float, float]]:
         """Where bodies stand that are not the house's: the robot."""
-        known = {*self._structure, *(thing.body for thing in self._things.values())}
+        known = {*self._structure, *(thing.body for thing in self._things)}
         known |= {walker.body for walker in self._walkers.values()}
         count = p.getNumBodies(physicsClientId=self._client)
         bodies = [p.getBodyUniqueId(index, physicsClientId=self._client) for index in range(count)]
@@ -307,11 +189,6 @@ class World:
         if name is None:
             raise DisturbError("id", "missing")
         return name
-
-    def _thing(self, name: str | None, path: str) -> Thing:
-        if name is None or name not in self._things:
-            raise DisturbError(path, f"no {name!r}; there are {', '.join(self._things) or 'none'}")
-        return self._things[name]
 
     def _gap(self, name: str) -> Opening:
         if name not in self._gaps:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from math import copysign
 
 import numpy as np
@@ -134,10 +135,15 @@ class BoxWorld:
     heights_m: tuple[float, ...] = (0.3, 0.6, 1.2)
     range_m: float = 4.0
 
+    @cached_property
+    def outline(self) -> Points:
+        """Points (N, 2) on the outlines, about 3 cm apart."""
+        sides = [side for box in self.boxes for side in _sides(box)]
+        return np.concatenate([np.linspace(a, b, max(int(np.hypot(*(b - a)) / 0.03), 2)) for a, b in sides])
+
     def points_base(self, pose: Pose2) -> Points:
-        """Points (N, 3) on the outlines, base frame."""
-        outline = [self._outline(box) for box in self.boxes]
-        points = pose.inverse_apply(np.concatenate(outline)) if outline else np.zeros((0, 2))
+        """Points (N, 3) on the outlines in range, base frame."""
+        points = pose.inverse_apply(self.outline) if self.boxes else np.zeros((0, 2))
         points = points[np.hypot(*points.T) < self.range_m]
         return np.concatenate([np.column_stack([points, np.full(len(points), z)]) for z in self.heights_m])
 
@@ -145,12 +151,6 @@ class BoxWorld:
         """Distance from the body's axis to the nearest box."""
         here = np.array([pose.point])
         return min((float(box.distance_m(here)[0]) for box in self.boxes), default=10.0)
-
-    @staticmethod
-    def _outline(box: Box2) -> Points:
-        corners = box.corners()
-        sides = zip(corners, np.roll(corners, -1, axis=0), strict=True)
-        return np.concatenate([np.linspace(a, b, max(int(np.hypot(*(b - a)) / 0.03), 2)) for a, b in sides])
 
 
 @dataclass(kw_only=True)
@@ -219,3 +219,8 @@ def _toward(value: float, goal: float, step: float) -> float:
 
 def _clip(value: float, limit: float) -> float:
     return min(max(value, -limit), limit)
+
+
+def _sides(box: Box2) -> list[tuple[Points, Points]]:
+    corners = box.corners()
+    return list(zip(corners, np.roll(corners, -1, axis=0), strict=True))

@@ -11,7 +11,8 @@ from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.skills.action import RobotContext
 from majordomo.skills.anchor import Anchor
 from majordomo.skills.facts import is_container
-from majordomo.skills.navigation.local_map import door_gaps, draw_map
+from majordomo.skills.navigation.local_map import draw_map
+from majordomo.skills.navigation.walls import Walls, door_gaps
 from majordomo.skills.place_spot import Spot, outline_radius_m, spots_on
 
 HANDOVER_M = 1.8
@@ -80,7 +81,14 @@ def _floor_spots(context: RobotContext, center: str, size_m: tuple[float, float,
     spots = [(float(x), float(y)) for x, y in points]
     robot = snapshot.position(ROBOT_ID, room)
     around = context.surroundings.points()
-    grid = draw_map(snapshot, room, around, [(float(robot[0]), float(robot[1])), *spots], stamp_s=context.stamp_s)
+    grid = draw_map(
+        snapshot,
+        room,
+        around,
+        [(float(robot[0]), float(robot[1])), *spots],
+        walls=Walls.of(snapshot, room),
+        stamp_s=context.stamp_s,
+    )
     room_m = grid.clearance_at(points) - outline_radius_m(size_m)
     gaps = [gap.grown(DOORWAY_M) for gap in door_gaps(snapshot, room)]
     clear = [not any(gap.contains(points[i : i + 1])[0] for gap in gaps) for i in range(len(points))]

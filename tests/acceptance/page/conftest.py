@@ -61,7 +61,8 @@ class Page:
     async def until(self, condition: str):
         """Wait until a JavaScript condition holds; its value."""
         watched = f"""new Promise((resolve) => {{
-            const look = () => {{ const value = ({condition}); value ? resolve(value) : setTimeout(look, 30); }};
+            const value = () => {{ try {{ return {condition}; }} catch (error) {{ return null; }} }};
+            const look = () => {{ const found = value(); found ? resolve(found) : setTimeout(look, 30); }};
             setTimeout(() => resolve(null), {1000 * LIMIT_S - 1000});
             look();
         }})"""

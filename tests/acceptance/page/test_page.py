@@ -97,7 +97,7 @@ async def test_the_map_names_each_room_inside_it_and_beside_its_furniture(page, 
     assert all(within(name, room) for name, room in zip(names, rooms, strict=True))
     assert all(name[3] - name[1] >= 11 for name in names)
     furniture = await boxes(page, ".furniture")
-    assert len(furniture) == 7
+    assert len(furniture) == 8
     assert all(overlap(name, piece) == 0 for name in names for piece in furniture)
 
 

@@ -1,16 +1,15 @@
-"""A robot in a house of faces: sensor port, noisy odometry, and a small arbiter and executor that carry out intentions."""
+"""A robot in a house of faces: sensor port, noisy odometry, and a small arbiter and executor in one."""
 
 from __future__ import annotations
 
 import asyncio
 import heapq
 import math
+import time
 from dataclasses import dataclass, field, replace
 from typing import Protocol
 
 import numpy as np
-from lidar_house import Array, House, cast
-
 from majordomo.perception.errors import SensorSilent
 from majordomo.perception.localization.planar import Pose2, wrap
 from majordomo.perception.ports import JointState, LidarScan, Odometry, RgbdFrame
@@ -19,6 +18,7 @@ from majordomo.scene_graph.edges import HasIntentionEdge, IntentionAction, Inten
 from majordomo.scene_graph.memory import WorkingMemory
 from majordomo.scene_graph.nodes import ROBOT_ID, AffordanceNode, DoorNode
 from majordomo.scene_graph.se3 import SE3
+from unit.perception.lidar_house import Array, House, cast
 
 STEP_S = 0.1
 SPEED_MPS = 0.5
@@ -86,7 +86,10 @@ class HousePort:
 
 
 class Driver:
-    """Grants one intention at a time, highest priority first, and drives there along a way that is free in truth."""
+    """Grants one intention at a time, highest priority first, and drives there along a way that is free in truth.
+
+    Targets in ``refused`` cannot be reached.
+    """
 
     def __init__(self, memory: WorkingMemory, port: HousePort) -> None:
         self.memory = memory
@@ -94,6 +97,7 @@ class Driver:
         self.way: list[Array] = []
         self.current: HasIntentionEdge | None = None
         self.finished: list[tuple[float, str, str, str]] = []
+        self.refused: set[str] = set()
 
     def step(self) -> None:
         self._revoke()
@@ -105,7 +109,7 @@ class Driver:
             self.current = intention
             goal = self._goal(intention)
             way = find_way(self.port.house, self.port.pose.position_m, goal)
-            if way is None:
+            if way is None or intention.target in self.refused:
                 self._finish(intention, IntentionStatus.FAILED, "no way")
                 return
             self.way = way
@@ -268,8 +272,6 @@ class Exploration:
         asyncio.run(self._run(seconds, until))
 
     async def _run(self, seconds: float, until) -> None:  # type: ignore[no-untyped-def]
-        import time
-
         end = self.port.stamp_s + seconds
         while self.port.stamp_s < end and not until(self):
             self.port.stamp_s = round(self.port.stamp_s + STEP_S, 6)

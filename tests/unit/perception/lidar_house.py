@@ -1,8 +1,7 @@
-"""A house of vertical faces and an exact multi-ring LiDAR in it: the truth that the LiDAR concepts are tested against."""
+"""A house of vertical faces and an exact multi-ring LiDAR in it: the truth for tests of the LiDAR concepts."""
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -130,6 +129,21 @@ def cast(
     )
 
 
+def l_shape() -> Array:
+    """(6, 2) an L of 6 m x 5 m with 3 m wide legs."""
+    return np.array([[0.0, 0.0], [6.0, 0.0], [6.0, 2.5], [3.0, 2.5], [3.0, 5.0], [0.0, 5.0]])
+
+
+def t_shape() -> Array:
+    """(8, 2) a T of 8 m x 6 m with a 2 m wide stem."""
+    return np.array([[0, 0], [8, 0], [8, 2], [5, 2], [5, 6], [3, 6], [3, 2], [0, 2]], dtype=np.float64)
+
+
+def u_shape() -> Array:
+    """(8, 2) a U of 8 m x 6 m with 2 m wide legs."""
+    return np.array([[0, 0], [8, 0], [8, 6], [6, 6], [6, 2], [2, 2], [2, 6], [0, 6]], dtype=np.float64)
+
+
 def rectangle(width: float, depth: float, *, x: float = 0.0, y: float = 0.0) -> Array:
     """(4, 2) outline with its lower left corner at (x, y), counter-clockwise."""
     return np.array([[x, y], [x + width, y], [x + width, y + depth], [x, y + depth]])
@@ -153,7 +167,3 @@ def turned(house: House, angle_rad: float) -> House:
         height=house.height,
         wall_thickness=house.wall_thickness,
     )
-
-
-def degrees(angle: float) -> float:
-    return math.radians(angle)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import pairwise
 
 import pytest
 
@@ -245,7 +246,7 @@ async def test_with_something_in_the_hand_the_base_speeds_up_slowly(kitchen):
 
     rehearsal.observe = measure
     assert await carry_out(rehearsal, ("GOTO", "table_2")) is None
-    gains = [b - a for a, b in zip(speeds, speeds[1:], strict=False)]
+    gains = [b - a for a, b in pairwise(speeds)]
     assert max(gains) / rehearsal.dt_s < 0.5
     assert max(speeds) <= 0.6 * rehearsal.body.limits.linear_mps + 1e-9
 

@@ -13,11 +13,11 @@ from hypothesis import strategies as st
 from majordomo.scene_graph.se3 import SE3
 from majordomo.skills.geometry import Box2, Pose2, inside_polygon
 from majordomo.skills.navigation.grid import Canvas
-from majordomo.skills.navigation.local_map import explained, wall_points
 from majordomo.skills.navigation.pursuit import point_ahead
 from majordomo.skills.navigation.route import find_routes, path_length_m, sampled
 from majordomo.skills.navigation.safety import admissible
 from majordomo.skills.navigation.surroundings import Surroundings
+from majordomo.skills.navigation.walls import Walls
 from majordomo.skills.ports import BodyLimits
 
 LIMITS = BodyLimits()
@@ -174,13 +174,13 @@ def test_a_person_who_walks_by_leaves_no_footprints():
 def test_noise_on_a_known_wall_is_put_onto_the_wall_and_a_box_before_it_is_not(flat):
     snapshot = flat().memory.snapshot()
     blurred, box = np.array([[-2.95, 0.5], [-3.04, 0.6]]), np.array([[-2.6, 0.5]])
-    kept = explained(snapshot, "room_1", np.concatenate([blurred, box]))
+    kept = Walls.of(snapshot, "room_1").explain(np.concatenate([blurred, box]))
     assert (np.hypot(*(kept - box[0]).T) < 1e-9).any()
     near = kept[np.hypot(*(kept - (-3.0, 0.55)).T) < 0.2]
     np.testing.assert_allclose(near[:, 0], -3.0, atol=1e-9)
 
 
 def test_a_door_gap_is_no_wall(flat):
-    walls = wall_points(flat().memory.snapshot(), "room_1")
+    walls = Walls.of(flat().memory.snapshot(), "room_1").points
     assert not ((np.abs(walls[:, 1]) < 0.4) & (walls[:, 0] > 2.9)).any()
     assert ((np.abs(walls[:, 1]) > 0.5) & (walls[:, 0] > 2.9)).any()

@@ -3,7 +3,7 @@
 const overlap = (a, b) => Math.max(0, Math.min(a[2], b[2]) - Math.max(a[0], b[0])) * Math.max(0, Math.min(a[3], b[3]) - Math.max(a[1], b[1]));
 const around = ([x, y], w, h) => [x - w / 2, y - h / 2, x + w / 2, y + h / 2];
 const STEPS = [0, -0.16, 0.16, -0.32, 0.32, -0.42, 0.42];
-const STAY = 0.4;
+const STAY = 0.12;
 
 // A name moves only when that uncovers much, so that it does not dance while things are being found.
 export class LabelPlaces {

@@ -145,8 +145,8 @@ export class BuildingMap {
 
   #drawPerson(node) {
     const [x, y] = node.position_m;
-    const person = shape("g", { class: "person", transform: `translate(${x} ${-y}) rotate(${degrees(node.yaw_rad ?? 0)})` });
-    person.append(shape("ellipse", { rx: 0.13, ry: 0.24 }), shape("circle", { r: 0.12 }));
+    const person = shape("g", { class: "person", transform: `translate(${x} ${-y})` });
+    person.append(shape("circle", { cy: -0.13, r: 0.11 }), shape("path", { d: "M-.2 .22V.18A.2 .2 0 0 1 .2 .18V.22Z" }));
     this.#add("people", person, node);
   }
 
@@ -165,7 +165,7 @@ export class BuildingMap {
     const bodies = [...people.map((node) => around(node.position_m, 0.3)), ...(robot ? [around([robot.pose_map.x, robot.pose_map.y], 0.3)] : [])];
     const dots = small.map((node) => around(node.position_m, radius(node, pixel) + 2 * pixel));
     this.#labels.start([...dots, ...bodies]);
-    for (const node of furniture) this.#name(node, "thing-name", boundingBox(corners(node)), 11 * pixel);
+    for (const node of furniture) this.#name(node, "thing-name", boundingBox(corners(node)), 11.5 * pixel);
     for (const node of people) {
       const [x, y] = node.position_m;
       this.#name(node, "person-name", [x - 1.2, -y - 0.3 - 18 * pixel, x + 1.2, -y - 0.3], 12 * pixel);
@@ -180,8 +180,8 @@ export class BuildingMap {
     const tall = area[3] - area[1] > area[2] - area[0] && w > area[2] - area[0];
     const spot = this.#labels.place(`${node.id} ${tall}`, area, tall ? h : w, tall ? w : h);
     if (!spot) return;
-    const turned = tall ? `rotate(-90 ${spot[0]} ${spot[1]})` : "";
-    this.#layers.names.append(shape("text", { x: spot[0], y: spot[1], class: className, transform: turned }, text));
+    const transform = `translate(${spot.join(" ")}) scale(${this.#view.scale})${tall ? " rotate(-90)" : ""}`;
+    this.#layers.names.append(shape("text", { class: className, transform }, text));
   }
 
   #add(layer, drawn, node) {

@@ -17,6 +17,7 @@ export function suggestions(nodes, edges) {
   }
   if (things.length > 1) ideas.push(`where is the ${title(things[1])}?`);
   if (person && things.length) ideas.push(`give ${person.name} the ${title(things.at(-1))}`);
-  if (tops.length) ideas.push(`what is on the ${tops.at(-1).label.replaceAll("_", " ")}?`);
+  const laden = tops.find((node) => [...edges.values()].some((edge) => edge.target === node.id && edge.label === "on"));
+  if (laden) ideas.push(`what is on the ${laden.label.replaceAll("_", " ")}?`);
   return ideas;
 }

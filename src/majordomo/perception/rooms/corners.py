@@ -119,16 +119,16 @@ def _refine(
         inliers = free & (np.abs(points @ normal - offset) < gate_m)
         if inliers.sum() < settings.fewest_votes:
             return None, inliers
-        normal, offset = _total_least_squares(points[inliers])
+        normal, offset = fit_line(points[inliers])
     inliers = _longest_run(points, inliers, normal, offset, settings.widest_gap_m)
     if inliers.sum() < settings.fewest_votes:
         return None, inliers
-    normal, offset = _total_least_squares(points[inliers])
+    normal, offset = fit_line(points[inliers])
     line = _measured_line(points[inliers], normal, offset)
     return (line if line.length_m >= settings.shortest_line_m else None), inliers
 
 
-def _total_least_squares(points: Array) -> tuple[Array, float]:
+def fit_line(points: Array) -> tuple[Array, float]:
     """Normal and offset of the line that minimizes squared perpendicular distances."""
     center = points.mean(axis=0)
     _, vectors = np.linalg.eigh((points - center).T @ (points - center))

@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 from majordomo.perception.localization.alignment import Walls, align, odometry_covariance
 from majordomo.perception.localization.planar import Pose2, wrap
-from majordomo.perception.rooms.outline import Outline, find_outline
+from majordomo.perception.rooms.freeform import freeform_outline
+from majordomo.perception.rooms.outline import RECTILINEAR, Outline, find_outline
 from majordomo.perception.rooms.pose_graph import VotedCorner, optimize
 from majordomo.perception.rooms.slice import OutlineScan
 from majordomo.perception.rooms.views import View
@@ -98,13 +99,13 @@ class RoomMeasurement:
             return None
         solution = optimize(self._views)
         views = [view.moved(pose) for view, pose in zip(self._views, solution.poses, strict=True)]
-        outline = find_outline(views)
+        outline = _find(views)
         matched = [0.0] * len(views)
         for _ in range(self.settings.rounds):
             if outline is None:
                 return None
             views, matched = _align_all(views, outline)
-            outline = find_outline(views)
+            outline = _find(views)
         if outline is None:
             return None
         return Fit(
@@ -114,6 +115,14 @@ class RoomMeasurement:
             matched=tuple(matched),
             corners=solution.corners,
         )
+
+
+def _find(views: Sequence[View]) -> Outline | None:
+    """The rectilinear outline, or where walls are not at right angles what one view shows."""
+    outline = find_outline(views)
+    if outline is not None and outline.rectilinear > RECTILINEAR:
+        return outline
+    return freeform_outline(views) or outline
 
 
 def _align_all(views: Sequence[View], outline: Outline) -> tuple[list[View], list[float]]:

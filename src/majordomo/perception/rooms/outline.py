@@ -17,7 +17,7 @@ Array = NDArray[np.float64]
 
 _CORNER_CLEARANCE_M = 0.10
 _HARMLESS_GAP_M = 0.4
-_RECTILINEAR = 0.9
+RECTILINEAR = 0.9
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -44,7 +44,7 @@ class Outline:
     def closed(self) -> bool:
         """Whether walls were seen all around, without a stretch that could hide another part of the room."""
         return bool(
-            self.rectilinear > _RECTILINEAR and (self.gap_m < _HARMLESS_GAP_M).all() and (self.support > 0.5).all()
+            self.rectilinear > RECTILINEAR and (self.gap_m < _HARMLESS_GAP_M).all() and (self.support > 0.5).all()
         )
 
     def frontiers(self) -> list[tuple[Array, Array]]:

@@ -21,6 +21,7 @@ from majordomo.skills.kinematics import arm_target
 from majordomo.skills.navigation.local_map import draw_map
 from majordomo.skills.navigation.pose import footprint_radius_m, look_around, planar_pose, robot_frame
 from majordomo.skills.navigation.route import find_routes
+from majordomo.skills.navigation.walls import Walls
 from majordomo.skills.place_spot import GAP_M, Spot
 from majordomo.skills.ports import ArmTarget
 
@@ -87,7 +88,7 @@ class ChooseSpot(Action):
         centers = np.array([spot.anchor.position(snapshot, frame)[:2] for spot in spots])
         points = [pose.point, *((float(x), float(y)) for x, y in centers)]
         around = self.context.surroundings.points()
-        grid = draw_map(snapshot, frame, around, points, stamp_s=self.context.stamp_s)
+        grid = draw_map(snapshot, frame, around, points, walls=Walls.of(snapshot, frame), stamp_s=self.context.stamp_s)
         routes = find_routes(grid, pose.point, footprint_radius_m(self.context))
         best = np.array([routes.cost_at(ring(center, RADII_M[:-1])[0]).min() for center in centers])
         best = np.where([self._is_low_enough(spot) for spot in spots], best, np.inf)

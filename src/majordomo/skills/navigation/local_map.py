@@ -5,19 +5,14 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 
 import numpy as np
-from scipy.spatial import cKDTree
 
-from majordomo.scene_graph.nodes import DoorNode, DoorState, ObjectNode, ObjectState, PersonNode, RoomNode
+from majordomo.scene_graph.nodes import ObjectNode, ObjectState, PersonNode, RoomNode
 from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.skills.geometry import Box2, Point2, Points, Pose2, inside_polygon
 from majordomo.skills.navigation.grid import Canvas, Grid
+from majordomo.skills.navigation.walls import MIN_CORNERS, Walls, door_gaps
 
 MARGIN_M = 2.0
-WALL_SKIN_M = 0.08
-"""Points this close to a wall that the graph knows are that wall, blurred by the noise of the ranges."""
-WALL_STEP_M = 0.05
-DOOR_DEPTH_M = 0.5
-MIN_CORNERS = 3
 PERSON_RADIUS_M = 0.25
 PERSON_FRESH_S = 5.0
 ROBOT_HEIGHT_M = 1.75
@@ -31,6 +26,7 @@ def draw_map(
     obstacles: Points,
     spots: Sequence[Point2],
     *,
+    walls: Walls,
     stamp_s: float,
     believe_furniture: bool = True,
     ignore: Collection[str] = (),
@@ -47,7 +43,7 @@ def draw_map(
     canvas = Canvas.covering((float(low[0]), float(low[1])), (float(high[0]), float(high[1])))
     if polygon:
         _draw_walls(canvas, snapshot, frame, polygon)
-    canvas.block_points(explained(snapshot, frame, obstacles) if polygon else obstacles)
+    canvas.block_points(walls.explain(obstacles) if polygon else obstacles)
     if believe_furniture:
         for box in furniture(snapshot, frame, ignore):
             canvas.block_box(box)
@@ -55,28 +51,6 @@ def draw_map(
             if person.id not in ignore and stamp_s - person.last_seen_s < PERSON_FRESH_S:
                 canvas.block_disc(_position(snapshot, person.id, frame), PERSON_RADIUS_M)
     return canvas.finish()
-
-
-def explained(snapshot: Snapshot, frame: str, points: Points) -> Points:
-    """``points`` (N, 2) with those that are a known wall of the room put onto it: noise must not narrow the room."""
-    walls = wall_points(snapshot, frame)
-    if not len(walls) or not len(points):
-        return points
-    far, _ = cKDTree(walls).query(points, distance_upper_bound=WALL_SKIN_M)
-    return np.concatenate([points[np.isinf(far)], walls])
-
-
-def wall_points(snapshot: Snapshot, frame: str) -> Points:
-    """Points (N, 2) along the walls of a room, door gaps left out; none where no room stands."""
-    room = snapshot.get(frame)
-    if not isinstance(room, RoomNode) or len(room.polygon_m) < MIN_CORNERS:
-        return np.zeros((0, 2))
-    corners = np.array(room.polygon_m)
-    sides = zip(corners, np.roll(corners, -1, axis=0), strict=True)
-    points = np.concatenate([np.linspace(a, b, int(np.hypot(*(b - a)) / WALL_STEP_M) + 2) for a, b in sides])
-    for gap in door_gaps(snapshot, frame):
-        points = points[~gap.contains(points)]
-    return points
 
 
 def furniture(snapshot: Snapshot, frame: str, ignore: Collection[str] = ()) -> list[Box2]:
@@ -91,17 +65,6 @@ def furniture(snapshot: Snapshot, frame: str, ignore: Collection[str] = ()) -> l
 def footprint(snapshot: Snapshot, node: ObjectNode, frame: str) -> Box2:
     """The rectangle that an object covers on the floor of ``frame``."""
     return Box2(Pose2.of(snapshot.transform(frame, node.id)), node.size_m[0], node.size_m[1])
-
-
-def door_gaps(snapshot: Snapshot, room: str) -> list[Box2]:
-    """Passages through the walls of ``room`` that are not closed, in its frame, a little deeper than the wall."""
-    gaps = []
-    for door in snapshot.of_type(DoorNode):
-        if door.rooms[0] == room and door.state is not DoorState.CLOSED:
-            pose = Pose2.of(snapshot.transform(room, door.id))
-            x_m, y_m = pose.apply(np.array([[0.0, 0.1 - DOOR_DEPTH_M]]))[0]
-            gaps.append(Box2(Pose2(float(x_m), float(y_m), pose.yaw_rad), door.width_m, 2 * DOOR_DEPTH_M))
-    return gaps
 
 
 def _walls_around(snapshot: Snapshot, frame: str, spots: Sequence[Point2]) -> tuple[Point2, ...]:

@@ -13,6 +13,7 @@ from majordomo.skills.navigation.grid import Grid
 from majordomo.skills.navigation.local_map import draw_map
 from majordomo.skills.navigation.pose import footprint_radius_m
 from majordomo.skills.navigation.route import Routes, find_routes
+from majordomo.skills.navigation.walls import Walls
 
 SAME_GOAL_M = 0.08
 KEEP_GOAL_M = 0.3
@@ -44,6 +45,7 @@ class Plan:
     goal: Goal
     path: tuple[Point2, ...]
     grid: Grid
+    walls: Walls
 
 
 def make_plan(
@@ -51,12 +53,14 @@ def make_plan(
 ) -> Plan | None:
     """The cheapest goal and the way there: first with what the graph believes, else with raw points alone."""
     spots = [pose.point, *(goal.point for goal in goals(None))]
+    walls = Walls.of(context.snapshot, frame)
     for believe_furniture in (True, False):
         grid = draw_map(
             context.snapshot,
             frame,
             context.surroundings.points(),
             spots,
+            walls=walls,
             stamp_s=context.stamp_s,
             believe_furniture=believe_furniture,
             ignore=ignore,
@@ -64,7 +68,7 @@ def make_plan(
         routes = find_routes(grid, pose.point, footprint_radius_m(context))
         goal = _cheapest(routes, goals(routes), last)
         if goal is not None and (path := routes.path_to(goal.point)):
-            return Plan(frame=frame, made_s=context.stamp_s, goal=goal, path=path, grid=grid)
+            return Plan(frame=frame, made_s=context.stamp_s, goal=goal, path=path, grid=grid, walls=walls)
     return None
 
 

@@ -1,0 +1,86 @@
+"""A stored scene graph and a planner, for people who have a graph and want plans."""
+
+from __future__ import annotations
+
+import json
+import time
+from collections.abc import Sequence
+from pathlib import Path
+
+from majordomo.app.scheduler import Agent
+from majordomo.planner.grammar.parser import CommandGrammar
+from majordomo.planner.models.protocol import LanguageModel
+from majordomo.planner.paper import PaperMission
+from majordomo.planner.queue import TaskQueue
+from majordomo.planner.task_planner import TaskPlanner
+from majordomo.planner.verifier import Verifier
+from majordomo.scene_graph.errors import SceneFormatError
+from majordomo.scene_graph.interchange import from_json
+from majordomo.scene_graph.memory import WorkingMemory
+from majordomo.skills.registry import load_registry
+
+
+class GraphStack:
+    """A stored scene graph and a planner; nothing moves."""
+
+    def __init__(self, memory: WorkingMemory, queue: TaskQueue, model: LanguageModel | None) -> None:
+        self.memory = memory
+        self._started = time.monotonic() - memory.snapshot().stamp_s
+        self._stopped = False
+        skills = load_registry()
+        verifier = Verifier(skills)
+        planner = TaskPlanner(CommandGrammar(), verifier, model)
+        self.agents: Sequence[Agent] = [PaperMission(memory, queue, planner, verifier)]
+
+    @classmethod
+    def load(cls, path: Path, queue: TaskQueue, model: LanguageModel | None) -> GraphStack:
+        """Read the graph from a file.
+
+        Raises:
+            SceneFormatError: naming the offending field.
+        """
+        try:
+            document = json.loads(path.read_text(encoding="utf-8"))
+        except json.JSONDecodeError as error:
+            raise SceneFormatError(str(path), f"line {error.lineno}, column {error.colno}: {error.msg}") from error
+        return cls(WorkingMemory(from_json(document)), queue, model)
+
+    @property
+    def path_room(self) -> tuple[tuple[float, float], ...]:
+        """Nothing drives."""
+        return ()
+
+    @property
+    def stopped(self) -> bool:
+        """Whether a person stopped; it is remembered although nothing moves."""
+        return self._stopped
+
+    @property
+    def camera_on(self) -> bool:
+        """There is no camera."""
+        return False
+
+    @property
+    def exploring(self) -> bool:
+        """A stored graph is not explored."""
+        return False
+
+    @property
+    def degraded(self) -> str | None:
+        """No perception, nothing wrong with it."""
+        return None
+
+    def now(self) -> float:
+        """Seconds of the stored graph's clock, which goes on from the graph's stamp."""
+        return time.monotonic() - self._started
+
+    def stop(self) -> None:
+        """Remember the stop."""
+        self._stopped = True
+
+    def release_stop(self) -> None:
+        """Forget the stop."""
+        self._stopped = False
+
+    async def close(self) -> None:
+        """Nothing to release."""

@@ -1,0 +1,165 @@
+"""A robot with perception, skills and planner around it.
+
+Agents are listed in the order in which they take their turns in lockstep: sense, localize, map, see, decide, act.
+"""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Sequence
+
+import numpy as np
+
+from majordomo.app.event_log import EventLog
+from majordomo.app.ranges import ScanRanges
+from majordomo.app.scheduler import Agent
+from majordomo.app.settings import ClockMode, Settings
+from majordomo.perception.doors.door_concept import DoorConcept
+from majordomo.perception.labels import RoomLabels
+from majordomo.perception.localization.energy_optimizer import EnergyOptimizer
+from majordomo.perception.memory.long_term_memory import LongTermMemory
+from majordomo.perception.objects.agent import ObjectMemory
+from majordomo.perception.preview import WatchedModel, preview_jpeg
+from majordomo.perception.rooms.room_concept import RoomConcept
+from majordomo.perception.sensing import Sensing, SensorBuffer
+from majordomo.planner.arbiter import Arbiter
+from majordomo.planner.crew import Crew
+from majordomo.planner.executor import Executor
+from majordomo.planner.exploration import explore, look_at
+from majordomo.planner.grammar.parser import CommandGrammar
+from majordomo.planner.mission import Mission
+from majordomo.planner.models.protocol import LanguageModel
+from majordomo.planner.queue import TaskQueue
+from majordomo.planner.skill_planner import SkillPlanner
+from majordomo.planner.task_planner import TaskPlanner
+from majordomo.planner.verifier import Verifier
+from majordomo.scene_graph.memory import WorkingMemory
+from majordomo.simulation.client import SimulatedRobot
+from majordomo.simulation.errors import SimulatorDied
+from majordomo.simulation.stand_in import SegmentationStandIn
+from majordomo.skills.registry import load_registry
+
+
+class RobotStack:
+    """A simulated robot and all agents around it. Make one with ``build``."""
+
+    def __init__(
+        self, robot: SimulatedRobot, settings: Settings, queue: TaskQueue, model: LanguageModel | None, log: EventLog
+    ) -> None:
+        self.robot = robot
+        self.memory = WorkingMemory()
+        self._settings = settings
+        seeds = np.random.SeedSequence(settings.seed).spawn(2)
+        buffer = SensorBuffer(robot)
+        self._executor = Executor(
+            self.memory,
+            robot,
+            ScanRanges(buffer),
+            explore=explore,
+            on_event=lambda event: log.write(event["stamp_s"], "executor", event),
+            silent=(SimulatorDied,),
+        )
+        self._eyes = WatchedModel(SegmentationStandIn(robot, np.random.default_rng(seeds[0])))
+        self._objects = self._object_memory(buffer, np.random.default_rng(seeds[1])) if settings.camera else None
+        self._buffer = buffer
+        skills = load_registry()
+        verifier = Verifier(skills)
+        crew = Crew(
+            memory=self.memory,
+            queue=queue,
+            verifier=verifier,
+            skills=SkillPlanner(skills),
+            executor=self._executor,
+            look_at=look_at,
+            sensor_ages=self._sensor_ages,
+            on_event=lambda event: log.write(event["stamp_s"], "mission", event),
+        )
+        planner = TaskPlanner(
+            CommandGrammar(), verifier, model, journal=lambda entry: log.write(self.now(), "model", entry)
+        )
+        seeing: list[Agent] = [self._objects, RoomLabels(self.memory)] if self._objects is not None else []
+        self.agents: Sequence[Agent] = [
+            Sensing(buffer, camera_period_s=0.2 if settings.camera else None),
+            EnergyOptimizer(self.memory, buffer),
+            RoomConcept(self.memory, buffer),
+            DoorConcept(self.memory, buffer),
+            LongTermMemory(self.memory, buffer),
+            *seeing,
+            Arbiter(self.memory, stopped=lambda: self.stopped, exploration_enabled=settings.explore),
+            Mission(crew, planner),
+            self._executor,
+        ]
+
+    @classmethod
+    async def build(
+        cls, settings: Settings, queue: TaskQueue, model: LanguageModel | None, log: EventLog
+    ) -> RobotStack:
+        """Start the simulator and build everything around it.
+
+        Raises:
+            HouseError: the house cannot be built.
+        """
+        mode = "lockstep" if settings.clock is ClockMode.LOCKSTEP else "real"
+        robot = await SimulatedRobot.start(settings.house, seed=settings.seed, mode=mode, speed=settings.speed or 1.0)
+        return cls(robot, settings, queue, model, log)
+
+    @property
+    def path_room(self) -> tuple[tuple[float, float], ...]:
+        """The path being followed, in the frame of the robot's parent."""
+        return self._executor.context.path_room if self._executor.context is not None else ()
+
+    @property
+    def stopped(self) -> bool:
+        """Whether the software stop is latched."""
+        return self.robot.stopped
+
+    @property
+    def exploring(self) -> bool:
+        """Whether exploration is switched on."""
+        return self._settings.explore
+
+    @property
+    def degraded(self) -> str | None:
+        """What is wrong with perception, if anything."""
+        if self._buffer.silent:
+            return f"silent: {', '.join(sorted(self._buffer.silent))}"
+        return self._objects.degraded if self._objects is not None else None
+
+    def now(self) -> float:
+        """Robot time in seconds."""
+        return self.robot.now_s
+
+    async def advance(self, duration_s: float) -> float:
+        """Advance simulated time (lockstep); the new time."""
+        return await self.robot.advance(duration_s)
+
+    def stop(self) -> None:
+        """Latch the robot's own stop."""
+        self.robot.stop()
+
+    def release_stop(self) -> None:
+        """Lift the latched stop."""
+        self.robot.release_stop()
+
+    @property
+    def camera_on(self) -> bool:
+        """Whether there is a frame to show."""
+        return self._eyes.newest is not None
+
+    async def camera_jpeg(self) -> bytes | None:
+        """The newest frame with outlined objects."""
+        newest = self._eyes.newest
+        return await asyncio.to_thread(preview_jpeg, *newest) if newest is not None else None
+
+    async def close(self) -> None:
+        """End the simulator."""
+        await self.robot.close()
+
+    def _object_memory(self, buffer: SensorBuffer, random: np.random.Generator) -> ObjectMemory:
+        return ObjectMemory(self.memory, buffer, self._eyes, random=random)
+
+    def _sensor_ages(self) -> dict[str, float]:
+        """Seconds since the newest data of each sensor."""
+        newest = {"lidar": self._buffer.scan, "camera": self._buffer.frame, "joints": self._buffer.joints}
+        now_s = self.now()
+        return {name: now_s - data.stamp_s for name, data in newest.items() if data is not None}

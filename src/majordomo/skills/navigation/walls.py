@@ -1,0 +1,57 @@
+"""The walls of a room as points, and obstacle points explained by them: the ranges' noise must not narrow a room."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from majordomo.scene_graph.nodes import DoorNode, DoorState, RoomNode
+from majordomo.scene_graph.snapshot import Snapshot
+from majordomo.skills.geometry import Box2, Points, Pose2
+
+SKIN_M = 0.08
+"""Points this close to a wall that the graph knows are that wall, blurred by noise."""
+STEP_M = 0.05
+MIN_CORNERS = 3
+DOOR_DEPTH_M = 0.5
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Walls:
+    """Points (N, 2) along the walls of a room, door gaps left out; none where no room stands."""
+
+    points: Points
+    tree: cKDTree | None
+
+    @classmethod
+    def of(cls, snapshot: Snapshot, frame: str) -> Walls:
+        """The walls of the room ``frame``, in its frame."""
+        room = snapshot.get(frame)
+        if not isinstance(room, RoomNode) or len(room.polygon_m) < MIN_CORNERS:
+            return cls(points=np.zeros((0, 2)), tree=None)
+        corners = np.array(room.polygon_m)
+        sides = zip(corners, np.roll(corners, -1, axis=0), strict=True)
+        points = np.concatenate([np.linspace(a, b, int(np.hypot(*(b - a)) / STEP_M) + 2) for a, b in sides])
+        for gap in door_gaps(snapshot, frame):
+            points = points[~gap.contains(points)]
+        return cls(points=points, tree=cKDTree(points) if len(points) else None)
+
+    def explain(self, points: Points) -> Points:
+        """``points`` (N, 2) without those that are a known wall, and the walls themselves."""
+        if self.tree is None or not len(points):
+            return points
+        far, _ = self.tree.query(points, distance_upper_bound=SKIN_M)
+        return np.concatenate([points[np.isinf(far)], self.points])
+
+
+def door_gaps(snapshot: Snapshot, room: str) -> list[Box2]:
+    """Passages through the walls of ``room`` that are not closed, in its frame, a little deeper than the wall."""
+    gaps = []
+    for door in snapshot.of_type(DoorNode):
+        if door.rooms[0] == room and door.state is not DoorState.CLOSED:
+            pose = Pose2.of(snapshot.transform(room, door.id))
+            x_m, y_m = pose.apply(np.array([[0.0, 0.1 - DOOR_DEPTH_M]]))[0]
+            gaps.append(Box2(Pose2(float(x_m), float(y_m), pose.yaw_rad), door.width_m, 2 * DOOR_DEPTH_M))
+    return gaps

@@ -1,0 +1,115 @@
+"""Sensor buffer and the agent that fills it."""
+
+from __future__ import annotations
+
+import asyncio
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from majordomo.perception.errors import OdometryUnavailable, SensorSilent
+from majordomo.perception.localization.planar import Pose2
+from majordomo.perception.ports import Odometry, RgbdFrame
+from majordomo.perception.sensing import Sensing, SensorBuffer, scan_points_base
+from unit.perception.exploring_robot import HousePort
+from unit.perception.lidar_house import House, cast, rectangle
+
+ROOM = House(rooms={"a": rectangle(4.0, 3.0)})
+
+
+def sample(stamp_s: float, x_m: float = 0.0, yaw_rad: float = 0.0, linear_mps: float = 0.0) -> Odometry:
+    return Odometry(stamp_s=stamp_s, x_m=x_m, y_m=0.0, yaw_rad=yaw_rad, linear_mps=linear_mps, angular_radps=0.0)
+
+
+def buffer_with(*samples: Odometry) -> SensorBuffer:
+    buffer = SensorBuffer(port())
+    for one in samples:
+        buffer.add_odometry(one)
+    return buffer
+
+
+def port() -> HousePort:
+    return HousePort(house=ROOM, pose=Pose2(1.0, 1.0, 0.0), rng=np.random.default_rng(0), sigma_m=0.0)
+
+
+@given(st.floats(0.0, 1.0))
+def test_odometry_between_two_samples_lies_between_them(fraction: float) -> None:
+    buffer = buffer_with(sample(1.0, x_m=2.0, yaw_rad=0.2), sample(2.0, x_m=4.0, yaw_rad=0.6))
+    pose = buffer.odometry_at(1.0 + fraction)
+    assert pose.x_m == pytest.approx(2.0 + 2.0 * fraction)
+    assert pose.yaw_rad == pytest.approx(0.2 + 0.4 * fraction)
+
+
+def test_yaw_is_interpolated_the_short_way_round() -> None:
+    buffer = buffer_with(sample(0.0, yaw_rad=math.pi - 0.1), sample(1.0, yaw_rad=-math.pi + 0.1))
+    assert abs(buffer.odometry_at(0.5).yaw_rad) == pytest.approx(math.pi)
+
+
+def test_the_newest_velocity_carries_on_for_half_a_second_only() -> None:
+    buffer = buffer_with(sample(0.0), sample(1.0, x_m=1.0, linear_mps=2.0))
+    assert buffer.odometry_at(1.25).x_m == pytest.approx(1.5)
+    with pytest.raises(OdometryUnavailable, match=r"available: 0\.00 s to 1\.00 s"):
+        buffer.odometry_at(1.6)
+
+
+def test_no_odometry_yet_is_an_error_that_says_so() -> None:
+    with pytest.raises(OdometryUnavailable, match="none has arrived yet"):
+        buffer_with().odometry_at(0.0)
+
+
+def test_odometry_near_stays_within_what_is_recorded() -> None:
+    buffer = buffer_with(sample(1.0, x_m=1.0), sample(2.0, x_m=2.0))
+    assert buffer.odometry_near(-5.0).x_m == pytest.approx(1.0)
+    assert buffer.odometry_near(99.0).x_m == pytest.approx(2.0)
+
+
+def test_points_of_a_scan_lie_on_the_walls_or_the_floor() -> None:
+    pose = Pose2(1.3, 0.8, 0.7)
+    points = scan_points_base(cast(ROOM, pose, np.random.default_rng(0), sigma_m=0.0))
+    placed = pose.apply(points[:, :2])
+    from_wall = np.minimum(np.minimum(placed[:, 0], 4.0 - placed[:, 0]), np.minimum(placed[:, 1], 3.0 - placed[:, 1]))
+    assert np.minimum(np.abs(from_wall), np.abs(points[:, 2])).max() < 1e-5
+
+
+class HalfDeaf(HousePort):
+    """A robot whose LiDAR can be switched off, and whose camera counts how often it is asked."""
+
+    deaf = False
+    asked = 0
+
+    async def scan(self):  # type: ignore[no-untyped-def]
+        if self.deaf:
+            raise SensorSilent("scan", 0.5)
+        return await super().scan()
+
+    async def frame(self) -> RgbdFrame:
+        self.asked += 1
+        return await super().frame()
+
+
+def test_a_silent_sensor_is_marked_until_it_is_back_and_its_last_data_stay() -> None:
+    robot = HalfDeaf(house=ROOM, pose=Pose2(1.0, 1.0, 0.0), rng=np.random.default_rng(0))
+    buffer = SensorBuffer(robot)
+    agent = Sensing(buffer, camera_period_s=None)
+    asyncio.run(agent.step(0.0))
+    before = buffer.scan
+    robot.deaf = True
+    asyncio.run(agent.step(0.1))
+    asyncio.run(agent.step(0.2))
+    assert buffer.silent == {"scan": 0.1}
+    assert buffer.scan is before
+    robot.deaf = False
+    asyncio.run(agent.step(0.3))
+    assert buffer.silent == {}
+    assert buffer.scan is not before
+
+
+def test_the_camera_is_asked_at_its_own_period() -> None:
+    robot = HalfDeaf(house=ROOM, pose=Pose2(1.0, 1.0, 0.0), rng=np.random.default_rng(0))
+    agent = Sensing(SensorBuffer(robot), camera_period_s=0.2)
+    for step in range(10):
+        asyncio.run(agent.step(step * 0.1))
+    assert robot.asked == 5

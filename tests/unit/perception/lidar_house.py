@@ -105,7 +105,7 @@ def cast(
     directions = np.stack([np.cos(angles), np.sin(angles)], axis=1)
     start, edge = faces[:, 0:2] - pose.position_m, faces[:, 2:4] - faces[:, 0:2]
     cross = directions[:, None, 0] * edge[None, :, 1] - directions[:, None, 1] * edge[None, :, 0]
-    with np.errstate(divide="ignore", invalid="ignore"):
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         distance = (start[:, 0] * edge[:, 1] - start[:, 1] * edge[:, 0])[None, :] / cross
         station = (start[None, :, 0] * directions[:, None, 1] - start[None, :, 1] * directions[:, None, 0]) / cross
     distance[~((station >= 0.0) & (station <= 1.0) & (distance > 1e-6))] = np.inf

@@ -1,17 +1,19 @@
 // Ties stream, map, requests, camera and log together.
 
 import { fillDetails } from "./details.js";
+import { Journal } from "./journal.js";
 import { BuildingMap } from "./map.js";
 import { call, Stream } from "./service.js";
 import { suggestions } from "./suggestions.js";
 import { TaskList } from "./tasks.js";
-import { clock, title } from "./words.js";
+import { title } from "./words.js";
 
 const CAMERA_MS = 700;
 const $ = (id) => document.getElementById(id);
 const scene = { nodes: new Map(), edges: new Map(), robot: null, selected: null };
 let status = {}, state = "lost", ideas = [];
 
+const journal = new Journal($("log"));
 const map = new BuildingMap($("map"), select);
 const tasks = new TaskList($("tasks"), (id, name, body) => attempt(() => call("POST", `/v1/tasks/${id}/${name}`, body)));
 
@@ -70,21 +72,6 @@ function suggest() {
   })));
 }
 
-function log(message, stamp_s) {
-  const [item, time] = [document.createElement("li"), document.createElement("time")];
-  time.textContent = clock(stamp_s);
-  item.append(time, message);
-  $("log").prepend(item);
-  while ($("log").children.length > 200) $("log").lastChild.remove();
-}
-
-function logDiscoveries(found, stamp_s) {
-  for (const node of found) {
-    if (scene.nodes.has(node.id) || node.provisional || node.status === "temporary") continue;
-    if (["room", "door", "object", "person"].includes(node.type)) log(`found ${title(node)}${node.type === "door" ? ` of ${title(scene.nodes.get(node.room) ?? { id: "a room" })}` : ""}`, stamp_s);
-  }
-}
-
 const edgeKey = (edge) => [edge.type, edge.source, edge.target, edge.label].join("|");
 const handlers = {
   snapshot(data) {
@@ -92,7 +79,7 @@ const handlers = {
     scene.edges = new Map(data.scene.edges.map((edge) => [edgeKey(edge), edge]));
     status = data.status;
     tasks.clear();
-    data.tasks.forEach((task) => tasks.show(task, scene));
+    for (const task of data.tasks) { tasks.show(task, scene); journal.remember(task); }
     $("no-tasks").hidden = data.tasks.length > 0;
     handlers.robot(data.robot);
     suggest();
@@ -100,7 +87,7 @@ const handlers = {
     showDetails();
   },
   scene(delta, stamp_s) {
-    logDiscoveries(delta.put_nodes, stamp_s);
+    journal.discovered(delta.put_nodes, scene.nodes, stamp_s);
     for (const node of delta.put_nodes) scene.nodes.set(node.id, node);
     for (const id of delta.removed_nodes) scene.nodes.delete(id);
     for (const edge of delta.put_edges) scene.edges.set(edgeKey(edge), edge);
@@ -109,7 +96,7 @@ const handlers = {
     showScene();
     showDetails();
   },
-  task(task) { tasks.show(task, scene); $("no-tasks").hidden = true; },
+  task(task, stamp_s) { tasks.show(task, scene); journal.follow(task, scene, stamp_s); $("no-tasks").hidden = true; },
   robot(robot) {
     const moved = robot.room !== scene.robot?.room;
     scene.robot = robot;
@@ -117,7 +104,7 @@ const handlers = {
     if (moved) showScene();
   },
   perception(news) { status = news; },
-  log(entry, stamp_s) { log(entry.message, stamp_s); },
+  log(entry, stamp_s) { journal.say(entry.message, stamp_s); },
   problem({ detail }) { showProblem(detail); },
 };
 

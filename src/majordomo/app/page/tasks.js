@@ -1,6 +1,6 @@
 // Requests and what became of them: reply, plan as a timeline, failures with explanation, and what a person may do next.
 
-import { choices, goal, step } from "./words.js";
+import { action, choices, goal, step } from "./words.js";
 
 const MARKS = { running: "▸", succeeded: "✓", failed: "✕", skipped: "–" };
 const ENDED = new Set(["succeeded", "failed", "cancelled", "refused"]);
@@ -47,8 +47,8 @@ export class TaskList {
     if (task.reply && task.reply !== task.explanation) item.append(el("p", "reply", task.reply));
     if (task.failures.length) item.append(el("ol", "failures", ...task.failures.map(failureItem)));
     if (task.plan) item.append(el("ol", "steps", ...task.plan.steps.map((part) => stepItem(part, nodes))));
-    if (task.explanation) item.append(el("p", "reply", task.explanation));
-    if (task.verified?.length) item.append(el("ul", "verified", ...task.verified.map((part) => verifiedItem(part, nodes))));
+    if (task.explanation && task.status !== "running") item.append(el("p", "reply", task.explanation));
+    if (ENDED.has(task.status) && task.verified.length) item.append(el("ul", "verified", ...task.verified.map((part) => verifiedItem(part, nodes))));
     if (task.status === "awaiting_answer") item.append(this.#question(task, nodes, edges));
     if (!ENDED.has(task.status)) item.append(this.#controls(task));
     return item;
@@ -85,10 +85,10 @@ function button(text, onClick, className = "") {
 }
 
 function stepItem(part, nodes) {
-  const active = (part.actions ?? []).find((action) => action.status === "running");
+  const active = part.status === "running" && part.actions.find(({ status }) => status === "running");
   const item = el("li", part.status, el("span", "mark", MARKS[part.status] ?? ""), el("span", "what", step(part, nodes)),
     el("span", "seconds", part.seconds ? `${Math.round(part.seconds)} s` : ""));
-  if (active) item.append(el("span", "action", active.name.replaceAll("_", " ")));
+  if (active) item.append(el("span", "action", action(active.name, nodes)));
   item.title = `${part.skill}(${part.args.join(", ")})`;
   return item;
 }

@@ -34,6 +34,11 @@ export function step({ skill, args }, nodes) {
   }
 }
 
+// "approach door_1_3_0" with people's words for the identifiers in it.
+export function action(name, nodes) {
+  return name.replace(/[a-z]+(_[a-z]+)*(_\d+)+/g, (id) => (id.startsWith("door_") ? "the door" : definite(id, nodes)));
+}
+
 export function goal({ predicate, args }, nodes) {
   const [first, second] = args.map((id) => definite(id, nodes));
   switch (predicate) {

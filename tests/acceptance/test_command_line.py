@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 
 import pytest
+
 from service_process import majordomo
 
 ROOM = {"id": "a", "label": "kitchen", "polygon": [[0, 0], [4, 0], [4, 3], [0, 3]]}

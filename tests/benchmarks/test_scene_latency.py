@@ -6,6 +6,7 @@ import time
 
 import numpy as np
 import pytest
+
 from service_process import serving
 
 REQUESTS, DURATION_S, LIMIT_MS = 1000, 30.0, 50.0

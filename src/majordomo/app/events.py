@@ -49,6 +49,7 @@ class Listener:
 
     def require_snapshot(self) -> None:
         """Make the next event a snapshot."""
+        self._queue.clear()
         self._behind = True
         self._ready.set()
 
@@ -93,6 +94,13 @@ class EventStream:
         self._history.append(event)
         for listener in self._listeners:
             listener.offer(event)
+
+    def begin_anew(self) -> None:
+        """What is shown has changed altogether: everyone gets a snapshot, also who comes back with an older number."""
+        self._seq += 1
+        self._history.clear()
+        for listener in self._listeners:
+            listener.require_snapshot()
 
     @contextmanager
     def listen(self, since: int | None = None) -> Any:

@@ -59,6 +59,7 @@ class Runtime:
         self._lost = ""
         self._scene_cache: dict[tuple[str, tuple[str, ...]], tuple[int, bytes]] = {}
         self._changed = asyncio.Condition()
+        self._restarting = asyncio.Lock()
         self.queue.listen(self._on_task)
 
     @contextlib.asynccontextmanager
@@ -129,14 +130,16 @@ class Runtime:
 
     async def restart_robot(self) -> bool:
         """Bring a dead simulator back with an empty graph, since its house begins anew; false while it is alive."""
-        if self.robot is None or self.robot.alive:
-            return False
-        for task in self.queue.tasks:
-            if not task.status.ended:
-                self.queue.cancel(task.id, stamp_s=self.now_s)
-        await self._halt()
-        self._lost = ""
-        await self._start()
+        async with self._restarting:
+            if self.robot is None or self.robot.alive:
+                return False
+            for task in self.queue.tasks:
+                if not task.status.ended:
+                    self.queue.cancel(task.id, stamp_s=self.now_s)
+            await self._halt()
+            self._lost = ""
+            await self._start()
+        self.stream.begin_anew()
         self._say("the simulator was restarted; the building is explored again")
         return True
 

@@ -48,34 +48,48 @@ def page_address(listener: socket.socket, token: Token) -> str:
 
 
 class _Server(uvicorn.Server):
-    """A uvicorn server that tells when it accepts requests."""
+    """A uvicorn server around a running runtime.
 
-    def __init__(self, config: uvicorn.Config, on_ready: Callable[[], None]) -> None:
+    ``life`` holds what starts before the first connection and ends after the last, whatever signal ends the process.
+    What keeps the runtime from starting is raised by ``serve``.
+    """
+
+    def __init__(self, config: uvicorn.Config, runtime: Runtime, on_ready: Callable[[], None]) -> None:
         super().__init__(config)
+        self.life = contextlib.AsyncExitStack()
+        self._runtime = runtime
         self._on_ready = on_ready
 
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:
+        await self.life.enter_async_context(self._runtime.running())
         await super().startup(sockets)
         if self.started and not self.should_exit:
             self._on_ready()
 
+    async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
+        await super().shutdown(sockets)
+        await self.life.aclose()
+
 
 async def serve(runtime: Runtime, listener: socket.socket, token: Token, on_ready: Callable[[], None]) -> bool:
     """Serve until interrupted; whether start-up succeeded."""
-    with _announced(runtime.settings, listener, token):
-        server = _make_server(runtime, token, on_ready)
-        await server.serve(sockets=[listener])
-        return server.started
+
+    def ready() -> None:
+        server.life.enter_context(_announced(runtime.settings, listener, token))
+        on_ready()
+
+    server = _make_server(runtime, token, ready)
+    await server.serve(sockets=[listener])
+    return server.started
 
 
 @contextlib.asynccontextmanager
 async def serving(runtime: Runtime, listener: socket.socket, token: Token) -> AsyncIterator[None]:
-    """Serve in the background of a program that runs the runtime itself (the demo)."""
+    """Serve in the background of a program that works with the runtime itself (the demo)."""
     import asyncio
 
     ready = asyncio.Event()
     server = _make_server(runtime, token, ready.set)
-    server.install_signal_handlers = lambda: None  # type: ignore[attr-defined]
     task = asyncio.create_task(server.serve(sockets=[listener]))
     waiting = asyncio.create_task(ready.wait())
     await asyncio.wait({task, waiting}, return_when=asyncio.FIRST_COMPLETED)
@@ -93,13 +107,14 @@ async def serving(runtime: Runtime, listener: socket.socket, token: Token) -> As
 def _make_server(runtime: Runtime, token: Token, on_ready: Callable[[], None]) -> _Server:
     config = uvicorn.Config(
         make_service(runtime, token),
+        lifespan="off",
         log_level="warning",
         access_log=False,
         ws_max_size=65_536,
         timeout_graceful_shutdown=SHUTDOWN_TIMEOUT_S,
         server_header=False,
     )
-    return _Server(config, on_ready)
+    return _Server(config, runtime, on_ready)
 
 
 @contextlib.contextmanager

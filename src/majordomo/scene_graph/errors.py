@@ -1,6 +1,5 @@
 """What can go wrong with the scene graph; every error carries its data and lists what was available."""
 
-
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import io
 import json
-import stat
 
 import pytest
 from rich.console import Console
@@ -82,18 +81,3 @@ def test_the_service_is_found_by_its_address_or_where_it_left_it(tmp_path):
         find_service(None, None, tmp_path)
     (tmp_path / "service.json").write_text(json.dumps({"address": "http://127.0.0.1:1", "token": "t", "pid": 1}))
     assert find_service(None, None, tmp_path).address == "http://127.0.0.1:1"
-
-
-async def test_a_running_service_leaves_its_address_readable_by_its_owner_only(tmp_path):
-    from majordomo.app.http.security import Token
-    from majordomo.app.server import _announced, bind
-    from majordomo.app.settings import Settings
-
-    settings = Settings(data=tmp_path, port=0)
-    token = Token.stored_in(tmp_path)
-    with bind(settings) as listener:
-        with _announced(settings, listener, token):
-            assert stat.S_IMODE((tmp_path / "service.json").stat().st_mode) == 0o600
-            found = find_service(None, None, tmp_path)
-            assert (found.token, found.address.rpartition(":")[2]) == (token.value, str(listener.getsockname()[1]))
-        assert not (tmp_path / "service.json").exists()

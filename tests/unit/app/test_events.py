@@ -72,3 +72,28 @@ async def test_a_client_that_left_is_forgotten():
         pass
     stream.publish("log", 1, 0.0)
     assert stream._listeners == []
+
+
+async def test_when_everything_begins_anew_everyone_gets_a_snapshot_whatever_they_have_seen():
+    stream = EventStream(dict)
+    stream.publish("log", 1, 0.0)
+    with stream.listen(since=stream.seq) as listener:
+        stream.publish("log", 2, 0.0)
+        seen = stream.seq
+        stream.begin_anew()
+        [event] = await take(listener, 1)
+        assert (event.type, event.seq) == ("snapshot", seen + 1)
+    with stream.listen(since=seen) as returning:
+        [event] = await take(returning, 1)
+    assert event.type == "snapshot"
+
+
+async def test_a_number_of_an_earlier_life_of_the_service_gets_a_snapshot():
+    earlier = EventStream(dict, first_seq=1_000)
+    earlier.publish("log", 1, 0.0)
+    later = EventStream(dict, first_seq=9_000)
+    for index in range(5):
+        later.publish("log", index, 0.0)
+    with later.listen(since=earlier.seq) as listener:
+        [event] = await take(listener, 1)
+    assert event.type == "snapshot"

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field, replace
 from typing import Protocol
 
 import numpy as np
+
 from majordomo.perception.errors import SensorSilent
 from majordomo.perception.localization.planar import Pose2, wrap
 from majordomo.perception.ports import JointState, LidarScan, Odometry, RgbdFrame
@@ -249,7 +250,7 @@ def _search(
 
 @dataclass(kw_only=True)
 class Exploration:
-    """Agents, driver and house, advanced together."""
+    """Agents, driver and house, advanced together. ``seconds``: processor time of each agent's steps."""
 
     memory: WorkingMemory
     port: HousePort
@@ -276,9 +277,9 @@ class Exploration:
         while self.port.stamp_s < end and not until(self):
             self.port.stamp_s = round(self.port.stamp_s + STEP_S, 6)
             for agent in self.agents:
-                begin = time.perf_counter()
+                begin = time.process_time()
                 await agent.step(self.port.stamp_s)
-                self.seconds.setdefault(agent.name, []).append(time.perf_counter() - begin)
+                self.seconds.setdefault(agent.name, []).append(time.process_time() - begin)
             self.log.append((self.port.stamp_s, *self.localization_error()))
             self.driver.step()
 

@@ -73,7 +73,9 @@ def test_outline_ranges_are_unbiased_where_two_rings_hit_the_same_wall() -> None
 def test_the_slicer_learns_how_high_the_walls_are() -> None:
     slicer = OutlineSlicer()
     for x_m in (1.0, 1.5, 2.0):
-        slicer.cut(cast(House(rooms={"a": rectangle(4.0, 3.0)}, height=2.8), Pose2(x_m, 1.0, 0.0), np.random.default_rng(0)))
+        slicer.cut(
+            cast(House(rooms={"a": rectangle(4.0, 3.0)}, height=2.8), Pose2(x_m, 1.0, 0.0), np.random.default_rng(0))
+        )
     assert slicer.wall_top_m == pytest.approx(2.8, abs=0.05)
     assert slicer.ceiling_m is None
 

@@ -1,6 +1,6 @@
 // The log: what the service says, what is discovered, and how requests go on, in robot time.
 
-import { clock, step, title } from "./words.js";
+import { clock, definite, step, title } from "./words.js";
 
 const KEPT = 200;
 const DISCOVERED = new Set(["room", "door", "object", "person"]);
@@ -23,8 +23,8 @@ export class Journal {
   discovered(nodes, known, stamp_s) {
     for (const node of nodes) {
       if (known.has(node.id) || !DISCOVERED.has(node.type) || node.provisional || node.status === "temporary") continue;
-      const room = node.type !== "room" && known.get(node.room);
-      this.say(`found ${title(node)}${room ? ` in the ${title(room)}` : ""}`, stamp_s);
+      const where = node.type !== "room" && known.has(node.room) ? ` in ${definite(node.room, known)}` : "";
+      this.say(`found ${title(node)}${where}`, stamp_s);
     }
   }
 

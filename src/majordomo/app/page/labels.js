@@ -3,7 +3,7 @@
 const overlap = (a, b) => Math.max(0, Math.min(a[2], b[2]) - Math.max(a[0], b[0])) * Math.max(0, Math.min(a[3], b[3]) - Math.max(a[1], b[1]));
 const around = ([x, y], w, h) => [x - w / 2, y - h / 2, x + w / 2, y + h / 2];
 const STEPS = [0, -0.16, 0.16, -0.32, 0.32, -0.42, 0.42];
-const STAY = 0.12;
+const STAY = 0.06;
 
 // A name moves only when that uncovers much, so that it does not dance while things are being found.
 export class LabelPlaces {
@@ -20,11 +20,12 @@ export class LabelPlaces {
     const spots = STEPS.flatMap((dy) => STEPS.map((dx) => inside([center[0] + dx * width, center[1] + dy * height])));
     const cost = (spot) => this.#taken.reduce((sum, box) => sum + overlap(around(spot, w, h), box), 0) / (w * h)
       + 0.3 * Math.hypot((spot[0] - center[0]) / width, (spot[1] - center[1]) / height);
-    let best = spots.reduce((a, b) => (cost(b) < cost(a) - 1e-9 ? b : a));
+    const costs = spots.map(cost);
+    let best = costs.indexOf(Math.min(...costs));
     const before = this.#before.get(key);
-    if (before && cost(inside(before)) < cost(best) + STAY) best = inside(before);
+    if (before !== undefined && costs[before] < costs[best] + STAY) best = before;
     this.#before.set(key, best);
-    this.#taken.push(around(best, w, h));
-    return best;
+    this.#taken.push(around(spots[best], w, h));
+    return spots[best];
   }
 }

@@ -6,7 +6,7 @@ import { BuildingMap } from "./map.js";
 import { call, Stream } from "./service.js";
 import { suggestions } from "./suggestions.js";
 import { TaskList } from "./tasks.js";
-import { title } from "./words.js";
+import { definite } from "./words.js";
 
 const CAMERA_MS = 700;
 const $ = (id) => document.getElementById(id);
@@ -49,11 +49,10 @@ function activity() {
 
 function showStatus() {
   const { nodes, robot } = scene, known = [...nodes.values()];
-  const room = nodes.get(robot?.room), held = nodes.get(robot?.holding);
   const parts = [
     activity(),
-    room ? `in the ${title(room)}` : "",
-    held ? `holding the ${title(held)}` : "",
+    nodes.has(robot?.room) ? `in ${definite(robot.room, nodes)}` : "",
+    nodes.has(robot?.holding) ? `holding ${definite(robot.holding, nodes)}` : "",
     [counted(known.filter((node) => node.type === "room").length, "room"), counted(known.filter((node) => node.type === "object").length, "thing")].filter(Boolean).join(", "),
     status.language_model ?? "",
     status.perception ?? "",
@@ -131,7 +130,7 @@ async function attempt(action) { try { await action(); showProblem(null); } catc
 
 function stop() {
   stream.stop();
-  call("POST", "/v1/stop").catch((error) => showProblem(`STOP may not have reached the robot: ${error.message}`));
+  call("POST", "/v1/stop").then(() => { if (scene.robot) scene.robot.stopped = true; showStatus(); }).catch((error) => showProblem(`STOP may not have reached the robot: ${error.message}`));
 }
 
 function ask() {

@@ -62,6 +62,7 @@ export class BuildingMap {
     for (const name of LAYERS) this.#layers[name] = svg.appendChild(shape("g"));
     this.#robot = svg.appendChild(shape("g", { class: "robot", visibility: "hidden" }));
     this.#robot.append(shape("circle", { r: 0.25 }), shape("path", { d: "M.19 0L-.08 .13L-.02 0L-.08 -.13z" }), shape("title", {}, "robot"));
+    this.#layers.held = svg.appendChild(shape("g"));
     this.#view = new Viewport(svg, { onScale: () => this.#redraw(), onTap: onSelect });
   }
 
@@ -135,12 +136,12 @@ export class BuildingMap {
   }
 
   #drawThing(node) {
-    const [x, y] = node.position_m, r = radius(node, this.#view.scale);
+    const [x, y] = node.position_m, r = radius(node, this.#view.scale), isLong = longest(node) > 0.2;
     const spread = 2 * Math.max(...(node.position_std_m ?? [0]).slice(0, 2));
     if (spread > Math.max(r, 0.08)) this.#layers.things.append(shape("circle", { cx: x, cy: -y, r: spread, class: "spread" }));
     const look = { class: `thing ${node.state}`, fill: paint(node.attributes?.color ?? "") };
-    const outline = r > 0.1 ? shape("polygon", { ...look, points: points(corners(node)) }) : shape("circle", { ...look, cx: x, cy: -y, r });
-    this.#add("things", outline, node);
+    const outline = isLong ? shape("polygon", { ...look, points: points(corners(node)) }) : shape("circle", { ...look, cx: x, cy: -y, r });
+    this.#add(node.state === "held" ? "held" : "things", outline, node);
   }
 
   #drawPerson(node) {
@@ -166,18 +167,18 @@ export class BuildingMap {
     const dots = small.map((node) => around(node.position_m, radius(node, pixel) + 2 * pixel));
     this.#labels.start([...dots, ...bodies]);
     for (const node of furniture) this.#name(node, "thing-name", boundingBox(corners(node)), 11.5 * pixel);
+    this.#labels.start([...dots, ...bodies, ...furniture.map((node) => boundingBox(corners(node)))]);
     for (const node of people) {
       const [x, y] = node.position_m;
       this.#name(node, "person-name", [x - 1.2, -y - 0.3 - 18 * pixel, x + 1.2, -y - 0.3], 12 * pixel);
     }
-    this.#labels.start([...dots, ...bodies, ...furniture.map((node) => boundingBox(corners(node)))]);
     for (const node of rooms) this.#name(node, "room-name", boundingBox(node.polygon_m), 15 * pixel);
   }
 
   #name(node, className, area, size) {
     const text = node.type === "object" ? (node.attributes?.name || node.label).replaceAll("_", " ") : title(node);
     const [w, h] = [text.length * 0.6 * size, 1.2 * size];
-    const tall = area[3] - area[1] > area[2] - area[0] && w > area[2] - area[0];
+    const tall = area[3] - area[1] > 1.2 * (area[2] - area[0]) && w > area[2] - area[0];
     const spot = this.#labels.place(`${node.id} ${tall}`, area, tall ? h : w, tall ? w : h);
     if (!spot) return;
     const transform = `translate(${spot.join(" ")}) scale(${this.#view.scale})${tall ? " rotate(-90)" : ""}`;
@@ -200,7 +201,8 @@ export class BuildingMap {
   }
 }
 
-const isFurniture = (node) => !node.graspable && Math.max(...(node.size_m ?? [0]).slice(0, 2)) >= 0.3 && !(node.size_m[2] < 0.1);
+const longest = (node) => Math.max(...node.size_m.slice(0, 2));
+const isFurniture = (node) => !node.graspable && longest(node) >= 0.3 && node.size_m[2] >= 0.1;
 
 // True to scale, but never too small to see or to hit.
-const radius = (node, pixel) => Math.max(Math.max(...(node.size_m ?? [0]).slice(0, 2)) / 2, 5 * pixel);
+const radius = (node, pixel) => Math.max(longest(node) / 2, 5 * pixel);

@@ -2,7 +2,7 @@
 
 import { action, choices, goal, step } from "./words.js";
 
-const MARKS = { running: "▸", succeeded: "✓", failed: "✕", skipped: "–" };
+const MARKS = { running: "▸", succeeded: "✓", failed: "✕", skipped: "–", interrupted: "–" };
 const ENDED = new Set(["succeeded", "failed", "cancelled", "refused"]);
 const OPERATIONS = { awaiting_approval: ["approve", "reject"], running: ["pause", "cancel"], paused: ["resume", "cancel"] };
 
@@ -46,7 +46,7 @@ export class TaskList {
     }
     if (task.reply && task.reply !== task.explanation) item.append(el("p", "reply", task.reply));
     if (task.failures.length) item.append(el("ol", "failures", ...task.failures.map(failureItem)));
-    if (task.plan) item.append(el("ol", "steps", ...task.plan.steps.map((part) => stepItem(part, nodes))));
+    if (task.plan) item.append(el("ol", "steps", ...task.plan.steps.map((part) => stepItem(ENDED.has(task.status) && part.status === "running" ? { ...part, status: "interrupted" } : part, nodes))));
     if (task.explanation && task.status !== "running") item.append(el("p", "reply", task.explanation));
     if (ENDED.has(task.status) && task.verified.length) item.append(el("ul", "verified", ...task.verified.map((part) => verifiedItem(part, nodes))));
     if (task.status === "awaiting_answer") item.append(this.#question(task, nodes, edges));

@@ -9,10 +9,13 @@ export function title(node) {
   return spaced(node.type === "door" ? "door" : node.label || node.id);
 }
 
-function definite(id, nodes) {
+export function definite(id, nodes) {
   const node = nodes.get(id);
   if (!node) return spaced(id);
-  return node.name || node.attributes?.name || (node.type === "room" && !node.label) ? title(node) : `the ${title(node)}`;
+  if (node.name || node.attributes?.name || (node.type === "room" && !node.label)) return title(node);
+  const namesake = node.type === "object" && [...nodes.values()].some((other) => other.id !== id && other.type === "object" && title(other) === title(node));
+  const room = namesake && nodes.has(node.room) ? ` in ${definite(node.room, nodes)}` : "";
+  return `the ${title(node)}${room}`;
 }
 
 export function place(node, nodes, edges) {

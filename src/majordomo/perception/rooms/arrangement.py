@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
@@ -41,6 +41,16 @@ class ArrangementSettings:
     free: float = 0.5
     free_margin_m: float = 0.06
     views: int = 24
+
+    def for_noise(self, noise_m: float) -> ArrangementSettings:
+        """Gates wide enough for ranges with this standard deviation."""
+        gate_m = max(self.gate_m, 3.0 * noise_m)
+        return replace(
+            self,
+            gate_m=gate_m,
+            separation_m=max(self.separation_m, 1.5 * gate_m),
+            free_margin_m=max(self.free_margin_m, gate_m),
+        )
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import combinations
 from typing import Any
 
@@ -33,6 +33,11 @@ class CornerSettings:
     widest_gap_m: float = 0.7
     reach_m: float = 0.35
     right_angle_rad: float = float(np.deg2rad(2.5))
+
+    def for_noise(self, noise_m: float) -> CornerSettings:
+        """Gates wide enough for ranges with this standard deviation."""
+        gate_m = max(self.gate_m, 3.0 * noise_m)
+        return replace(self, gate_m=gate_m, hough_rho_m=max(self.hough_rho_m, gate_m))
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -25,8 +25,8 @@ _SAME_WALL = 0.2  # sine of the angle below which two neighboring walls have no 
 
 
 def freeform_outline(views: Sequence[View]) -> Outline | None:
-    """The outline as the view with the widest coverage shows it, or ``None`` when none shows half of the walls."""
-    best = max(views, key=lambda view: view.scan.coverage)
+    """The outline as the clearest view shows it, or ``None`` when none shows half of the walls."""
+    best = _clearest(views)
     points = best.points_frame()
     if best.scan.coverage < _LEAST_COVERAGE or len(points) < 20:
         return None
@@ -48,6 +48,13 @@ def freeform_outline(views: Sequence[View]) -> Outline | None:
         direction_rad=direction_rad,
         rectilinear=min(rectilinear, 0.5),
     )
+
+
+def _clearest(views: Sequence[View]) -> View:
+    """Of the views that see most of the walls, the one whose ranges jump least: in a doorway they jump a lot."""
+    most = max(view.scan.coverage for view in views)
+    wide = [view for view in views if view.scan.coverage > most - 0.03]
+    return min(wide, key=lambda view: float(np.abs(np.diff(view.scan.ranges_m[np.isfinite(view.scan.ranges_m)])).sum()))
 
 
 def _wall(points: Array, start: Array, end: Array) -> tuple[Array, float, float]:

@@ -67,7 +67,8 @@ def inward_normal(start: Array, end: Array) -> Array:
 
 def find_outline(views: Sequence[View], settings: ArrangementSettings | None = None) -> Outline | None:
     """The outline of the room in which the last view was taken, or ``None`` when too few walls are seen."""
-    settings = settings or ArrangementSettings()
+    noise_m = float(np.median([view.scan.noise_m for view in views]))
+    settings = (settings or ArrangementSettings()).for_noise(noise_m)
     direction_rad, rectilinear = dominant_direction(views)
     x_facing, y_facing = sort_by_axis(views, direction_rad)
     arrangement = arrange(views, x_facing, y_facing, direction_rad, settings)

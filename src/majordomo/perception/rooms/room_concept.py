@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from majordomo.perception.crossing import door_being_crossed, given_up, uncrossed
 from majordomo.perception.lifecycle import LifeCycle, Verdict
 from majordomo.perception.localization.landmarks import room_model
+from majordomo.perception.localization.planar import Pose2
 from majordomo.perception.localization.robot_pose import RobotPose, robot_pose_at
 from majordomo.perception.rooms.insertion import insert_room, propose_visit, withdraw
 from majordomo.perception.rooms.slice import OutlineSlicer
@@ -30,6 +31,7 @@ OUTDOORS = "nothing behind it looks like a room"
 UNMEASURABLE = "the room behind it could not be measured"
 _ATTEMPTS = 8
 _LOOK_S = 1.5
+_RETURNS = 4
 _WELL_INSIDE_M = 0.35
 
 
@@ -55,6 +57,7 @@ class RoomConcept:
         self._scan_stamp_s = -np.inf
         self._stamp_s = 0.0
         self._arrived_s: dict[float, float] = {}
+        self._returns: dict[str, int] = {}
         self._life = LifeCycle(
             "room",
             explain=self._explain,
@@ -98,6 +101,8 @@ class RoomConcept:
         pose = robot_pose_at(snapshot, self._buffer, self._scan_stamp_s)
         if pose is None or not self._survey.started:
             return Verdict.BUSY
+        if self._survey.outdoors and door_being_crossed(snapshot) is not None:
+            return self._give_up(snapshot, OUTDOORS)
         if self._survey.sufficient:
             return self._conclude(snapshot, pose)
         intention = own_intention(snapshot)
@@ -122,9 +127,7 @@ class RoomConcept:
     # Steps of the initialization.
 
     def _begin(self, snapshot: Snapshot, pose: RobotPose) -> Verdict:
-        """Propose to visit what looks like a room; give the door up when it leads outdoors."""
-        if self._survey.outdoors:
-            return self._give_up(snapshot, OUTDOORS)
+        """Propose to visit what looks like a room."""
         return self._propose(pose, next_id(snapshot, "room")) or Verdict.BUSY
 
     def _arrived(self, snapshot: Snapshot, pose: RobotPose, intention: HasIntentionEdge) -> Verdict:
@@ -139,7 +142,7 @@ class RoomConcept:
         return self._propose(pose, intention.target) or self._conclude(snapshot, pose)
 
     def _propose(self, pose: RobotPose, room_id: str) -> Verdict | None:
-        place = self._survey.next_place(self._obstacles_base(), pose)
+        place = self._place_outside(self._memory.snapshot(), pose)
         if place is None:
             return None
         with self._memory.edit(self.name, self._stamp_s) as tx:
@@ -148,6 +151,14 @@ class RoomConcept:
             )
         logger.info("looks like a room; going to measure it", extra={"room": room_id})
         return Verdict.BUSY
+
+    def _place_outside(self, snapshot: Snapshot, pose: RobotPose) -> Pose2 | None:
+        """The next vantage point that is not in the room which the robot came from, base frame."""
+        known, obstacles = room_model(snapshot, pose.parent), self._obstacles_base()
+        while (place := self._survey.next_place(obstacles, pose)) is not None:
+            if known is None or not known.contains((pose.T_parent_base @ place).position_m):
+                return place
+        return None
 
     def _conclude(self, snapshot: Snapshot, pose: RobotPose) -> Verdict:
         """The room stands, as permanent when it is closed, else as partial; nothing at all gives the door up."""
@@ -190,7 +201,9 @@ class RoomConcept:
         with self._memory.edit(self.name, self._stamp_s) as tx:
             withdraw(tx)
             if door is not None:
-                tx.put(uncrossed(door))
+                self._returns[door.id] = self._returns.get(door.id, 0) + 1
+                again = self._returns[door.id] < _RETURNS
+                tx.put(uncrossed(door) if again else given_up(door, UNMEASURABLE))
         self._survey = Survey(self._settings)
 
     def _obstacles_base(self) -> Array:

@@ -54,6 +54,15 @@ class OutlineScan:
         """Share of directions in which a wall was seen."""
         return float(np.isfinite(self.ranges_m).mean())
 
+    @property
+    def noise_m(self) -> float:
+        """Standard deviation of the ranges, from second differences between neighboring directions.
+
+        Walls are straight, so what three neighbors do not share is noise but for the few at corners.
+        """
+        second = np.diff(self.ranges_m[np.isfinite(self.ranges_m)], n=2)
+        return float(1.4826 * np.median(np.abs(second)) / np.sqrt(6.0)) if len(second) else 0.0
+
 
 class OutlineSlicer:
     """Cuts outline scans out of LiDAR revolutions; learns how high the walls are from what it has seen.

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from majordomo.perception.localization.landmarks import inside
 from majordomo.perception.localization.planar import Pose2
 from majordomo.perception.localization.robot_pose import RobotPose
 from majordomo.perception.rooms.instance import MeasuredRoom, measured_room
@@ -41,7 +42,7 @@ class Survey:
     """Collects views of the room that the robot stands in and judges them.
 
     Attributes:
-        fit: newest fit whose size is that of a room, in the frame of the first view.
+        fit: newest fit that is plausible, in the frame of the first view.
         places: vantage points proposed so far, same frame.
     """
 
@@ -83,9 +84,12 @@ class Survey:
         self._solved_s, self._solved_views = stamp_s, self._added
         fit = self._measurement.solve()
         self._previous = self.fit
-        self.fit = fit if fit is not None and self._room_sized(fit) else None
+        self.fit = fit if fit is not None and self._plausible(fit) else None
 
-    def _room_sized(self, fit: Fit) -> bool:
+    def _plausible(self, fit: Fit) -> bool:
+        """Whether the outline has the size of a room and the robot is in it, not in front of it."""
+        if not inside(fit.outline.polygon, fit.views[-1].T_frame_base.position_m):
+            return False
         polygon = Pose2(0.0, 0.0, -fit.outline.direction_rad).apply(fit.outline.polygon)
         sides = np.ptp(polygon, axis=0)
         return bool(sides.min() > self.settings.shortest_side_m and sides.max() < self.settings.longest_side_m)

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from majordomo.perception.localization.planar import Pose2
-from majordomo.perception.rooms.corners import CornerSighting, WallLine, corners_of, detect_lines
+from majordomo.perception.rooms.corners import CornerSettings, CornerSighting, WallLine, corners_of, detect_lines
 from majordomo.perception.rooms.slice import OutlineScan
 
 Array = NDArray[np.float64]
@@ -32,13 +32,14 @@ class View:
     @classmethod
     def of(cls, scan: OutlineScan, T_frame_base: Pose2, T_odom_base: Pose2) -> View:
         """The view of ``scan``, with its lines and corners detected."""
-        lines = detect_lines(scan.points_base)
+        settings = CornerSettings().for_noise(scan.noise_m)
+        lines = detect_lines(scan.points_base, settings)
         return cls(
             T_frame_base=T_frame_base,
             T_odom_base=T_odom_base,
             scan=scan,
             lines=tuple(lines),
-            corners=tuple(corners_of(lines)),
+            corners=tuple(corners_of(lines, settings)),
         )
 
     def moved(self, T_frame_base: Pose2) -> View:

@@ -18,10 +18,11 @@ from majordomo.skills.navigation.pose import in_base
 
 HAND_TOLERANCE_M = 0.02
 SIDE_TOLERANCE_M = 0.015
-CLOSE_EFFORT_N = 15.0
+CLOSE_EFFORT_N, SHIFT_EFFORT_N = 15.0, 40.0
 SETTLE_S = 0.35
 EXTENDED_M = 0.05
 STAND_S = 0.6
+STUCK_S, RELIEF_M = 2.0, 0.015
 LET_GO_S = 2.0
 """A thing may lean on a finger after it was let go; after this long it is left so."""
 
@@ -113,7 +114,7 @@ class CloseGripper(Action):
     def step(self) -> Status:
         """Close, wait until the fingers stand still, and judge."""
         body = self.context.body
-        self.context.commands.grip = (0.0, CLOSE_EFFORT_N)
+        self.context.commands.grip = (0.0, self._effort_n())
         self.context.commands.drive = (0.0, 0.0)
         if abs(body.gripper_opening_m - self._last_m) > 0.001:
             self._last_m, self._still_s = body.gripper_opening_m, self.context.stamp_s
@@ -128,6 +129,12 @@ class CloseGripper(Action):
         seen = f"opening {1000 * body.gripper_opening_m:.0f} mm, contacts {body.finger_contacts}"
         message = f"the fingers closed without holding {self.object_id}."
         return self.fail(FailureCode.GRASP_EMPTY, message, (self.object_id,), seen)
+
+    def _effort_n(self) -> float:
+        """More force when one finger alone touches and does not get on: the object must be shifted between them."""
+        left, right = self.context.body.finger_contacts
+        stuck = self.context.stamp_s - self._still_s > SETTLE_S
+        return SHIFT_EFFORT_N if stuck and left != right else CLOSE_EFFORT_N
 
     def _hold(self) -> None:
         """Remember where the object sits in the hand; the fingers have centered it along their closing direction."""
@@ -150,10 +157,12 @@ class OpenGripper(Action):
         super().__init__(f"let go of {object_id}", context)
         self.object_id, self._more_m = object_id, opening_m
         self._opening_m = self._opened_s = 0.0
+        self._arm = context.body.arm
 
     def begin(self) -> None:
         """A little wider than now: neighbors may stand close."""
         widest_m = self.context.limits.gripper_opening_m[1]
+        self._arm = self.context.body.arm
         self._opening_m = min(self.context.body.gripper_opening_m + 2 * self._more_m, widest_m)
 
     def step(self) -> Status:
@@ -163,6 +172,8 @@ class OpenGripper(Action):
         self.context.commands.drive = (0.0, 0.0)
         if body.gripper_opening_m < self._opening_m - 0.01:
             self._opened_s = self.context.stamp_s
+            if self.elapsed_s > STUCK_S:  # the finger tips press on the surface: relieve them
+                self.context.commands.arm = replace(self._arm, lift_m=self._arm.lift_m + RELIEF_M)
             return Status.RUNNING
         touching = any(body.finger_contacts) and self.elapsed_s < LET_GO_S
         if touching or self.context.stamp_s - self._opened_s < STAND_S:

@@ -17,6 +17,7 @@ from majordomo.skills.anchor import Anchor
 from majordomo.skills.errors import Unreachable
 from majordomo.skills.failures import FailureCode
 from majordomo.skills.geometry import Points
+from majordomo.skills.grasping import TIP_M
 from majordomo.skills.kinematics import arm_target
 from majordomo.skills.navigation.local_map import draw_map
 from majordomo.skills.navigation.pose import footprint_radius_m, look_around, planar_pose, robot_frame
@@ -179,6 +180,7 @@ class LowerToPlace(ArmAction):
         x_m, y_m, z_m = self._placement.anchor().in_base(context)
         inside = self._placement.spot is not None and self._placement.spot.inside
         pads_z_m = z_m + above_bottom_m(context) + (ABOVE_RIM_M if inside else RELEASE_M)
+        pads_z_m = max(pads_z_m, z_m + TIP_M)
         wrist = (arm.wrist_pitch_rad, arm.wrist_roll_rad)
         final = arm_target(hypot(x_m, y_m), pads_z_m, *wrist, context.geometry, context.limits)
         self._standing_lift_m = final.lift_m

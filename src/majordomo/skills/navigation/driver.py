@@ -11,7 +11,7 @@ import numpy as np
 from majordomo.skills.action import RobotContext
 from majordomo.skills.geometry import Point2, Pose2, wrap_rad
 from majordomo.skills.navigation.plan import Goal, GoalSource, Plan, make_plan
-from majordomo.skills.navigation.pose import footprint_radius_m, look_around, planar_pose, robot_frame
+from majordomo.skills.navigation.pose import look_around, planar_pose, robot_frame
 from majordomo.skills.navigation.pursuit import Pursuit, deviation_m, point_ahead, turn_rate
 from majordomo.skills.navigation.route import path_length_m
 from majordomo.skills.navigation.safety import admissible
@@ -130,7 +130,7 @@ class Driver:
         clearance_m = float(plan.grid.clearance_at(np.array([pose.point]))[0])
         wanted = self._pursuit.velocity(pose, plan.path, clearance_m, context.body.linear_mps)
         obstacles_base = pose.inverse_apply(plan.walls.explain(context.surroundings.points()))
-        radius_m = footprint_radius_m(context) - SAFETY_MARGIN_M
+        radius_m = plan.radius_m - SAFETY_MARGIN_M
         context.commands.drive = admissible(*wanted, obstacles_base, radius_m, context.limits)
         return self._judge(plan, pose)
 

@@ -38,7 +38,7 @@ It is asked again at every replan: first with ``None``, for the extent of the ma
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Plan:
-    """Way points in ``frame`` from where the robot was at ``made_s`` to ``goal``."""
+    """Way points in ``frame`` from where the robot was at ``made_s`` to ``goal``, for a disc of ``radius_m``."""
 
     frame: str
     made_s: float
@@ -46,15 +46,22 @@ class Plan:
     path: tuple[Point2, ...]
     grid: Grid
     walls: Walls
+    radius_m: float
 
 
 def make_plan(
     context: RobotContext, frame: str, pose: Pose2, goals: GoalSource, *, last: Goal | None, ignore: Collection[str]
 ) -> Plan | None:
-    """The cheapest goal and the way there: first with what the graph believes, else with raw points alone."""
+    """The cheapest goal and the way there.
+
+    First with what the graph believes and with room for what the hand holds; then for the base alone, as most of what
+    stands around is lower than the hand; at last with raw points alone.
+    """
     spots = [pose.point, *(goal.point for goal in goals(None))]
     walls = Walls.of(context.snapshot, frame)
-    for believe_furniture in (True, False):
+    carrying_m, base_m = footprint_radius_m(context), context.limits.footprint_radius_m
+    tries = dict.fromkeys([(True, carrying_m), (True, base_m), (False, base_m)])
+    for believe_furniture, radius_m in tries:
         grid = draw_map(
             context.snapshot,
             frame,
@@ -65,10 +72,18 @@ def make_plan(
             believe_furniture=believe_furniture,
             ignore=ignore,
         )
-        routes = find_routes(grid, pose.point, footprint_radius_m(context))
+        routes = find_routes(grid, pose.point, radius_m)
         goal = _cheapest(routes, goals(routes), last)
         if goal is not None and (path := routes.path_to(goal.point)):
-            return Plan(frame=frame, made_s=context.stamp_s, goal=goal, path=path, grid=grid, walls=walls)
+            return Plan(
+                frame=frame,
+                made_s=context.stamp_s,
+                goal=goal,
+                path=path,
+                grid=grid,
+                walls=walls,
+                radius_m=radius_m,
+            )
     return None
 
 

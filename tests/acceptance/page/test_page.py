@@ -3,11 +3,21 @@
 from __future__ import annotations
 
 import itertools
+import json
+import math
+from pathlib import Path
 
 import pytest
 
+from majordomo.app.http.security import Token
+from majordomo.app.runtime import Runtime
+from majordomo.app.server import bind, page_address, serving
+from majordomo.app.settings import Settings
+
 pytestmark = [pytest.mark.anyio, pytest.mark.slow]
 
+GRAPH = Path(__file__).parents[2] / "data" / "flat_graph.json"
+TOKEN = Token("a-token-only-for-tests")
 SIZES = [(1440, 900), (390, 844)]
 BOX = "(({ left, top, right, bottom }) => [left, top, right, bottom])"
 SHOWN = "document.querySelectorAll('.room').length === 3"
@@ -238,3 +248,33 @@ async def test_words_of_others_are_shown_as_words(page, address):
     await page.until("Boolean(document.querySelector('.task .words'))")
     assert await page.js("document.querySelector('.task .words').textContent") == "<img src=x onerror=alert(1)>"
     assert await page.js("document.querySelector('.task img')") is None
+
+
+async def test_a_building_that_the_robot_entered_askew_stands_upright_on_the_screen(page, tmp_path):
+    angle = 0.43
+    document = json.loads(GRAPH.read_text(encoding="utf-8"))
+    for node in document["nodes"]:
+        x, y, z = node["position_m"]
+        node["position_m"] = [*turned((x, y), angle), z]
+        node["yaw_rad"] += angle
+        if "polygon_m" in node:
+            node["polygon_m"] = [turned(corner, angle) for corner in node["polygon_m"]]
+    (tmp_path / "askew.json").write_text(json.dumps(document), encoding="utf-8")
+    runtime = Runtime(Settings(graph=tmp_path / "askew.json", data=tmp_path, port=0))
+    with bind(runtime.settings) as listener:
+        async with serving(runtime, listener, TOKEN):
+            await page.open(page_address(listener, TOKEN))
+            await page.until(SHOWN)
+            rooms = await boxes(page, ".room")
+            shapes = [(right - left) / (bottom - top) for left, top, right, bottom in rooms]
+            assert shapes == pytest.approx([2.4 / 6.6, 4.0 / 3.2, 4.0 / 3.2], rel=0.01)
+            names, furniture = await boxes(page, ".room-name"), await boxes(page, ".furniture")
+            assert len(names) == 3
+            assert all(overlap(name, piece) == 0 for name in names for piece in furniture)
+            assert within((await boxes(page, ".robot"))[0], rooms[0])
+
+
+def turned(point, angle):
+    """A point of the plane, turned about the origin."""
+    (x, y), c, s = point, math.cos(angle), math.sin(angle)
+    return [c * x - s * y, s * x + c * y]

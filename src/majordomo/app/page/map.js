@@ -78,6 +78,7 @@ export class BuildingMap {
     const turn = degrees(yaw_rad);
     this.#turn += ((turn - this.#turn + 540) % 360 + 360) % 360 - 180;
     this.#robot.style.transform = `translate(${x}px, ${-y}px) rotate(${this.#turn}deg)`;
+    this.#robot.classList.toggle("smooth", this.#robot.getAttribute("visibility") === "visible");
     this.#robot.setAttribute("visibility", "visible");
     this.#layers.path.replaceChildren(...(path_map?.length ? [shape("polyline", { points: points([[x, y], ...path_map]), class: "path" })] : []));
   }

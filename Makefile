@@ -5,7 +5,7 @@ BIN   := $(VENV)/bin
 STAMP := $(VENV)/.installed
 ARGS  ?=
 
-.PHONY: demo serve test check install clean lock
+.PHONY: demo serve test benchmark check install clean lock
 
 demo: $(STAMP)   ## explore a simulated house, carry out one request while a person interferes, report
 	$(BIN)/majordomo demo $(ARGS)
@@ -15,6 +15,9 @@ serve: $(STAMP)  ## start the service on the simulated flat and print the page's
 
 test: $(STAMP)   ## all tests, with branch coverage
 	$(BIN)/python -m pytest --cov --cov-report=term $(ARGS)
+
+benchmark: $(STAMP)  ## measurements of speed, for a machine that does nothing else meanwhile
+	$(BIN)/python -m pytest -m benchmark -s tests/benchmarks $(ARGS)
 
 check: $(STAMP)  ## lint, format, types, import contracts
 	$(BIN)/ruff check src tests

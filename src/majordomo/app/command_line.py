@@ -27,6 +27,9 @@ application.add_typer(evaluations, name="evaluate")
 console = Console()
 complaints = Console(stderr=True)
 
+SWITCH_INTERVAL_S = 0.001
+"""How long perception's threads may hold the interpreter while a request waits."""
+
 House = Annotated[str, typer.Option(help="A built-in house's name or a house file.")]
 Seed = Annotated[int, typer.Option(min=0, help="Seed of everything that is random.")]
 Data = Annotated[Path, typer.Option(help="Folder of token, logs and memory.")]
@@ -72,6 +75,7 @@ def serve(
     from majordomo.app.server import bind, check_exposure, page_address
     from majordomo.app.server import serve as serve_forever
 
+    sys.setswitchinterval(SWITCH_INTERVAL_S)
     settings = Settings(
         house=house,
         seed=seed,

@@ -14,7 +14,7 @@ serve: $(STAMP)  ## start the service on the simulated flat and print the page's
 	$(BIN)/majordomo serve $(ARGS)
 
 test: $(STAMP)   ## all tests, with branch coverage
-	$(BIN)/python -m pytest --cov --cov-report=term $(ARGS)
+	$(BIN)/python -m pytest --numprocesses 2 --dist worksteal --cov --cov-report=term $(ARGS)
 
 benchmark: $(STAMP)  ## measurements of speed, for a machine that does nothing else meanwhile
 	$(BIN)/python -m pytest -m benchmark -s tests/benchmarks $(ARGS)

@@ -57,10 +57,14 @@ def _room_name(room: Node) -> list[str]:
 
 
 def _door(door: Node) -> list[str]:
-    """A gap through the wall, which lies behind the door as seen from its first room, and the leaf of a closed one."""
-    half = door["width_m"] / 2
-    gap = f'<rect x="{-half:.3f}" y="-0.02" width="{2 * half:.3f}" height="{2 * WALL_M}" fill="#f4f7fc"/>'
-    leaf = f'<line x1="{-half:.3f}" y1="{WALL_M}" x2="{half:.3f}" y2="{WALL_M}" stroke="#b91c1c" stroke-width="0.06"/>'
+    """A gap through the wall, and the leaf of a closed door.
+
+    A door known from both its rooms is in the middle of the wall; known from one, it is on that room's side of it.
+    """
+    half, leaf_y = door["width_m"] / 2, 0.0 if len(door["rooms"]) > 1 else WALL_M
+    reach = 2 * WALL_M
+    gap = f'<rect x="{-half:.3f}" y="{-reach}" width="{2 * half:.3f}" height="{2 * reach}" fill="#f4f7fc"/>'
+    leaf = f'<line x1="{-half:.3f}" y1="{leaf_y}" x2="{half:.3f}" y2="{leaf_y}" stroke="#b91c1c" stroke-width="0.06"/>'
     return [f"<g {_place(door)}>{gap}{leaf if door['state'] == 'closed' else ''}{_title(door)}</g>"]
 
 

@@ -6,6 +6,9 @@ import math
 from collections.abc import Collection, Iterator
 from typing import Any, Literal
 
+import numpy as np
+from numpy.typing import NDArray
+
 from majordomo.scene_graph.doors import PhysicalDoor, physical_doors
 from majordomo.scene_graph.edges import Edge, EdgeType, HasIntentionEdge, RelationEdge
 from majordomo.scene_graph.errors import UnknownLayer
@@ -52,7 +55,8 @@ def layers_named(layers: Collection[str] | None) -> frozenset[NodeType]:
 class SceneWriter:
     """Writes the nodes and edges of one snapshot.
 
-    In the map, a physical door is one node, and everything that refers to its other node refers to it.
+    In the map, a physical door is one node in the middle of its wall, and everything that refers to its other node
+    refers to it.
     """
 
     def __init__(self, snapshot: Snapshot, frame: Frame, layers: frozenset[NodeType]) -> None:
@@ -100,6 +104,8 @@ class SceneWriter:
         anchor = self._anchor(node)
         room = self._snapshot.room_of(anchor)
         pose = self._pose(anchor, room)
+        if faces := self._faces(anchor):
+            pose = SE3(pose.quat_wxyz, sum(faces) / len(faces))
         return {
             "id": node.id,
             "type": node_type(node).value,
@@ -125,6 +131,12 @@ class SceneWriter:
             return _IDENTITY
         T_map_room = self._poses.pose(room) if room is not None and self._frame == "room" else None
         return T_map_room.inverse() @ T_map_node if T_map_room else T_map_node
+
+    def _faces(self, node_id: str) -> list[NDArray[np.float64]]:
+        """Where a physical door meets each of its two rooms, in the map; empty unless it is known from both."""
+        door = self._doors.get(node_id)
+        poses = [self._poses.pose(member.id) for member in door.members] if door else []
+        return [pose.translation_m for pose in poses if pose is not None] if len(poses) == 2 else []
 
     def _details(self, node: Node, pose: SE3) -> Record:
         match node:

@@ -1,0 +1,95 @@
+"""What a scan should show from a pose in a known room, and how well a scan agrees with it, both ways.
+
+Of each ray above furniture and doors the outline says where it ends. A return there is explained. One beyond has passed
+through a wall, which cannot be; one before it may be tall furniture.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from majordomo.perception.localization.alignment import Walls
+from majordomo.perception.localization.landmarks import RoomModel
+from majordomo.perception.localization.planar import Pose2
+from majordomo.perception.rooms.slice import OutlineScan
+
+Array = NDArray[np.float64]
+
+_WINDOW_RAD = 0.012
+_BLIND_MARGIN_M = 0.15
+_FEWEST_RETURNS = 60
+
+
+@dataclass(frozen=True, kw_only=True)
+class ScanFit:
+    """Agreement of a scan with a room at a pose; shares of the returns that tell.
+
+    ``explained``: on the wall that the ray should meet. ``passed``: behind it. ``cost``: mean squared distance from it
+    in standard deviations, halved and cut off, what passed counting twice.
+    """
+
+    explained: float
+    passed: float
+    cost: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class FitSettings:
+    """``slack_m``: errors that the measured outline may have. ``least_std_m``: of a return. ``gate``: beyond so many
+    standard deviations a return is not explained. ``through_m``: what is so far behind a wall has passed it.
+    """
+
+    slack_m: float = 0.03
+    through_m: float = 0.3
+    least_std_m: float = 0.02
+    gate: float = 3.0
+
+
+def fit_of(scan: OutlineScan, room: RoomModel, T_room_base: Pose2, settings: FitSettings | None = None) -> ScanFit:
+    """How well ``scan``, taken at ``T_room_base``, agrees with ``room``; nothing explained when too little returned."""
+    settings = settings or FitSettings()
+    origin = T_room_base.apply(scan.origin_base)
+    nearest, farthest, incidence = expected_ranges(room.walls, origin, scan.azimuths_rad + T_room_base.yaw_rad)
+    measured = scan.ranges_m
+    tells = np.isfinite(measured) & np.isfinite(farthest)
+    if tells.sum() < _FEWEST_RETURNS:
+        return ScanFit(explained=0.0, passed=0.0, cost=settings.gate**2)
+    measured, nearest, farthest = measured[tells], nearest[tells], farthest[tells]
+    off = (measured - np.clip(measured, nearest, farthest)) * incidence[tells]
+    deviation = np.maximum(np.abs(off) - settings.slack_m, 0.0) / max(settings.least_std_m, scan.noise_m)
+    passed = (off > settings.through_m) & (nearest > scan.blind_m + _BLIND_MARGIN_M)
+    cost = np.minimum(deviation**2, settings.gate**2) / 2.0 * np.where(passed, 2.0, 1.0)
+    return ScanFit(
+        explained=float((deviation <= settings.gate).mean()),
+        passed=float(passed.mean()),
+        cost=float(cost.mean()),
+    )
+
+
+def expected_ranges(walls: Walls, origin: Array, azimuths_rad: Array) -> tuple[Array, Array, Array]:
+    """Nearest and farthest wall (N,) within a narrow window about each azimuth, and the cosine of incidence there.
+
+    The window takes up what an error of the heading does at grazing angles and at the edge of a corner. Infinite where
+    no wall is met; azimuths are evenly spaced, all around.
+    """
+    ranges, incidence = wall_ranges(walls, origin, azimuths_rad)
+    steps = int(np.ceil(_WINDOW_RAD * len(azimuths_rad) / (2.0 * np.pi)))
+    shifted = np.stack([np.roll(ranges, shift) for shift in range(-steps, steps + 1)])
+    return shifted.min(axis=0), shifted.max(axis=0), incidence
+
+
+def wall_ranges(walls: Walls, origin: Array, azimuths_rad: Array) -> tuple[Array, Array]:
+    """Distance (N,) of the first wall face from ``origin`` in each direction, and the cosine of incidence on it."""
+    direction = np.stack([np.cos(azimuths_rad), np.sin(azimuths_rad)], axis=1)
+    towards = -(direction @ walls.normal.T)
+    clearance = walls.normal @ origin - walls.offset_m
+    with np.errstate(divide="ignore", invalid="ignore"):
+        reach = np.where((towards > 1e-6) & (clearance > 0.0), clearance / towards, np.inf)
+    finite = np.where(np.isfinite(reach), reach, 0.0)
+    station = ((origin - walls.start) * walls.along).sum(axis=1) + finite * (direction @ walls.along.T)
+    reach = np.where((station > -1e-3) & (station < walls.length_m + 1e-3), reach, np.inf)
+    met = np.argmin(reach, axis=1)[:, None]
+    return np.take_along_axis(reach, met, axis=1)[:, 0], np.take_along_axis(towards, met, axis=1)[:, 0]

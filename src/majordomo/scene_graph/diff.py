@@ -17,7 +17,11 @@ V = TypeVar("V")
 
 @dataclass(frozen=True, kw_only=True)
 class Delta:
-    """What one revision writes and removes relative to another. Edges that go with their node are listed too."""
+    """What one revision writes and removes relative to another. Edges that go with their node are listed too.
+
+    ``loaded`` and ``unloaded``: rooms that came from long-term memory or went there; what is written and removed then
+    includes all of them, though the building has not changed by it.
+    """
 
     base_revision: int
     revision: int
@@ -27,6 +31,8 @@ class Delta:
     removed_nodes: tuple[str, ...] = ()
     put_edges: tuple[Edge, ...] = ()
     removed_edges: tuple[EdgeKey, ...] = ()
+    loaded: tuple[str, ...] = ()
+    unloaded: tuple[str, ...] = ()
 
 
 def diff(a: Snapshot, b: Snapshot) -> Delta:

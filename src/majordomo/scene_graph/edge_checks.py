@@ -48,7 +48,7 @@ def edge_violations(snapshot: Snapshot, key: EdgeKey) -> Iterator[Violation]:
         yield Violation(kind=ViolationKind.DANGLING_EDGE, subject=edge_name(key), message=message)
     if not missing:
         yield from _end_violations(snapshot, key)
-    yield from _value_violations(key, edge)
+    yield from edge_value_violations(key, edge)
 
 
 def _end_violations(snapshot: Snapshot, key: EdgeKey) -> Iterator[Violation]:
@@ -76,7 +76,8 @@ def _match_violations(key: EdgeKey, source: DoorNode, target: DoorNode) -> Itera
         yield Violation(kind=ViolationKind.MATCH_SAME_ROOM, subject=edge_name(key), message=message)
 
 
-def _value_violations(key: EdgeKey, edge: Edge) -> Iterator[Violation]:
+def edge_value_violations(key: EdgeKey, edge: Edge) -> Iterator[Violation]:
+    """What is wrong with the numbers of an edge."""
     match edge:
         case RtEdge():
             yield from _covariance_violations(key, edge)

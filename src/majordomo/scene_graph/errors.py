@@ -167,6 +167,24 @@ class UnknownRoom(SceneGraphError, LookupError):
         super().__init__(f"no room {room!r}; rooms: {_list_names(room, self.available)}")
 
 
+class RoomNotStored(SceneGraphError, LookupError):
+    """Long-term memory holds no room of this identifier."""
+
+    def __init__(self, room: str, available: Iterable[str]) -> None:
+        self.room = room
+        self.available = tuple(available)
+        super().__init__(f"no stored room {room!r}; stored: {_list_names(room, self.available)}")
+
+
+class RoomInUse(SceneGraphError):
+    """A room cannot leave working memory because of what is in it."""
+
+    def __init__(self, room: str, by: str) -> None:
+        self.room = room
+        self.by = by
+        super().__init__(f"{room} cannot be unloaded: {by} is in it or hangs from it")
+
+
 class UnknownLayer(SceneGraphError, LookupError):
     """No node type has this name."""
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Container
 from functools import lru_cache
+from typing import Protocol, runtime_checkable
 
 _WELL_FORMED = re.compile(r"\w[\w.:\-]{0,127}")
 _DIGITS = re.compile(r"([0-9]+)")
@@ -29,10 +30,22 @@ def slug(label: str) -> str:
     return _NOT_WORD.sub("_", label.lower()).strip("_") or "object"
 
 
+@runtime_checkable
+class PartOfAll(Protocol):
+    """A part of what is known, such as a snapshot of working memory; ``elsewhere`` holds the other identifiers."""
+
+    @property
+    def elsewhere(self) -> Container[str]: ...
+
+
 def next_id(taken: Container[str], label: str) -> str:
-    """The first of ``<label>_1``, ``<label>_2``, … that is not taken; ``taken`` may be a snapshot."""
+    """The first of ``<label>_1``, ``<label>_2``, … that is not taken.
+
+    ``taken`` may be a snapshot; identifiers that long-term memory keeps are taken too.
+    """
+    elsewhere: Container[str] = taken.elsewhere if isinstance(taken, PartOfAll) else ()
     stem = slug(label)
     number = 1
-    while f"{stem}_{number}" in taken:
+    while f"{stem}_{number}" in taken or f"{stem}_{number}" in elsewhere:
         number += 1
     return f"{stem}_{number}"

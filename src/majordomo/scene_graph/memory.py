@@ -9,10 +9,15 @@ from typing import Self
 
 from majordomo.scene_graph.diff import Delta
 from majordomo.scene_graph.draft import Draft
+from majordomo.scene_graph.edge_checks import edge_value_violations
 from majordomo.scene_graph.edges import Edge, EdgeKey, RtEdge
 from majordomo.scene_graph.edits import Edit, PutEdge, PutNode, RemoveEdge, RemoveNode
-from majordomo.scene_graph.errors import Conflict, InvariantBroken, RevisionConflict, edge_name
+from majordomo.scene_graph.errors import Conflict, InvariantBroken, RevisionConflict, RoomInUse, edge_name
 from majordomo.scene_graph.invariants import check, check_draft
+from majordomo.scene_graph.long_term.building import Building
+from majordomo.scene_graph.long_term.demand import Demand, demand_of
+from majordomo.scene_graph.long_term.long_term_store import LongTermStore
+from majordomo.scene_graph.long_term.room_parts import cut_room, keeps_in_use
 from majordomo.scene_graph.nodes import ROBOT_ID, ROOT_ID, Node, RobotNode, RootNode
 from majordomo.scene_graph.se3 import SE3
 from majordomo.scene_graph.snapshot import Snapshot
@@ -28,25 +33,55 @@ def first_snapshot() -> Snapshot:
 class WorkingMemory:
     """Holds the current snapshot; commits are atomic, numbered by one, checked and published.
 
-    Any thread may read and commit. Reading takes no lock.
+    With a long-term memory beside it, rooms can be unloaded and loaded. Edits that need an unloaded room bring it back
+    by themselves, so whoever writes need not know what is loaded. Any thread may read and commit. Reading the snapshot
+    takes no lock.
     """
 
-    def __init__(self, snapshot: Snapshot | None = None) -> None:
+    def __init__(self, snapshot: Snapshot | None = None, *, long_term: LongTermStore | None = None) -> None:
         """Starts from a snapshot, or from root and robot.
+
+        Args:
+            snapshot: what is loaded.
+            long_term: what is known besides; ``None`` for a memory that never unloads anything.
 
         Raises:
             InvariantBroken: the snapshot is not sound.
         """
         self._snapshot = first_snapshot() if snapshot is None else snapshot
+        self._long_term = long_term
+        if long_term is not None:
+            self._snapshot = self._snapshot.keeping(elsewhere=long_term)
         violations = check(self._snapshot)
         if violations:
             raise InvariantBroken(violations)
+        self._building = Building()
         self._lock = threading.Lock()
         self._subscriptions: tuple[Subscription, ...] = ()
 
     def snapshot(self) -> Snapshot:
-        """The current snapshot; never blocks."""
+        """What is loaded: the robot's surroundings, for those who act in them; never blocks."""
         return self._snapshot
+
+    def building(self) -> Snapshot:
+        """Everything known, unloaded rooms included, for those who plan, answer and show."""
+        if self._long_term is None:
+            return self._snapshot
+        with self._lock:
+            return self._building.view(self._snapshot, self._long_term)
+
+    @property
+    def unloaded(self) -> tuple[str, ...]:
+        """The rooms that long-term memory holds."""
+        if self._long_term is None:
+            return ()
+        with self._lock:
+            return tuple(self._long_term.rooms)
+
+    @property
+    def can_unload(self) -> bool:
+        """Whether there is a long-term memory to unload rooms to."""
+        return self._long_term is not None
 
     def commit(
         self,
@@ -75,15 +110,36 @@ class WorkingMemory:
         with self._lock:
             base = self._snapshot
             _require_expected(base, expected or {}, agent)
-            draft = Draft(base, edits)
-            if draft.is_empty:
+            demand = Demand(edits=edits) if self._long_term is None else demand_of(self._long_term, edits)
+            return self._apply(demand, agent, stamp_s)
+
+    def load(self, *node_ids: str, agent: str, stamp_s: float) -> Snapshot:
+        """Bring back the unloaded rooms that hold these nodes; what is loaded or unknown is passed over."""
+        with self._lock:
+            homes = (self._long_term.room_of(node_id) for node_id in node_ids) if self._long_term is not None else ()
+            rooms = tuple(dict.fromkeys(home for home in homes if home is not None))
+            return self._apply(Demand(rooms=rooms), agent, stamp_s)
+
+    def unload(self, *rooms: str, agent: str, stamp_s: float) -> Snapshot:
+        """Hand rooms with everything in them over to long-term memory.
+
+        Raises:
+            RoomInUse: the robot, what it holds, or a room still being measured depends on one of them.
+            NodeNotFound: one of them is not loaded.
+        """
+        with self._lock:
+            base = self._snapshot
+            if self._long_term is None or not rooms:
                 return base
-            after = draft.result(revision=base.revision + 1, stamp_s=max(base.stamp_s, stamp_s))
-            violations = check_draft(draft, after)
-            if violations:
-                raise InvariantBroken(violations, agent)
-            self._snapshot = after
-            self._publish(draft, after, agent)
+            for room in rooms:
+                if (user := keeps_in_use(base, room)) is not None:
+                    raise RoomInUse(room, user)
+            cut = [cut_room(base, room) for room in rooms]
+            draft = Draft(base, [RemoveNode(node.id) for parts in cut for node in parts.nodes])
+            after = self._checked(draft, agent, stamp_s)
+            for parts in cut:
+                self._long_term.store(parts)
+            self._put_in_force(draft, after, agent, unloaded=rooms)
             return after
 
     def edit(self, agent: str, stamp_s: float, *, expected: Mapping[str | EdgeKey, int] | None = None) -> Transaction:
@@ -101,7 +157,46 @@ class WorkingMemory:
         with self._lock:
             self._subscriptions = tuple(other for other in self._subscriptions if other is not subscription)
 
-    def _publish(self, draft: Draft, after: Snapshot, agent: str) -> None:
+    def _apply(self, demand: Demand, agent: str, stamp_s: float) -> Snapshot:
+        """Load what is needed and make the edits, as one revision."""
+        base, store = self._snapshot, self._long_term
+        nodes, edges = store.peek(demand.rooms) if store is not None else ([], [])
+        loading: list[Edit] = [*map(PutNode, nodes), *map(PutEdge, edges)]
+        draft = Draft(base, [*loading, *demand.edits])
+        if draft.is_empty and not demand.replaced:
+            return base
+        violations = [flaw for edge in demand.replaced for flaw in edge_value_violations(edge.key, edge)]
+        if violations:
+            raise InvariantBroken(violations, agent)
+        after = self._checked(draft, agent, stamp_s)
+        if store is not None:
+            self._settle(store, demand, draft)
+        self._put_in_force(draft, after, agent, loaded=demand.rooms)
+        return after
+
+    def _checked(self, draft: Draft, agent: str, stamp_s: float) -> Snapshot:
+        base = draft.base
+        after = draft.result(revision=base.revision + 1, stamp_s=max(base.stamp_s, stamp_s))
+        violations = check_draft(draft, after)
+        if violations:
+            raise InvariantBroken(violations, agent)
+        return after
+
+    def _settle(self, store: LongTermStore, demand: Demand, draft: Draft) -> None:
+        """Long-term memory follows an edit that is in force: what was loaded, moved out, written anew, torn off."""
+        nodes, edges = store.load(*demand.rooms)
+        removed = [node.id for node in nodes if node.id not in draft.put_nodes]
+        dropped = [edge.key for edge in edges if edge.key not in draft.put_edges]
+        dropped += [key for node_id in demand.moved for key in store.release(node_id)]
+        dropped += [key for node_id in (*draft.removed_nodes, *removed) for key in store.forget(node_id)]
+        for edge in demand.replaced:
+            store.replace(edge)
+        self._building.note(draft, replaced=demand.replaced, removed=removed, dropped=dropped)
+
+    def _put_in_force(
+        self, draft: Draft, after: Snapshot, agent: str, *, loaded: tuple[str, ...] = (), unloaded: tuple[str, ...] = ()
+    ) -> None:
+        self._snapshot = after
         if not self._subscriptions:
             return
         delta = Delta(
@@ -113,6 +208,8 @@ class WorkingMemory:
             removed_nodes=tuple(draft.removed_nodes),
             put_edges=tuple(draft.put_edges.values()),
             removed_edges=tuple(draft.removed_edges),
+            loaded=loaded,
+            unloaded=unloaded,
         )
         for subscription in self._subscriptions:
             subscription.publish(delta)

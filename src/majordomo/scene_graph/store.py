@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Container, Iterable, Mapping
 from types import MappingProxyType
-from typing import Self
+from typing import Any, Self
 
 from majordomo.scene_graph.adjacency import Adjacency
 from majordomo.scene_graph.catalog import Catalog
 from majordomo.scene_graph.edge_tables import EdgeTables
-from majordomo.scene_graph.edges import Edge, EdgeKey
+from majordomo.scene_graph.edges import Edge, EdgeKey, EdgeType
 from majordomo.scene_graph.nodes import Node, NodeType, node_type
 from majordomo.scene_graph.revisions import Revisions
+
+_PASSAGE_NODES = frozenset({NodeType.ROOM, NodeType.WALL, NodeType.DOOR})
+_PASSAGE_EDGES = frozenset({EdgeType.MATCH, EdgeType.CONNECTS})
+_HUNG = frozenset({NodeType.WALL, NodeType.DOOR})
 
 
 class Store:
@@ -19,6 +23,12 @@ class Store:
 
     A commit copies the tables (pointers only) that it writes to, and the indexes of those types that gained or lost an
     element; a pose update on 5,000 nodes copies only the table of rt edges.
+
+    Attributes:
+        revision, stamp_s: number of the last edit, and the latest time of belief in seconds.
+        elsewhere: identifiers that are known but kept outside of this graph, by long-term memory; none by default.
+        passages: what readers computed from rooms, doors and the walls they are in; handed on to the next revision
+            until one of these changes.
     """
 
     __slots__ = (
@@ -29,6 +39,8 @@ class Store:
         "_edges",
         "_node_revisions",
         "_nodes",
+        "elsewhere",
+        "passages",
         "revision",
         "stamp_s",
     )
@@ -37,6 +49,8 @@ class Store:
         """Empty, at revision 0; ``of`` makes one with content."""
         self.revision = 0
         self.stamp_s = 0.0
+        self.elsewhere: Container[str] = ()
+        self.passages: dict[str, Any] = {}
         self._nodes: dict[str, Node] = {}
         self._edges = EdgeTables()
         self._adjacency = Adjacency()
@@ -64,13 +78,31 @@ class Store:
     ) -> Self:
         """The next revision, unchecked. What is put stays, whatever is removed; nothing cascades."""
         after = type(self)()
-        after.revision, after.stamp_s = revision, stamp_s
+        after.revision, after.stamp_s, after.elsewhere = revision, stamp_s, self.elsewhere
         put_nodes, put_edges = put_nodes or {}, put_edges or {}
-        self._evolve_nodes(after, put_nodes, [i for i in removed_nodes if i in self._nodes and i not in put_nodes])
-        self._evolve_edges(after, put_edges, [k for k in removed_edges if k in self._edges and k not in put_edges])
+        removed_edges = [k for k in removed_edges if k in self._edges and k not in put_edges]
+        touched = self._evolve_nodes(
+            after, put_nodes, [i for i in removed_nodes if i in self._nodes and i not in put_nodes]
+        )
+        self._evolve_edges(after, put_edges, removed_edges)
+        if touched.isdisjoint(_PASSAGE_NODES) and not any(map(self._leads_somewhere, (*put_edges, *removed_edges))):
+            after.passages = self.passages
         return after
 
-    def _evolve_nodes(self, after: Store, put: Mapping[str, Node], removed: list[str]) -> None:
+    def keeping(self, elsewhere: Container[str]) -> Self:
+        """The same graph, beside which ``elsewhere`` is known."""
+        same = self.evolve(revision=self.revision, stamp_s=self.stamp_s)
+        same.elsewhere = elsewhere
+        return same
+
+    def _leads_somewhere(self, key: EdgeKey) -> bool:
+        """Whether an edge says where a door is or which rooms it joins."""
+        if key.type is EdgeType.RT:
+            hung = self._nodes.get(key.target)
+            return hung is not None and node_type(hung) in _HUNG
+        return key.type in _PASSAGE_EDGES
+
+    def _evolve_nodes(self, after: Store, put: Mapping[str, Node], removed: list[str]) -> set[NodeType]:
         before = self._nodes
         gone = dict.fromkeys((node_type(before[i]), i) for i in (*removed, *put) if i in before)
         come = dict.fromkeys((node_type(node), i) for i, node in put.items())
@@ -82,6 +114,7 @@ class Store:
         )
         after._nodes = _evolved(before, put, removed)
         after._node_revisions = self._node_revisions.updated(put, removed, after.revision)
+        return touched
 
     def _evolve_edges(self, after: Store, put: Mapping[EdgeKey, Edge], removed: list[EdgeKey]) -> None:
         after._adjacency = self._adjacency.updated([key for key in put if key not in self._edges], removed)

@@ -56,6 +56,7 @@ class Topology:
         """Use ``from_snapshot``."""
         self._rooms = {room: i for i, room in enumerate(rooms)}
         self._doors = tuple(doors)
+        self._doors_of = _doors_by_room(rooms, doors)
         self._legs = tuple(legs)
         vertex = {door.id: len(rooms) + i for i, door in enumerate(doors)}
         self._graph = igraph.Graph(n=len(rooms) + len(doors))
@@ -68,10 +69,18 @@ class Topology:
 
     @classmethod
     def from_snapshot(cls, snapshot: Snapshot) -> Topology:
-        """The topology of all rooms and doors in the snapshot."""
+        """The topology of all rooms and doors in the snapshot; computed once until one of them changes."""
+        known = snapshot.passages.get(cls.__name__)
+        if not isinstance(known, Topology):
+            known = snapshot.passages[cls.__name__] = cls._computed(snapshot)
+        return known
+
+    @classmethod
+    def _computed(cls, snapshot: Snapshot) -> Topology:
         doors = physical_doors(snapshot)
         rooms = [room.id for room in snapshot.of_type(RoomNode)]
-        legs = [leg for room in rooms for leg in _legs_in(snapshot, room, doors)]
+        doors_of = _doors_by_room(rooms, doors)
+        legs = [leg for room in rooms for leg in _legs_in(snapshot, room, doors_of[room])]
         return cls(rooms, doors, legs)
 
     def neighbors(self, room: str, *, only_open: bool = False) -> tuple[str, ...]:
@@ -79,11 +88,11 @@ class Topology:
         self._require(room)
         beyond = {
             other
-            for door in self._doors
-            if room in door.rooms and not (only_open and door.state is DoorState.CLOSED)
+            for door in self._doors_of[room]
+            if not (only_open and door.state is DoorState.CLOSED)
             for other in door.rooms
         }
-        return tuple(other for other in self._rooms if other in beyond and other != room)
+        return tuple(sorted(beyond - {room}, key=self._rooms.__getitem__))
 
     def path(
         self,
@@ -170,8 +179,17 @@ def _is_barred(door: PhysicalDoor, avoid_doors: Collection[str], only_open: bool
     return closed or any(member.id in avoid_doors for member in door.members)
 
 
+def _doors_by_room(rooms: Sequence[str], doors: Sequence[PhysicalDoor]) -> dict[str, list[PhysicalDoor]]:
+    doors_of: dict[str, list[PhysicalDoor]] = {room: [] for room in rooms}
+    for door in doors:
+        for room in door.rooms:
+            if room in doors_of:
+                doors_of[room].append(door)
+    return doors_of
+
+
 def _legs_in(snapshot: Snapshot, room: str, doors: Sequence[PhysicalDoor]) -> list[_Leg]:
-    here = [(door, _planar(snapshot, door.side(room).id, room)) for door in doors if room in door.rooms]
+    here = [(door, _planar(snapshot, door.side(room).id, room)) for door in doors]
     to_center = [_Leg(room, (door,), (point,), dist(point, (0.0, 0.0))) for door, point in here]
     across = [_Leg(room, (a, b), (p, q), dist(p, q)) for (a, p), (b, q) in combinations(here, 2)]
     return [*to_center, *across]

@@ -1,0 +1,149 @@
+"""A building on disk: one JSON file a room, each replaced as a whole, and one that says when it was written."""
+
+from __future__ import annotations
+
+import json
+import logging
+import os
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from majordomo.scene_graph.errors import SceneFormatError
+from majordomo.scene_graph.identifiers import natural_key
+from majordomo.scene_graph.long_term.records import edge_record, node_record, read_edge, read_node
+from majordomo.scene_graph.long_term.room_parts import RoomParts
+from majordomo.scene_graph.nodes import Node
+
+logger = logging.getLogger(__name__)
+
+VERSION = 1
+_BUILDING = "building.json"
+_ROOMS = "rooms"
+_BROKEN = ".broken"
+
+
+@dataclass(frozen=True, kw_only=True)
+class StoredBuilding:
+    """What was read.
+
+    Attributes:
+        rooms: one entry for every file that could be read, in natural order of the file names.
+        stamp_s: robot time at which it was written; ``saved_s``: wall time, seconds since 1970, 0 when unknown.
+        shared: nodes of the building as a whole, such as regions.
+        broken: files that could not be read and were set aside, with the reason.
+    """
+
+    rooms: tuple[RoomParts, ...] = ()
+    stamp_s: float = 0.0
+    saved_s: float = 0.0
+    shared: tuple[Node, ...] = ()
+    broken: tuple[tuple[Path, str], ...] = ()
+
+
+class RoomFiles:
+    """Writes and reads the files of one building in a folder of their own."""
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+        self._written: dict[str, RoomParts] = {}
+
+    def write(self, rooms: Iterable[RoomParts], *, shared: Iterable[Node], stamp_s: float, saved_s: float) -> int:
+        """Make the folder hold just these rooms; files of rooms that have not changed stay. How many were written."""
+        (self._folder / _ROOMS).mkdir(parents=True, exist_ok=True)
+        present = {parts.room_id: parts for parts in rooms}
+        changed = [parts for room_id, parts in present.items() if self._written.get(room_id) != parts]
+        for parts in changed:
+            self._put(self._path(parts.room_id), room_document(parts))
+        for path in set((self._folder / _ROOMS).glob("*.json")) - {self._path(room_id) for room_id in present}:
+            path.unlink(missing_ok=True)
+        self._put(
+            self._folder / _BUILDING,
+            {
+                "version": VERSION,
+                "stamp_s": stamp_s,
+                "saved_s": saved_s,
+                "shared": [node_record(node) for node in shared],
+            },
+        )
+        self._written = present
+        return len(changed)
+
+    def read(self) -> StoredBuilding:
+        """Everything that can be read; a broken file is reported, renamed to ``*.broken``, and left out."""
+        broken: list[tuple[Path, str]] = []
+        rooms: list[RoomParts] = []
+        for path in sorted((self._folder / _ROOMS).glob("*.json"), key=lambda path: natural_key(path.stem)):
+            try:
+                rooms.append(read_room(_load(path)))
+            except (ValueError, OSError) as error:
+                broken.append(self._set_aside(path, error))
+        head, problem = self._read_head()
+        if problem is not None:
+            broken.append(problem)
+        return StoredBuilding(rooms=tuple(rooms), broken=tuple(broken), **head)
+
+    def _read_head(self) -> tuple[dict[str, Any], tuple[Path, str] | None]:
+        path = self._folder / _BUILDING
+        if not path.exists():
+            return {}, None
+        try:
+            head = _load(path)
+            shared = tuple(read_node(record, f"shared[{i}]") for i, record in enumerate(head["shared"]))
+            return {"stamp_s": float(head["stamp_s"]), "saved_s": float(head["saved_s"]), "shared": shared}, None
+        except (KeyError, TypeError, ValueError, OSError) as error:
+            return {}, self._set_aside(path, error)
+
+    def _path(self, room_id: str) -> Path:
+        return self._folder / _ROOMS / f"{room_id}.json"
+
+    def _put(self, path: Path, document: Mapping[str, Any]) -> None:
+        """Replace a file as a whole: whoever reads it, at any time, finds the old one or the new one."""
+        draft = path.with_suffix(".tmp")
+        with draft.open("w", encoding="utf-8") as file:
+            json.dump(document, file, allow_nan=False, separators=(",", ":"))
+            file.flush()
+            os.fsync(file.fileno())
+        draft.replace(path)
+
+    def _set_aside(self, path: Path, error: Exception) -> tuple[Path, str]:
+        aside = path.with_name(path.name + _BROKEN)
+        path.replace(aside)
+        logger.warning("%s cannot be read and was set aside as %s: %s", path, aside.name, error)
+        return aside, str(error)
+
+
+def room_document(parts: RoomParts) -> dict[str, Any]:
+    """One room as a JSON document."""
+    return {
+        "version": VERSION,
+        "room": parts.room_id,
+        "nodes": [node_record(node) for node in parts.nodes],
+        "edges": [edge_record(edge) for edge in parts.edges],
+    }
+
+
+def read_room(document: Mapping[str, Any]) -> RoomParts:
+    """One room from its document.
+
+    Raises:
+        SceneFormatError: it is of another version or damaged; the field is named.
+    """
+    for name, kind in (("room", str), ("nodes", list), ("edges", list)):
+        if not isinstance(document.get(name), kind):
+            raise SceneFormatError(name, f"missing, or no {kind.__name__}")
+    nodes = tuple(read_node(record, f"nodes[{i}]") for i, record in enumerate(document["nodes"]))
+    if document["room"] not in {node.id for node in nodes}:
+        raise SceneFormatError("room", f"{document['room']!r} is not among the nodes")
+    edges = tuple(read_edge(record, f"edges[{i}]") for i, record in enumerate(document["edges"]))
+    return RoomParts(room_id=document["room"], nodes=nodes, edges=edges)
+
+
+def _load(path: Path) -> Mapping[str, Any]:
+    document = json.loads(path.read_text(encoding="utf-8"))
+    if not isinstance(document, dict):
+        raise SceneFormatError("$", "not an object")
+    if document.get("version") != VERSION:
+        raise SceneFormatError("version", f"{document.get('version')!r} instead of {VERSION}")
+    return document

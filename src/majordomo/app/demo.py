@@ -110,7 +110,7 @@ async def play(
 async def _explore(runtime: Runtime, progress: Progress) -> bool:
     while runtime.now_s < EXPLORATION_LIMIT_S:
         await runtime.wait_for_change()
-        snapshot = runtime.memory.snapshot()
+        snapshot = runtime.memory.building()
         doors = snapshot.of_type(DoorNode)
         done = sum(door.crossing != "uncrossed" for door in doors)
         things = len(snapshot.of_type(ObjectNode))

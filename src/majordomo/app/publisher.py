@@ -73,9 +73,16 @@ class Publisher:
             self._stream.publish("scene", data, stamp_s)
 
     def _write(self, delta: Delta) -> None:
-        """One line per transaction; the robot's own pose, which changes all the time, is left out."""
+        """One line per transaction; the robot's own pose, which changes all the time, is left out.
+
+        Of rooms that come from or go to long-term memory only the names are told: nothing in the building has changed.
+        """
         edges = [edge for edge in delta.put_edges if not (edge.key.type is EdgeType.RT and edge.target == ROBOT_ID)]
         removed = [key for key in delta.removed_edges if not (key.type is EdgeType.RT and key.target == ROBOT_ID)]
+        if delta.unloaded or delta.loaded:
+            rooms = {"loaded": list(delta.loaded), "unloaded": list(delta.unloaded)}
+            self._log.write(delta.stamp_s, "memory", {"agent": delta.agent, **rooms})
+            return
         if not (delta.put_nodes or delta.removed_nodes or edges or removed):
             return
         data = {

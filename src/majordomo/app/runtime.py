@@ -161,7 +161,7 @@ class Runtime:
 
     def scene_document(self, frame: str, layers: tuple[str, ...] = ()) -> dict[str, Any]:
         """The scene as a document."""
-        return scene_document(self.memory.snapshot(), frame, layers)
+        return scene_document(self.memory.building(), frame, layers)
 
     def scene_json(self, frame: str, layers: tuple[str, ...] = ()) -> bytes:
         """The scene as JSON, made once per revision."""
@@ -205,7 +205,7 @@ class Runtime:
 
     def metrics_text(self) -> bytes:
         """Prometheus text."""
-        return metrics_text(self.memory.snapshot(), self._agents(), self.queue.tasks)
+        return metrics_text(self.memory.building(), self._agents(), self.queue.tasks)
 
     def _agents(self) -> dict[str, Any]:
         turns = self._scheduler.turns if self._scheduler is not None else ()

@@ -25,7 +25,7 @@ def teach(memory: WorkingMemory, node_id: str, *, label: str | None, name: str |
         NodeNotFound: no such node.
         NotTeachable: the node takes no label or name.
     """
-    node = memory.snapshot().node(node_id)
+    node = memory.building().node(node_id)
     if label is not None:
         node = _labelled(node, label)
     if name is not None:

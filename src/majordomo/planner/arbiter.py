@@ -50,14 +50,22 @@ class Arbiter:
     async def step(self, stamp_s: float) -> None:
         """Bring the graph's grants in line with priorities; writes only when one changes."""
         snapshot = self._memory.snapshot()
-        chosen = None if self._stopped() else choose(snapshot, exploration_enabled=self.exploration_enabled)
+        chosen = None if self._stopped() else self._choose(snapshot)
         edits = [PutEdge(edge) for edge in changes(snapshot, chosen)]
         if edits:
             self._memory.commit(edits, agent=self.name, stamp_s=stamp_s)
 
+    def _choose(self, snapshot: Snapshot) -> HasIntentionEdge | None:
+        return choose(snapshot, exploration_enabled=self.exploration_enabled, building=self._memory.building)
 
-def choose(snapshot: Snapshot, *, exploration_enabled: bool = True) -> HasIntentionEdge | None:
-    """The intention that should have the robot, ``None`` if there is none."""
+
+def choose(
+    snapshot: Snapshot, *, exploration_enabled: bool = True, building: Callable[[], Snapshot] | None = None
+) -> HasIntentionEdge | None:
+    """The intention that should have the robot, ``None`` if there is none.
+
+    ``building`` gives everything known when the way to several equal ones must be compared; ``snapshot`` by default.
+    """
     candidates = [
         edge
         for edge in snapshot.intentions()
@@ -71,7 +79,7 @@ def choose(snapshot: Snapshot, *, exploration_enabled: bool = True) -> HasIntent
         if edge.priority >= top or _in_doorway(snapshot, edge):
             return edge
     best = [edge for edge in candidates if edge.priority == top]
-    return best[0] if len(best) == 1 else min(best, key=_Ways(snapshot).rank)
+    return best[0] if len(best) == 1 else min(best, key=_Ways(building() if building else snapshot).rank)
 
 
 def changes(snapshot: Snapshot, chosen: HasIntentionEdge | None) -> list[HasIntentionEdge]:

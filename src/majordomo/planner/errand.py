@@ -57,7 +57,7 @@ class Errand:
         self._task_id, self._crew, self._replanner = task_id, crew, replanner
         self._ledger = Ledger(goals, stamp_s)
         self._recoveries = Recoveries(max_failures=crew.settings.max_failures)
-        self._progress = Progress(task_id, goals, plan, crew.queue, crew.memory.snapshot())
+        self._progress = Progress(task_id, goals, plan, crew.queue, crew.memory.building())
         self._lookout = Lookout(crew, self._progress, replanner)
         self._chronicle = Chronicle(task_id, self._ledger, crew)
         self._job: Job | None = None
@@ -74,7 +74,7 @@ class Errand:
         self._stamp_s = stamp_s
         self._phase_s += dt_s
         self._progress.spend(dt_s)
-        snapshot = context.snapshot
+        snapshot = context.building
         if self._hunt is not None and self._hunt.found(snapshot) and self._phase is not Phase.WAITING:
             return self._replan(snapshot, "found")
         ending = self._handlers[self._phase](context, snapshot)

@@ -78,7 +78,7 @@ class Intake:
         """
         if task.approved and task.plan is not None:
             return self._plan(task, task.plan.goals, Source(task.plan.source), stamp_s)
-        snapshot = self._memory.snapshot()
+        snapshot = self._memory.building()
         dialogue = Dialogue(answers=task.dialogue, mentioned=self._mentioned)
         try:
             async with asyncio.timeout(self._interpret_s):
@@ -120,7 +120,7 @@ class Intake:
 
     def _plan(self, task: Task, goals: tuple[Goal, ...], source: Source, stamp_s: float) -> Ready | None:
         """Plan for the goals; then refuse, show the plan, ask for approval, or let the task run."""
-        snapshot = self._memory.snapshot()
+        snapshot = self._memory.building()
         replanner = Replanner(self._verifier, source)
         plan = replanner.plan(goals, snapshot, stamp_s)
         if isinstance(plan, Impossible):

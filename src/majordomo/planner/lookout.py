@@ -22,7 +22,7 @@ class Lookout:
 
     def before(self, step: Step, context: RobotContext) -> Failure | None:
         """What speaks against beginning a step: something unexpected, or a rest of the plan that no longer fits."""
-        snapshot = context.snapshot
+        snapshot = context.building
         self._before = None
         self._progress.expect(snapshot)
         return self._crew.controller.check(self._situation(step, context)) or self._flaw(snapshot)
@@ -37,7 +37,7 @@ class Lookout:
         return lambda job: self._crew.controller.check(self._situation(step, context, job))
 
     def _situation(self, step: Step, context: RobotContext, job: Job | None = None) -> Situation:
-        snapshot, before = context.snapshot, self._before
+        snapshot, before = context.building, self._before
         self._before = snapshot
         times = {} if job is None else {"active_s": job.active_s, "timeout_s": job.timeout_s}
         return Situation(

@@ -23,6 +23,9 @@ from majordomo.scene_graph.se3 import SE3
 from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.scene_graph.subscription import Subscription
 
+LOADER = "long_term_memory"
+"""Who brings back a room that an edit of somebody else needs."""
+
 
 def first_snapshot() -> Snapshot:
     """A graph with the root and the robot standing on it."""
@@ -91,7 +94,7 @@ class WorkingMemory:
         stamp_s: float,
         expected: Mapping[str | EdgeKey, int] | None = None,
     ) -> Snapshot:
-        """Applies all edits as one revision, or none of them.
+        """Applies all edits as one revision, or none of them; rooms that they need are loaded first, as another.
 
         Args:
             edits: in the order in which they take effect. An empty list makes no revision.
@@ -111,14 +114,15 @@ class WorkingMemory:
             base = self._snapshot
             _require_expected(base, expected or {}, agent)
             demand = Demand(edits=edits) if self._long_term is None else demand_of(self._long_term, edits)
+            self._bring(demand.rooms, LOADER, base.stamp_s)
             return self._apply(demand, agent, stamp_s)
 
     def load(self, *node_ids: str, agent: str, stamp_s: float) -> Snapshot:
         """Bring back the unloaded rooms that hold these nodes; what is loaded or unknown is passed over."""
         with self._lock:
             homes = (self._long_term.room_of(node_id) for node_id in node_ids) if self._long_term is not None else ()
-            rooms = tuple(dict.fromkeys(home for home in homes if home is not None))
-            return self._apply(Demand(rooms=rooms), agent, stamp_s)
+            self._bring(tuple(dict.fromkeys(home for home in homes if home is not None)), agent, stamp_s)
+            return self._snapshot
 
     def unload(self, *rooms: str, agent: str, stamp_s: float) -> Snapshot:
         """Hand rooms with everything in them over to long-term memory.
@@ -157,21 +161,27 @@ class WorkingMemory:
         with self._lock:
             self._subscriptions = tuple(other for other in self._subscriptions if other is not subscription)
 
+    def _bring(self, rooms: tuple[str, ...], agent: str, stamp_s: float) -> None:
+        """Load rooms, as a revision of its own."""
+        if self._long_term is None or not rooms:
+            return
+        nodes, edges = self._long_term.peek(rooms)
+        draft = Draft(self._snapshot, [*map(PutNode, nodes), *map(PutEdge, edges)])
+        after = self._checked(draft, agent, stamp_s)
+        self._long_term.load(*rooms)
+        self._put_in_force(draft, after, agent, loaded=rooms)
+
     def _apply(self, demand: Demand, agent: str, stamp_s: float) -> Snapshot:
-        """Load what is needed and make the edits, as one revision."""
-        base, store = self._snapshot, self._long_term
-        nodes, edges = store.peek(demand.rooms) if store is not None else ([], [])
-        loading: list[Edit] = [*map(PutNode, nodes), *map(PutEdge, edges)]
-        draft = Draft(base, [*loading, *demand.edits])
+        draft = Draft(self._snapshot, demand.edits)
         if draft.is_empty and not demand.replaced:
-            return base
+            return self._snapshot
         violations = [flaw for edge in demand.replaced for flaw in edge_value_violations(edge.key, edge)]
         if violations:
             raise InvariantBroken(violations, agent)
         after = self._checked(draft, agent, stamp_s)
-        if store is not None:
-            self._settle(store, demand, draft)
-        self._put_in_force(draft, after, agent, loaded=demand.rooms)
+        if self._long_term is not None:
+            self._settle(self._long_term, demand, draft)
+        self._put_in_force(draft, after, agent)
         return after
 
     def _checked(self, draft: Draft, agent: str, stamp_s: float) -> Snapshot:
@@ -183,15 +193,12 @@ class WorkingMemory:
         return after
 
     def _settle(self, store: LongTermStore, demand: Demand, draft: Draft) -> None:
-        """Long-term memory follows an edit that is in force: what was loaded, moved out, written anew, torn off."""
-        nodes, edges = store.load(*demand.rooms)
-        removed = [node.id for node in nodes if node.id not in draft.put_nodes]
-        dropped = [edge.key for edge in edges if edge.key not in draft.put_edges]
-        dropped += [key for node_id in demand.moved for key in store.release(node_id)]
-        dropped += [key for node_id in (*draft.removed_nodes, *removed) for key in store.forget(node_id)]
+        """Long-term memory follows an edit that is in force: what moved out, was written anew, was torn off."""
+        dropped = [key for node_id in demand.moved for key in store.release(node_id)]
+        dropped += [key for node_id in draft.removed_nodes for key in store.forget(node_id)]
         for edge in demand.replaced:
             store.replace(edge)
-        self._building.note(draft, replaced=demand.replaced, removed=removed, dropped=dropped)
+        self._building.note(draft, replaced=demand.replaced, dropped=dropped)
 
     def _put_in_force(
         self, draft: Draft, after: Snapshot, agent: str, *, loaded: tuple[str, ...] = (), unloaded: tuple[str, ...] = ()

@@ -82,8 +82,13 @@ class RobotContext:
 
     @property
     def snapshot(self) -> Snapshot:
-        """The graph as it is now."""
+        """What is loaded now: enough for whatever is done in the robot's room, and cheap enough for every tick."""
         return self.memory.snapshot()
+
+    @property
+    def building(self) -> Snapshot:
+        """Everything known, for what leads beyond the robot's surroundings."""
+        return self.memory.building()
 
     def announce(self, status: str) -> None:
         """Say in the graph what the robot does (``RobotNode.status``)."""

@@ -72,11 +72,11 @@ class Goto:
     def actions(self, context: RobotContext, args: Sequence[str]) -> list[Action]:
         """Through the doors, then to the target, then look at it."""
         (target,) = args
-        node = context.snapshot.node(target)
+        node = context.building.node(target)
         if isinstance(node, RoomNode | DoorNode):
             return visit(context, target, 0.9)
         if isinstance(node, ObjectNode) and node.graspable:
-            way = travel(context, context.snapshot.room_of(target))
+            way = travel(context, context.building.room_of(target))
             approach = ApproachForReach(context, target, Anchor(target))
             return [Stow(context), *way, approach, LookAt(context, target, Anchor(target))]
         standoff_m = LEAST_STANDOFF_M if isinstance(node, ObjectNode) else PERSON_STANDOFF_M

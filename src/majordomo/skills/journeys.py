@@ -24,7 +24,7 @@ LEAST_STANDOFF_M = 0.42
 
 def travel(context: RobotContext, room: str | None) -> list[Action]:
     """Actions through the doors into ``room``; none when the robot is there or either room is not known."""
-    snapshot = context.snapshot
+    snapshot = context.building
     here = snapshot.current_room
     if here is None or room is None or here == room or not _stands(snapshot, here) or not _stands(snapshot, room):
         return []
@@ -38,19 +38,19 @@ def visit(context: RobotContext, node_id: str, standoff_m: float = 0.0) -> list[
     """Actions that bring the base to a node: a room's origin, or a place ``standoff_m`` from anything else, facing
     it.
     """
-    return [Stow(context), *travel(context, context.snapshot.room_of(node_id)), _drive(context, node_id, standoff_m)]
+    return [Stow(context), *travel(context, context.building.room_of(node_id)), _drive(context, node_id, standoff_m)]
 
 
 def cross(context: RobotContext, door_id: str) -> list[Action]:
     """Actions that bring the base through a door to 0.9 m beyond the wall, coming from the door's own room."""
-    own_room = context.snapshot.door(door_id).rooms[0]
+    own_room = context.building.door(door_id).rooms[0]
     return [Stow(context), *travel(context, own_room), ApproachDoor(context, door_id), CrossDoor(context, door_id)]
 
 
 def look(context: RobotContext, node_id: str, standoff_m: float = 0.8) -> list[Action]:
     """Actions that look at a node from ``standoff_m``; a room is looked around in from its origin."""
     actions = visit(context, node_id, standoff_m)
-    if isinstance(context.snapshot.node(node_id), RoomNode):
+    if isinstance(context.building.node(node_id), RoomNode):
         return [*actions, SweepCamera(context)]
     return [*actions, LookAt(context, node_id, Anchor(node_id), dwell_s=LOOK_DWELL_S)]
 
@@ -70,7 +70,7 @@ def no_way(snapshot: Snapshot, here: str, room: str) -> Failure:
 
 
 def _drive(context: RobotContext, node_id: str, standoff_m: float) -> Action:
-    node = context.snapshot.node(node_id)
+    node = context.building.node(node_id)
     if isinstance(node, RoomNode):
         return DriveTo(context, node_id, near_origin(context, node_id))
     if isinstance(node, DoorNode):

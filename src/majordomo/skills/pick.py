@@ -67,7 +67,7 @@ class Pick:
         held.
         """
         (target,) = args
-        snapshot = context.snapshot
+        snapshot = context.building
         holder = snapshot.support_of(target) or snapshot.room_of(target)
         if holder is None:
             message = f"it is not known where {target} is."

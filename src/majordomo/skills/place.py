@@ -84,7 +84,7 @@ class Place:
         spot = placement.anchor
         return [
             Stow(context),
-            *travel(context, context.snapshot.room_of(target)),
+            *travel(context, context.building.room_of(target)),
             ChooseSpot(context, placement),
             ApproachForReach(context, target, spot),
             LookAt(context, target, spot, dwell_s=INSPECT_S),

@@ -18,7 +18,7 @@ Frame = Literal["map", "room"]
 
 
 def scene_routes(runtime: Runtime) -> APIRouter:
-    """Routes over the runtime's working memory."""
+    """Routes over everything the runtime knows."""
     router = APIRouter(tags=["scene"])
 
     @router.get("/v1/scene", summary="What the robot knows")
@@ -32,7 +32,7 @@ def scene_routes(runtime: Runtime) -> APIRouter:
     @router.post("/v1/scene/query", summary="Find nodes")
     async def query(body: SceneQuery) -> dict[str, Any]:
         try:
-            return query_scene(runtime.memory.snapshot(), body)
+            return query_scene(runtime.memory.building(), body)
         except NodeNotFound as error:
             raise Problem(404, "node_not_found", str(error)) from None
         except (InvalidQuery, UnknownRoom) as error:
@@ -41,7 +41,7 @@ def scene_routes(runtime: Runtime) -> APIRouter:
     @router.get("/v1/scene/path", summary="Rooms and doors between two nodes")
     async def path(to: str, origin: Annotated[str, Query(alias="from")] = "robot") -> dict[str, Any]:
         try:
-            found = scene_path(runtime.memory.snapshot(), origin, to)
+            found = scene_path(runtime.memory.building(), origin, to)
         except NodeNotFound as error:
             raise Problem(404, "node_not_found", str(error)) from None
         if found is None:
@@ -56,7 +56,7 @@ def scene_routes(runtime: Runtime) -> APIRouter:
             raise Problem(404, "node_not_found", str(error)) from None
         except (NotTeachable, TransactionRejected) as error:
             raise Problem(409, "not_teachable", str(error)) from None
-        return next(node for node in document_nodes(runtime.memory.snapshot()) if node["id"] == node_id)
+        return next(node for node in document_nodes(runtime.memory.building()) if node["id"] == node_id)
 
     @router.get("/v1/map.svg", summary="The known building as a picture")
     async def picture() -> Response:

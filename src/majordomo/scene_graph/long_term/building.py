@@ -23,7 +23,8 @@ class _Changes:
 
     def add(self, draft: Draft) -> None:
         for node_id in draft.removed_nodes:
-            self.remove_node(node_id)
+            self.put_nodes.pop(node_id, None)
+            self.removed_nodes[node_id] = None
         for key in draft.removed_edges:
             self.remove_edge(key)
         for node_id, node in draft.put_nodes.items():
@@ -35,10 +36,6 @@ class _Changes:
     def put_edge(self, edge: Edge) -> None:
         self.removed_edges.pop(edge.key, None)
         self.put_edges[edge.key] = edge
-
-    def remove_node(self, node_id: str) -> None:
-        self.put_nodes.pop(node_id, None)
-        self.removed_nodes[node_id] = None
 
     def remove_edge(self, key: EdgeKey) -> None:
         self.put_edges.pop(key, None)
@@ -57,23 +54,12 @@ class Building:
         self._view: Snapshot | None = None
         self._changes = _Changes()
 
-    def note(
-        self,
-        draft: Draft,
-        *,
-        replaced: Iterable[Edge] = (),
-        removed: Iterable[str] = (),
-        dropped: Iterable[EdgeKey] = (),
-    ) -> None:
-        """Take in an edit of working memory, and what it changed of what was stored: edges written anew, nodes and
-        edges that are no more.
-        """
+    def note(self, draft: Draft, *, replaced: Iterable[Edge] = (), dropped: Iterable[EdgeKey] = ()) -> None:
+        """Take in an edit of working memory, and what it changed in stored rooms: edges written anew and dropped."""
         if self._view is None:
             return
         for key in dropped:
             self._changes.remove_edge(key)
-        for node_id in removed:
-            self._changes.remove_node(node_id)
         self._changes.add(draft)
         for edge in replaced:
             self._changes.put_edge(edge)

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Collection
 from dataclasses import dataclass
+from typing import TypeGuard
 
-from majordomo.scene_graph.edges import Edge, RtEdge
+from majordomo.scene_graph.edges import Edge, EdgeKey, EdgeType, RtEdge
 from majordomo.scene_graph.edits import Edit, PutEdge, PutNode, RemoveEdge, RemoveNode
 from majordomo.scene_graph.long_term.long_term_store import LongTermStore
 from majordomo.scene_graph.nodes import ObjectNode, PersonNode
@@ -44,7 +45,7 @@ def demand_of(store: LongTermStore, edits: tuple[Edit, ...]) -> Demand:
         moved=tuple(node_id for node_id in moved if node_id not in come_along),
         replaced=tuple(edge for edge in replaced if edge is not None),
         edits=(
-            *(RemoveNode(node_id) for node_id in come_along),
+            *(RemoveEdge(key) for node_id in come_along for key in _old_place(store, node_id, edits)),
             *(edit for edit, edge in zip(edits, replaced, strict=True) if edge is None),
         ),
     )
@@ -85,6 +86,23 @@ def _moved(store: LongTermStore, edits: tuple[Edit, ...]) -> tuple[str, ...]:
     put = (edit.node for edit in edits if isinstance(edit, PutNode))
     things = (node.id for node in put if isinstance(node, ObjectNode | PersonNode))
     return tuple(dict.fromkeys(node_id for node_id in things if node_id in store and node_id in hung))
+
+
+def _old_place(store: LongTermStore, node_id: str, edits: tuple[Edit, ...]) -> list[EdgeKey]:
+    """Edges that say where a thing was, and that the edits replace by others without removing them."""
+    dealt_with = {edit.key if isinstance(edit, RemoveEdge) else edit.edge.key for edit in edits if _is_of_edge(edit)}
+    new = {edit.edge.key.type for edit in edits if isinstance(edit, PutEdge) and _places(edit.edge.key, node_id)}
+    return [
+        key for key in store.keys_at(node_id) if _places(key, node_id) and key.type in new and key not in dealt_with
+    ]
+
+
+def _places(key: EdgeKey, node_id: str) -> bool:
+    return (key.type is EdgeType.RT and key.target == node_id) or (key.type is EdgeType.IN and key.source == node_id)
+
+
+def _is_of_edge(edit: Edit) -> TypeGuard[PutEdge | RemoveEdge]:
+    return isinstance(edit, PutEdge | RemoveEdge)
 
 
 def _is_kept(store: LongTermStore, edge: Edge, moved: Collection[str]) -> bool:

@@ -50,6 +50,10 @@ class LongTermStore:
         """The stored edge, if any."""
         return self._edges.get(key)
 
+    def keys_at(self, node_id: str) -> tuple[EdgeKey, ...]:
+        """Keys of all stored edges that leave or enter a node."""
+        return tuple(self._at.get(node_id, ()))
+
     def nodes(self) -> Iterator[Node]:
         """All stored nodes, room by room."""
         for members in self._nodes.values():
@@ -102,7 +106,7 @@ class LongTermStore:
 
     def forget(self, node_id: str) -> tuple[EdgeKey, ...]:
         """Forget all stored edges at a node that is no more, wherever it was; their keys."""
-        keys = tuple(self._at.get(node_id, ()))
+        keys = self.keys_at(node_id)
         for key in keys:
             self._drop(key)
         return keys

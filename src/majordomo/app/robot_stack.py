@@ -17,6 +17,7 @@ from majordomo.app.settings import ClockMode, Settings
 from majordomo.perception.doors.door_concept import DoorConcept
 from majordomo.perception.labels import RoomLabels
 from majordomo.perception.localization.energy_optimizer import EnergyOptimizer
+from majordomo.perception.localization.recovery import Relocalization
 from majordomo.perception.memory.long_term_memory import LongTermMemory
 from majordomo.perception.objects.agent import ObjectMemory
 from majordomo.perception.preview import WatchedModel, preview_jpeg
@@ -81,6 +82,7 @@ class RobotStack:
         self.agents: Sequence[Agent] = [
             Sensing(buffer, camera_period_s=0.2 if settings.camera else None),
             EnergyOptimizer(self.memory, buffer),
+            Relocalization(self.memory, buffer),
             RoomConcept(self.memory, buffer),
             DoorConcept(self.memory, buffer),
             LongTermMemory(self.memory, buffer),

@@ -194,7 +194,7 @@ class Runtime:
             "explored": snapshot.root.explored,
             "task": current.id if current else None,
             "stopped": robot["stopped"],
-            "robot": {key: robot[key] for key in ("room", "pose_map", "holding")},
+            "robot": {key: robot[key] for key in ("room", "localized", "pose_map", "holding")},
             "language_model": self.settings.llm,
             "agents": self._agents(),
             "simulator": self._lost or ("running" if self.robot else "none"),

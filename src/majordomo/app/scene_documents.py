@@ -109,6 +109,7 @@ def robot_document(
     return {
         "stamp_s": round(stamp_s, 3),
         "room": snapshot.current_room,
+        "localized": robot is not None and robot.localized,
         "pose_map": {
             "x": round(T_map_robot.x_m, 4),
             "y": round(T_map_robot.y_m, 4),

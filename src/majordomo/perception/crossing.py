@@ -12,11 +12,13 @@ from dataclasses import replace
 from majordomo.perception.localization.planar import Pose2, diagonal_covariance, spatial_covariance
 from majordomo.scene_graph.edges import EdgeKey, EdgeType, InEdge, RtEdge
 from majordomo.scene_graph.memory import Transaction
-from majordomo.scene_graph.nodes import ROBOT_ID, CrossingStatus, DoorNode
+from majordomo.scene_graph.nodes import ROBOT_ID, ROOT_ID, CrossingStatus, DoorNode
 from majordomo.scene_graph.snapshot import Snapshot
 
 BEING_CROSSED = "being crossed"
 DOOR_AGENT = "door_concept"
+LOST_STD = 1.0
+"""Meters and radians: how far off the guess of a lost robot may be, as far as the covariance has to say it."""
 
 
 def door_being_crossed(snapshot: Snapshot) -> DoorNode | None:
@@ -76,3 +78,49 @@ def move_robot(tx: Transaction, room_id: str, T_room_base: Pose2, stamp_s: float
         ),
         InEdge(source=ROBOT_ID, target=room_id),
     )
+
+
+def lose_robot(tx: Transaction) -> None:
+    """Say that nobody knows where the robot is: it is in no room, and hangs from the root by the last guess.
+
+    Whoever restores a building in which the robot may stand anywhere says it in the same way; the relocalization agent
+    then finds the place.
+    """
+    snapshot = tx.snapshot
+    robot, edge = snapshot.robot, snapshot.parent(ROBOT_ID)
+    if robot is None or edge is None:
+        raise LookupError("the robot hangs from nothing")
+    guess = Pose2.from_se3(snapshot.transform(ROOT_ID, ROBOT_ID))
+    for old in (*snapshot.edges_to(ROBOT_ID, EdgeType.RT), *snapshot.edges_from(ROBOT_ID, EdgeType.IN)):
+        tx.remove(old.key)
+    tx.put(
+        replace(robot, localized=False, confidence=0.0),
+        RtEdge(
+            source=ROOT_ID,
+            target=ROBOT_ID,
+            T_source_target=guess.to_se3(),
+            covariance=spatial_covariance(diagonal_covariance(LOST_STD, LOST_STD, LOST_STD)),
+            stamp_s=edge.stamp_s,
+        ),
+    )
+
+
+def find_robot(tx: Transaction, room_id: str, T_room_base: Pose2, stamp_s: float, std: float = 0.02) -> None:
+    """Say where the robot is after it was lost."""
+    robot = tx.snapshot.robot
+    if robot is None:
+        raise LookupError("there is no robot")
+    tx.put(replace(robot, localized=True, confidence=1.0))
+    move_robot(tx, room_id, T_room_base, stamp_s, std)
+
+
+def is_lost(snapshot: Snapshot) -> bool:
+    """Whether the robot does not know where it is."""
+    robot = snapshot.robot
+    return robot is not None and not robot.localized
+
+
+def in_doubt(snapshot: Snapshot) -> bool:
+    """Whether what is seen now should not be believed to be where the robot believes to be."""
+    robot = snapshot.robot
+    return robot is None or not robot.localized or robot.confidence < 1.0

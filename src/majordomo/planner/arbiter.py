@@ -1,7 +1,8 @@
 """Who gets the robot: the ``mission_monitoring`` agent of Concepts, over ``has_intention`` edges (design, section 8).
 
 Agents propose. The arbiter grants at most one intention, revokes it for one of higher priority, and lets what it
-revoked compete again when that one has ended. While the stop is latched it grants nothing.
+revoked compete again when that one has ended. While the stop is latched it grants nothing; while the robot does not
+know where it is, nothing but a look around from where it stands.
 """
 
 from __future__ import annotations
@@ -66,10 +67,13 @@ def choose(
 
     ``building`` gives everything known when the way to several equal ones must be compared; ``snapshot`` by default.
     """
+    robot = snapshot.robot
+    lost = robot is not None and not robot.localized
     candidates = [
         edge
         for edge in snapshot.intentions()
-        if edge.status in OPEN and (exploration_enabled or edge.priority >= Priority.REQUEST)
+        if edge.status in OPEN
+        and (looks_around(edge) if lost else exploration_enabled or edge.priority >= Priority.REQUEST)
     ]
     if not candidates:
         return None
@@ -98,6 +102,11 @@ def changes(snapshot: Snapshot, chosen: HasIntentionEdge | None) -> list[HasInte
         if status is not edge.status:
             rewritten.append(replace(edge, status=status))
     return rewritten
+
+
+def looks_around(edge: HasIntentionEdge) -> bool:
+    """Whether an intention is to look around from where the robot stands, for which no map is needed."""
+    return edge.action is IntentionAction.LOOK and edge.target == ROBOT_ID
 
 
 def _age(edge: HasIntentionEdge) -> tuple[float, str, str]:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from majordomo.planner.arbiter import place_of
+from majordomo.planner.arbiter import looks_around, place_of
 from majordomo.scene_graph.edges import HasIntentionEdge, IntentionAction
 from majordomo.scene_graph.nodes import DoorNode
 from majordomo.skills.action import Action, Refusal, RobotContext
 from majordomo.skills.failures import Evidence, Failure, FailureCode
-from majordomo.skills.journeys import cross, look, visit
+from majordomo.skills.journeys import cross, look, look_from_the_middle, visit
 
 LOOK_STANDOFF_M = 0.8
 """From here the camera, 1.4 m above the floor, sees a table's top and what stands on it."""
@@ -19,6 +19,8 @@ def explore(intention: HasIntentionEdge, context: RobotContext) -> list[Action]:
     target = place_of(snapshot, intention.target)
     if target not in snapshot:
         return [_refusal(context, target, f"{target} is no longer in the scene graph.")]
+    if looks_around(intention):
+        return look_from_the_middle(context)
     match intention.action:
         case IntentionAction.VISIT:
             return visit(context, target, intention.standoff_m)

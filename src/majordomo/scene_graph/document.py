@@ -136,6 +136,7 @@ class RobotRecord(_NodeRecord):
     holding: str | None = None
     battery: Probability = 1.0
     status: str = "idle"
+    localized: bool = True
 
 
 class AffordanceRecord(_NodeRecord):

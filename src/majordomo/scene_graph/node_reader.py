@@ -69,6 +69,7 @@ def read_node(record: NodeRecord, places: Places, stamp_s: float) -> Node:
                 holding=places.held_id,
                 battery=record.battery,
                 status=record.status,
+                localized=record.localized,
             )
         case AffordanceRecord():
             return AffordanceNode(

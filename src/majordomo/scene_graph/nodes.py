@@ -184,11 +184,16 @@ class PersonNode:
 
 @dataclass(frozen=True, kw_only=True)
 class RobotNode:
-    """The robot itself. ``holding`` is the identifier of the object in the gripper, if any."""
+    """The robot itself. ``holding`` is the identifier of the object in the gripper, if any.
+
+    ``localized`` is false while it does not know where it is: then it hangs from the root by a guess and is in no room.
+    ``confidence`` falls from 1 while what it sees speaks against where it believes to be.
+    """
 
     id: str = ROBOT_ID
     label: str = "robot"
     confidence: float = 1.0
+    localized: bool = True
     holding: str | None = None
     battery: float = 1.0
     status: str = "idle"

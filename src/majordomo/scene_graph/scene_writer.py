@@ -160,7 +160,12 @@ class SceneWriter:
             case PersonNode():
                 return {"name": node.name, "last_seen_s": node.last_seen_s}
             case RobotNode():
-                return {"holding": node.holding, "battery": node.battery, "status": node.status}
+                return {
+                    "holding": node.holding,
+                    "battery": node.battery,
+                    "status": node.status,
+                    "localized": node.localized,
+                }
             case AffordanceNode():
                 target = self._stands_for.get(node.target, node.target)
                 return {"kind": node.kind.value, "target": target}

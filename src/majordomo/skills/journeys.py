@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import pi
 
 from majordomo.scene_graph.doors import physical_doors
-from majordomo.scene_graph.nodes import DoorNode, DoorState, RoomNode, RoomStatus
+from majordomo.scene_graph.nodes import ROBOT_ID, DoorNode, DoorState, RoomNode, RoomStatus
 from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.scene_graph.topology import Path, Topology
 from majordomo.skills.action import Action, Refusal, RobotContext
@@ -15,7 +15,7 @@ from majordomo.skills.actions.driving import DriveTo
 from majordomo.skills.actions.looking import LookAt, SweepCamera
 from majordomo.skills.anchor import Anchor
 from majordomo.skills.failures import Evidence, Failure, FailureCode
-from majordomo.skills.navigation.goals import around, at_poses, near_origin
+from majordomo.skills.navigation.goals import around, at_poses, freest, near_origin
 
 LOOK_DWELL_S = 1.5
 LEAST_STANDOFF_M = 0.42
@@ -53,6 +53,11 @@ def look(context: RobotContext, node_id: str, standoff_m: float = 0.8) -> list[A
     if isinstance(context.building.node(node_id), RoomNode):
         return [*actions, SweepCamera(context)]
     return [*actions, LookAt(context, node_id, Anchor(node_id), dwell_s=LOOK_DWELL_S)]
+
+
+def look_from_the_middle(context: RobotContext) -> list[Action]:
+    """Actions that bring the base to where most of its surroundings can be seen, by what it sees and no map."""
+    return [Stow(context), DriveTo(context, ROBOT_ID, freest(context))]
 
 
 def no_way(snapshot: Snapshot, here: str, room: str) -> Failure:

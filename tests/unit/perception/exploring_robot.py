@@ -120,16 +120,26 @@ class Driver:
     def _granted(self) -> HasIntentionEdge | None:
         return next(iter(self.memory.snapshot().intentions(IntentionStatus.GRANTED)), None)
 
-    def _revoke(self) -> None:
-        """A higher priority interrupts; what was interrupted is proposed again."""
-        granted = self._granted()
+    @property
+    def _lost(self) -> bool:
+        robot = self.memory.snapshot().robot
+        return robot is not None and not robot.localized
+
+    def _proposed(self) -> list[HasIntentionEdge]:
+        """What may be granted: a lost robot only looks around from where it is."""
         proposed = self.memory.snapshot().intentions(IntentionStatus.PROPOSED)
-        if granted is not None and any(edge.priority > granted.priority for edge in proposed):
+        return [edge for edge in proposed if not self._lost or edge.target == ROBOT_ID]
+
+    def _revoke(self) -> None:
+        """A higher priority interrupts, and so does being lost; what was interrupted is proposed again."""
+        granted = self._granted()
+        outranked = granted is not None and any(edge.priority > granted.priority for edge in self._proposed())
+        if granted is not None and (outranked or (self._lost and granted.target != ROBOT_ID)):
             self._put(replace(granted, status=IntentionStatus.PROPOSED))
             self.current = None
 
     def _grant(self) -> HasIntentionEdge | None:
-        proposed = self.memory.snapshot().intentions(IntentionStatus.PROPOSED)
+        proposed = self._proposed()
         if not proposed:
             return None
         best = min(proposed, key=lambda edge: (-edge.priority, self._distance(edge), edge.target))
@@ -142,6 +152,8 @@ class Driver:
 
     def _goal(self, edge: HasIntentionEdge) -> Array:
         """Where to drive, in the house: the robot's true pose and what it believes about the target."""
+        if edge.target == ROBOT_ID:
+            return self._middle()
         snapshot = self.memory.snapshot()
         target, point = edge.target, (0.0, edge.standoff_m, 0.0)
         node = snapshot.get(target)
@@ -153,6 +165,13 @@ class Driver:
             point = (0.0, 0.0, 0.0)
         local = snapshot.transform(ROBOT_ID, target).apply(np.array(point))
         return self.port.pose.apply(local[:2])
+
+    def _middle(self) -> Array:
+        """The middle of the room that the robot is in, in truth."""
+        return min(
+            (polygon.mean(axis=0) for polygon in self.port.house.rooms.values()),
+            key=lambda middle: float(np.linalg.norm(middle - self.port.pose.position_m)),
+        )
 
     def _drive(self) -> bool:
         budget_s = STEP_S

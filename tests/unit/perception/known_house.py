@@ -9,7 +9,8 @@ from majordomo.perception.doors.insertion import hang, wall_id_of
 from majordomo.perception.doors.posts import MeasuredGap
 from majordomo.perception.localization.alignment import Walls
 from majordomo.perception.localization.planar import Pose2
-from majordomo.scene_graph.edges import MatchEdge, RtEdge
+from majordomo.perception.memory.joining import join
+from majordomo.scene_graph.edges import RtEdge
 from majordomo.scene_graph.memory import Transaction, WorkingMemory
 from majordomo.scene_graph.nodes import ROOT_ID, CrossingStatus, DoorNode, RoomNode, RoomStatus, WallNode
 from majordomo.scene_graph.se3 import SE3
@@ -36,6 +37,7 @@ def known_house(house: House, *, but: tuple[str, ...] = (), error_m: float = 0.0
                 low, high = polygon.min(axis=0), polygon.max(axis=0)
                 scale = 1.0 + rng.uniform(-2.0, 2.0, 2) * error_m / (high - low)
                 _put_room(tx, house, name, number, (polygon - low) * scale + low)
+    with memory.edit("test", 0.0) as tx:
         _join_doors(tx)
     return memory
 
@@ -87,7 +89,7 @@ def _join_doors(tx: Transaction) -> None:
         for second in doors:
             near = places[first.id].distance_m(places[second.id]) < 0.5
             if first.id < second.id and first.rooms[0] != second.rooms[0] and near:
-                tx.put(MatchEdge(source=first.id, target=second.id))
+                join(tx, first, second)
 
 
 def put_robot(memory: WorkingMemory, house: House, name: str, T_house_base: Pose2, stamp_s: float = 0.0) -> None:

@@ -164,3 +164,21 @@ def test_nothing_but_the_stop_interrupts_a_crossing_in_the_doorway():
     assert choose(house.memory.snapshot()).key == cross.key
     house.stopped = True
     assert house.step() == ()
+
+
+def test_a_robot_that_does_not_know_where_it_is_looks_around_and_does_nothing_else():
+    house = House()
+    request = intention("robot", agent="task:1", priority=Priority.REQUEST)
+    visit = intention("room_2", agent="room_concept", action=IntentionAction.VISIT)
+    house.put(request, visit)
+    assert house.step() == (replace(request, status=GRANTED),)
+    with house.memory.edit("test", 0.0) as tx:
+        tx.put(replace(tx.snapshot.robot, localized=False))
+    assert house.step() == ()
+    look = replace(intention("robot", agent="relocalization"), action=IntentionAction.LOOK)
+    house.put(look)
+    assert house.step() == (replace(look, status=GRANTED),)
+    with house.memory.edit("test", 0.0) as tx:
+        tx.put(replace(tx.snapshot.robot, localized=True))
+        tx.remove(look.key)
+    assert house.step() == (replace(request, status=GRANTED),)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import atan2, hypot, pi
 
 import numpy as np
@@ -20,6 +21,7 @@ from majordomo.skills.failures import FailureCode
 from majordomo.skills.geometry import Box2, Pose2, wrap_rad
 from majordomo.skills.navigation.goals import around, at_poses
 from majordomo.skills.navigation.grid import Canvas
+from majordomo.skills.navigation.pose import ANYWHERE
 from majordomo.skills.navigation.route import find_routes
 
 pytestmark = pytest.mark.anyio
@@ -78,6 +80,22 @@ async def test_in_no_room_it_drives_on_the_scan_alone():
     assert await rehearsal.run([action]) is None
     assert rehearsal.body.pose.distance_m((2.0, 0.0)) < 0.1
     assert rehearsal.least_clearance_m > PHYSICAL_RADIUS_M
+
+
+async def test_a_lost_robot_drives_to_where_it_is_freest_and_forgets_what_it_saw_before(flat):
+    graph = flat().table()
+    rehearsal = Rehearsal(memory=graph.memory, body=FakeBody(pose=Pose2(-2.0, 0.0)))
+    context = await rehearsal.prepare()
+    assert await rehearsal.run([goal_at(context, 2.0, 0.0)]) is None
+    with graph.memory.edit("test", 0.0) as tx:
+        tx.put(replace(tx.snapshot.robot, localized=False))
+    sides = (Box2(Pose2(0.8, -0.3), 0.1, 3.6), Box2(Pose2(3.8, -0.3), 0.1, 3.6))
+    ends = (Box2(Pose2(2.3, 1.4), 3.1, 0.1), Box2(Pose2(2.3, -2.0), 3.1, 0.1))
+    rehearsal.world = BoxWorld(boxes=(*sides, *ends))
+    assert await rehearsal.run(journeys.look_from_the_middle(context)) is None
+    assert rehearsal.body.pose.distance_m((2.3, -0.3)) < 0.5
+    assert rehearsal.least_clearance_m > PHYSICAL_RADIUS_M
+    assert context.surroundings.frame == ANYWHERE
 
 
 async def test_stands_at_a_table_facing_it_with_the_table_within_reach(flat):

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from majordomo.perception.crossing import DOOR_AGENT, door_being_crossed
+from majordomo.perception.crossing import DOOR_AGENT, door_being_crossed, in_doubt
 from majordomo.perception.doors.errands import DoorErrands
 from majordomo.perception.doors.insertion import (
     free_door_id,
@@ -24,6 +24,7 @@ from majordomo.perception.localization.landmarks import room_model
 from majordomo.perception.localization.robot_pose import robot_pose_at
 from majordomo.perception.sensing import SensorBuffer
 from majordomo.scene_graph.memory import WorkingMemory
+from majordomo.scene_graph.nodes import DoorNode
 from majordomo.scene_graph.snapshot import Snapshot
 
 logger = logging.getLogger(__name__)
@@ -69,6 +70,7 @@ class DoorConcept:
         self._upkeep = DoorUpkeep(memory)
         self._errands = DoorErrands(memory)
         self._watches: dict[str, RoomWatch] = {}
+        self._settled: dict[str, tuple[object, ...]] = {}
         self._room_id: str | None = None
         self._scan_stamp_s = -np.inf
         self._stamp_s = 0.0
@@ -100,7 +102,7 @@ class DoorConcept:
         watch = self._watches.get(room.room_id)
         if watch is None or not np.array_equal(watch.polygon, room.polygon):
             watch = self._watches[room.room_id] = RoomWatch(room.polygon)
-        localized = np.sqrt(np.trace(pose.covariance[:2, :2])) < self._settings.pose_std_m
+        localized = np.sqrt(np.trace(pose.covariance[:2, :2])) < self._settings.pose_std_m and not in_doubt(snapshot)
         if localized and scan.stamp_s > self._scan_stamp_s:
             self._scan_stamp_s = scan.stamp_s
             watch.add(scan, pose.T_parent_base)
@@ -122,25 +124,36 @@ class DoorConcept:
 
     def _explain(self) -> Verdict:
         """Silent while known doors explain every gap."""
-        scene = self._scene()
-        if scene is None or self._stamp_s < self._detected_s + self._settings.detect_every_s - 1e-6:
+        if self._stamp_s < self._detected_s + self._settings.detect_every_s - 1e-6:
             return Verdict.DONE
         self._detected_s = self._stamp_s
-        self._suspect(scene)
-        return Verdict.NO if scene.unexplained() else Verdict.DONE
+        for room_id in self._watches:
+            self._suspect(room_id)
+        scene = self._scene()
+        return Verdict.NO if scene is not None and scene.unexplained() else Verdict.DONE
 
-    def _suspect(self, scene: Scene) -> None:
-        """When the room has been watched for a while, ask to look at the longest stretch of wall never seen."""
-        if scene.watch.scans < self._settings.settled_scans or any(is_suspicion(door) for door, _, _ in scene.doors()):
+    def _suspect(self, room_id: str) -> None:
+        """When a room has been watched for a while, ask to look at its longest stretch of wall never seen.
+
+        A room that was left is asked for too: what the robot could not see from its way stays to be seen.
+        """
+        watch = self._watches[room_id]
+        doors = tuple(door.id for door in self._memory.snapshot().of_type(DoorNode) if door.rooms[0] == room_id)
+        told = (watch.scans, len(watch.checked), doors)
+        if watch.scans < self._settings.settled_scans or self._settled.get(room_id) == told:
+            return
+        scene = self._scene_of(room_id)
+        if scene is None or any(is_suspicion(door) for door, _, _ in scene.doors()):
             return
         hidden = scene.unseen()
         if not hidden:
+            self._settled[room_id] = told
             return
         wall, stretch = max(hidden, key=lambda item: item[1].width_m)
         with self._memory.edit(self.name, self._stamp_s) as tx:
-            door_id = free_door_id(tx.snapshot, scene.room.room_id, wall)
+            door_id = free_door_id(tx.snapshot, room_id, wall)
             length_m = scene.wall_length_m(wall)
-            put_suspected(tx, door_id, scene.room.room_id, wall, length_m, stretch, self._stamp_s)
+            put_suspected(tx, door_id, room_id, wall, length_m, stretch, self._stamp_s)
 
     def _initialize(self) -> Verdict:
         """Propose to visit each gap that no door explains, once it is seen well or long enough."""

@@ -66,6 +66,15 @@ class FitnessMonitor:
         """Whether the pose cannot be believed any more."""
         return self.doubt_s >= self.settings.patience_s - 1e-6
 
+    @property
+    def confidence(self) -> float:
+        """1 without doubt, 0 when lost."""
+        return float(np.clip(1.0 - self.doubt_s / self.settings.patience_s, 0.0, 1.0))
+
+    def usual_shares(self) -> dict[str, float]:
+        """Share of a scan that is usually explained, by room."""
+        return {room_id: usual.explained for room_id, usual in self._usual.items()}
+
     def usual(self, room_id: str) -> Usual:
         """What fits were like in a room so far."""
         return self._usual.setdefault(room_id, Usual())
@@ -74,10 +83,13 @@ class FitnessMonitor:
         """The pose was found anew."""
         self.doubt_s = 0.0
 
+    def rest(self, stamp_s: float) -> None:
+        """A scan that cannot be judged, outside of the rooms that stand: doubt goes."""
+        self.doubt_s = max(0.0, self.doubt_s - self.settings.relief * self._elapsed(stamp_s))
+
     def add(self, room_id: str, depth_m: float, fit: ScanFit, doorways: DoorwayFit, stamp_s: float) -> None:
         """Judge the scan of ``stamp_s`` taken ``depth_m`` inside a room's outline."""
-        seconds = float(np.clip(stamp_s - self._stamp_s, 0.0, 0.3))
-        self._stamp_s = stamp_s
+        seconds = self._elapsed(stamp_s)
         settings, usual = self.settings, self.usual(room_id)
         if usual.seconds < settings.patience_s and fit.explained >= settings.poorest:
             usual.add(fit, seconds, settings.usual_s)
@@ -93,3 +105,9 @@ class FitnessMonitor:
         else:
             gross = fit.explained < 0.6 * least or fit.passed > 3.0 * most
             self.doubt_s += seconds * (settings.gross if gross else 1.0)
+
+    def _elapsed(self, stamp_s: float) -> float:
+        """Seconds since the last scan, at most what a scan may stand for."""
+        seconds = float(np.clip(stamp_s - self._stamp_s, 0.0, 0.3))
+        self._stamp_s = stamp_s
+        return seconds

@@ -37,6 +37,7 @@ class PoseWindow:
         parameters = gtsam.ISAM2Params()
         parameters.setRelinearizeThreshold(0.002)
         parameters.relinearizeSkip = 1
+        parameters.setFactorization("QR")  # Cholesky fails where a vague pose meets sharp odometry
         self._smoother = gtsam.IncrementalFixedLagSmoother(POSES - 0.5, parameters)
         self._landmarks = np.empty((0, 2)) if landmarks is None else landmarks
         self._known: set[int] = set()

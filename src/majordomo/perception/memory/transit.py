@@ -10,6 +10,7 @@ from majordomo.perception.crossing import (
     DOOR_AGENT,
     door_being_crossed,
     given_up,
+    in_doubt,
     is_being_crossed,
     mark_being_crossed,
     match_of,
@@ -60,7 +61,7 @@ class Transit:
         snapshot = self._memory.snapshot()
         pose = robot_pose_at(snapshot, self._buffer, self._stamp_s)
         room = room_model(snapshot, pose.parent) if pose is not None else None
-        if pose is None or room is None or door_being_crossed(snapshot) is not None:
+        if pose is None or room is None or door_being_crossed(snapshot) is not None or in_doubt(snapshot):
             return
         depth_m = room.depth_m(pose.T_parent_base.position_m)
         if depth_m < -_OUT_M and self._enter_known(snapshot, pose):

@@ -204,7 +204,7 @@ class ObjectMemory:
             held.track.room = room
             edits.extend(held_edits(snapshot, node_id, self._hand.T_robot_object(held), room, stamp_s, settings))
             edits.extend(robot_edits(snapshot, node_id))
-        else:
+        elif room is not None or node_id is None:
             edits.extend(robot_edits(snapshot, None))
         edits.extend(person_edits(snapshot, self._people.tracks, stamp_s, settings))
         edits.extend(relation_edits(snapshot, self._relations.stated(), tracks, self._published, stamp_s, settings))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from majordomo.perception.crossing import in_doubt
 from majordomo.perception.errors import OdometryUnavailable
 from majordomo.perception.objects.projection import View
 from majordomo.perception.ports import RgbdFrame
@@ -13,11 +14,11 @@ from majordomo.scene_graph.snapshot import Snapshot
 
 
 def view_of(frame: RgbdFrame, snapshot: Snapshot, buffer: SensorBuffer) -> View | None:
-    """The frame in the robot's room, ``None`` while there is no room to see it in."""
+    """The frame in the robot's room, ``None`` while there is no room to see it in, or its place is in doubt."""
     room_id = snapshot.current_room
     room = snapshot.get(room_id) if room_id is not None else None
     parent = snapshot.parent(ROBOT_ID)
-    if not isinstance(room, RoomNode) or room.status is RoomStatus.TEMPORARY or parent is None:
+    if not isinstance(room, RoomNode) or room.status is RoomStatus.TEMPORARY or parent is None or in_doubt(snapshot):
         return None
     try:
         T_room_robot, covariance = snapshot.transform_with_covariance(room.id, ROBOT_ID)

@@ -8,7 +8,7 @@ import logging
 import numpy as np
 from numpy.typing import NDArray
 
-from majordomo.perception.crossing import door_being_crossed, given_up, uncrossed
+from majordomo.perception.crossing import door_being_crossed, given_up, is_lost, uncrossed
 from majordomo.perception.lifecycle import LifeCycle, Verdict
 from majordomo.perception.localization.landmarks import room_model
 from majordomo.perception.localization.planar import Pose2
@@ -81,7 +81,7 @@ class RoomConcept:
             return
         self._scan_stamp_s = scan.stamp_s
         pose = robot_pose_at(snapshot, self._buffer, scan.stamp_s)
-        if pose is None:
+        if pose is None or is_lost(snapshot):
             return
         if self._survey.started and self._survey.parent != pose.parent:
             self._survey = Survey(self._settings)
@@ -222,7 +222,7 @@ def own_intention(snapshot: Snapshot) -> HasIntentionEdge | None:
 def _room_needed(snapshot: Snapshot) -> bool:
     """Whether the robot is where no room stands: at the very start, or behind a door that is being crossed."""
     edge = snapshot.parent(ROBOT_ID)
-    if edge is None:
+    if edge is None or is_lost(snapshot):
         return False
     room = snapshot.get(edge.source)
     if not isinstance(room, RoomNode):

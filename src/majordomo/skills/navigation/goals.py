@@ -12,7 +12,7 @@ from majordomo.scene_graph.se3 import SE3
 from majordomo.skills.action import RobotContext
 from majordomo.skills.geometry import Box2, Pose2
 from majordomo.skills.navigation.plan import Goal, GoalSource
-from majordomo.skills.navigation.pose import robot_frame
+from majordomo.skills.navigation.pose import planar_pose, robot_frame
 from majordomo.skills.navigation.route import Routes
 
 SPACING_M = 0.15
@@ -46,6 +46,20 @@ def near_origin(context: RobotContext, node_id: str, radius_m: float = 1.2) -> G
         pose = _planar(context, node_id)
         points = pose.apply(np.array(spots))
         costs = 4.0 * np.hypot(*np.array(spots).T)
+        return [Goal(point=(float(x), float(y)), cost_m=float(c)) for (x, y), c in zip(points, costs, strict=True)]
+
+    return goals
+
+
+def freest(context: RobotContext, reach_m: float = 2.5) -> GoalSource:
+    """Spots within ``reach_m`` of where the robot is now, those farthest from everything preferred; needs no map."""
+    steps = np.arange(-reach_m, reach_m + 1e-6, 2 * SPACING_M)
+    spots = np.stack(np.meshgrid(steps, steps), axis=-1).reshape(-1, 2)
+    points = spots + planar_pose(context, robot_frame(context.snapshot)).point
+
+    def goals(routes: Routes | None) -> list[Goal]:
+        clearance_m = np.zeros(len(points)) if routes is None else routes.grid.clearance_at(points)
+        costs = 10.0 * (reach_m - np.minimum(clearance_m, reach_m))
         return [Goal(point=(float(x), float(y)), cost_m=float(c)) for (x, y), c in zip(points, costs, strict=True)]
 
     return goals

@@ -9,6 +9,8 @@ from majordomo.skills.action import RobotContext
 from majordomo.skills.geometry import Pose2
 
 MAX_PREDICTION_S = 0.25
+ANYWHERE = "anywhere"
+"""Stands for the frame of a robot that does not know where it is: what it sees there is worth nothing elsewhere."""
 
 
 def robot_frame(snapshot: Snapshot) -> str:
@@ -42,12 +44,17 @@ def in_base(context: RobotContext, node_id: str) -> SE3:
 
 
 def look_around(context: RobotContext) -> None:
-    """Take the newest obstacle points into the memory of the surroundings, in the robot's present frame."""
+    """Take the newest obstacle points into the memory of the surroundings, in the robot's present frame.
+
+    What was there before the robot was carried away is forgotten, and so is what it saw until it knew where it was.
+    """
     snapshot = context.snapshot
     frame, around = robot_frame(snapshot), context.surroundings
-    if around.frame != frame:
-        known = around.frame in snapshot and around.frame != ""
-        around.move_to(frame, snapshot.transform(frame, around.frame) if known else None)
+    lost = snapshot.robot is not None and not snapshot.robot.localized
+    name = ANYWHERE if lost else frame
+    if around.frame != name:
+        known = around.frame in snapshot and not lost
+        around.move_to(name, snapshot.transform(frame, around.frame) if known else None)
     arm_reach_m = context.body.T_base_gripper.x_m + 0.15
     reach_m = arm_reach_m if context.body.arm.extension_m > 0.08 else 0.0
     around.observe(context.obstacles_base, snapshot.transform(frame, ROBOT_ID), context.stamp_s, reach_m)

@@ -1,0 +1,229 @@
+"""The relocalization agent: notices that the robot is not where it believes to be, says so, and finds out where it is.
+
+Somebody may pick the robot up and set it down elsewhere. Its wheels do not tell, so only what it sees does. While it is
+lost it hangs from the root, in no room: nothing is mapped, nothing is driven to. A place is believed once two views in
+a row single it out; between places that look the same nothing is decided.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from majordomo.perception.crossing import door_being_crossed, find_robot, lose_robot
+from majordomo.perception.localization.doorways import doorway_fit, doorway_model
+from majordomo.perception.localization.expectation import fit_of
+from majordomo.perception.localization.fitness import FitnessMonitor
+from majordomo.perception.localization.landmarks import room_model
+from majordomo.perception.localization.planar import Pose2
+from majordomo.perception.localization.relocalization import Hypothesis, Sight, decide, hypotheses, known_rooms
+from majordomo.perception.localization.robot_pose import robot_pose_at
+from majordomo.perception.ports import LidarScan
+from majordomo.perception.rooms.slice import OutlineSlicer
+from majordomo.perception.sensing import SensorBuffer
+from majordomo.scene_graph.edges import EdgeKey, EdgeType, HasIntentionEdge, IntentionAction, IntentionStatus, Priority
+from majordomo.scene_graph.memory import WorkingMemory
+from majordomo.scene_graph.nodes import ROBOT_ID
+from majordomo.scene_graph.snapshot import Snapshot
+
+logger = logging.getLogger(__name__)
+
+_WORTH_NAMING = 0.01
+_WORTH_WRITING = 0.05
+
+
+@dataclass(frozen=True, kw_only=True)
+class RecoverySettings:
+    """Pace of the search.
+
+    ``search_every_s``: between searches. ``settle_s``: after this long without a decision the robot looks around, at
+    most ``looks`` times. ``step_m``: between views that are kept, ``sights`` of them at most.
+    """
+
+    search_every_s: float = 0.5
+    settle_s: float = 1.5
+    looks: int = 2
+    step_m: float = 0.5
+    sights: int = 5
+
+
+class Relocalization:
+    """Agent that watches over the robot's place in the graph.
+
+    It acts on ``RobotNode.localized``: whoever sets it to false (``crossing.lose_robot``), for instance because a
+    stored building was restored and the robot may stand anywhere in it, gets the place found. Rooms that are not loaded
+    are searched too.
+
+    Attributes:
+        found: places that the last search could not rule out, most likely first.
+    """
+
+    name = "relocalization"
+
+    def __init__(
+        self,
+        memory: WorkingMemory,
+        buffer: SensorBuffer,
+        *,
+        settings: RecoverySettings | None = None,
+        period_s: float = 0.1,
+    ) -> None:
+        self.period_s = period_s
+        self.found: list[Hypothesis] = []
+        self._memory, self._buffer = memory, buffer
+        self._settings = settings or RecoverySettings()
+        self._slicer = OutlineSlicer()
+        self._monitor = FitnessMonitor()
+        self._scan_stamp_s = -np.inf
+        self._search = _Search()
+
+    async def step(self, stamp_s: float) -> None:
+        """Judge the newest scan where the robot believes to be, or search for where it was taken."""
+        scan, snapshot = self._buffer.scan, self._memory.snapshot()
+        robot = snapshot.robot
+        if scan is None or robot is None or scan.stamp_s <= self._scan_stamp_s or not self._buffer.odometry:
+            return
+        self._scan_stamp_s = scan.stamp_s
+        sight = self._sight(scan)
+        if robot.localized:
+            self._watch(snapshot, sight, stamp_s)
+        else:
+            await self._find_out(sight, stamp_s)
+
+    def _sight(self, scan: LidarScan) -> Sight:
+        T_odom_base = Pose2.from_se3(self._buffer.odometry_near(scan.stamp_s))
+        return Sight(scan=scan, outline=self._slicer.cut(scan), T_odom_base=T_odom_base)
+
+    # While the robot believes to know where it is.
+
+    def _watch(self, snapshot: Snapshot, sight: Sight, stamp_s: float) -> None:
+        stamp_scan_s = sight.scan.stamp_s
+        pose = robot_pose_at(snapshot, self._buffer, stamp_scan_s)
+        room = room_model(snapshot, pose.parent) if pose is not None else None
+        depth_m = room.depth_m(pose.T_parent_base.position_m) if pose is not None and room is not None else -1.0
+        if pose is None or room is None or depth_m < 0.0 or door_being_crossed(snapshot) is not None:
+            self._monitor.rest(stamp_scan_s)
+        else:
+            fit = fit_of(sight.outline, room, pose.T_parent_base)
+            doorways = doorway_fit(sight.scan, doorway_model(snapshot, room), pose.T_parent_base)
+            self._monitor.add(room.room_id, depth_m, fit, doorways, stamp_scan_s)
+        if self._monitor.lost:
+            self._lose(snapshot.current_room, stamp_s)
+        else:
+            self._doubt(snapshot, stamp_s)
+
+    def _doubt(self, snapshot: Snapshot, stamp_s: float) -> None:
+        """Let the others know how far the pose is in doubt."""
+        robot, confidence = snapshot.robot, self._monitor.confidence
+        if robot is None or robot.confidence == confidence:
+            return
+        if confidence in {0.0, 1.0} or abs(robot.confidence - confidence) > _WORTH_WRITING:
+            with self._memory.edit(self.name, stamp_s) as tx:
+                tx.put(replace(tx.snapshot.robot or robot, confidence=confidence))
+
+    def _lose(self, room_id: str | None, stamp_s: float) -> None:
+        with self._memory.edit(self.name, stamp_s) as tx:
+            lose_robot(tx)
+        self._search = _Search()
+        logger.warning("I do not know where I am: what I see is not %s", room_id, extra={"room": room_id})
+
+    # While it does not.
+
+    async def _find_out(self, sight: Sight, stamp_s: float) -> None:
+        search, settings = self._search, self._settings
+        if search.since_s is None:
+            search.since_s = stamp_s
+        if stamp_s < search.next_s - 1e-6:
+            return
+        search.next_s = stamp_s + settings.search_every_s
+        rooms = known_rooms(self._memory.building(), self._monitor.usual_shares())
+        self.found = await asyncio.to_thread(hypotheses, [*search.sights, sight], rooms)
+        if not self.found and search.sights:
+            self._search = _Search(since_s=stamp_s)
+            return
+        decided = decide(self.found)
+        if decided is None:
+            search.decided = None
+            self._go_on(sight, stamp_s)
+        elif search.confirms(decided, sight):
+            self._restore(decided, sight, stamp_s)
+        else:
+            search.decided = (decided, sight.T_odom_base)
+
+    def _go_on(self, sight: Sight, stamp_s: float) -> None:
+        """Keep the view, say what is possible, and look around when that may help."""
+        search, settings = self._search, self._settings
+        search.keep(sight, settings)
+        names = sorted({one.room_id for one in self.found if one.weight > _WORTH_NAMING})
+        if names != search.named:
+            search.named = names
+            logger.info("this could be %s", " or ".join(names) if names else "no room that I know")
+        if search.since_s is not None and stamp_s >= search.since_s + settings.settle_s:
+            self._look_around(stamp_s)
+
+    def _look_around(self, stamp_s: float) -> None:
+        """Ask for the robot, to see from elsewhere what is hidden from here."""
+        edge = self._memory.snapshot().edges.get(_LOOK)
+        ended = isinstance(edge, HasIntentionEdge) and edge.status in (IntentionStatus.DONE, IntentionStatus.FAILED)
+        if edge is not None and not ended:
+            return
+        with self._memory.edit(self.name, stamp_s) as tx:
+            if edge is not None:
+                tx.remove(_LOOK)
+            elif self._search.looks < self._settings.looks:
+                self._search.looks += 1
+                tx.put(
+                    HasIntentionEdge(
+                        source=ROBOT_ID,
+                        target=ROBOT_ID,
+                        agent=self.name,
+                        action=IntentionAction.LOOK,
+                        priority=Priority.LOOK_AROUND,
+                        proposed_s=stamp_s,
+                    )
+                )
+
+    def _restore(self, decided: Hypothesis, sight: Sight, stamp_s: float) -> None:
+        with self._memory.edit(self.name, stamp_s) as tx:
+            find_robot(tx, decided.room_id, decided.T_room_base, sight.scan.stamp_s)
+            if _LOOK in tx.snapshot.edges:
+                tx.remove(_LOOK)
+        self._monitor.forget_doubt()
+        self._search = _Search()
+        logger.info("I am in %s", decided.room_id, extra={"room": decided.room_id, "fit": decided.fit.explained})
+
+
+_LOOK = EdgeKey(EdgeType.HAS_INTENTION, ROBOT_ID, ROBOT_ID, Relocalization.name)
+
+
+@dataclass(kw_only=True)
+class _Search:
+    """One search for the robot's place.
+
+    ``sights``: earlier views from other spots. ``decided``: what the last search decided, with the odometry then.
+    ``named``: the rooms that were said to be possible.
+    """
+
+    since_s: float | None = None
+    next_s: float = -np.inf
+    sights: Sequence[Sight] = ()
+    decided: tuple[Hypothesis, Pose2] | None = None
+    named: list[str] | None = None
+    looks: int = 0
+
+    def keep(self, sight: Sight, settings: RecoverySettings) -> None:
+        """Keep a view from a new spot; the oldest makes room."""
+        if not any(sight.T_odom_base.distance_m(other.T_odom_base) < settings.step_m for other in self.sights):
+            self.sights = (*self.sights, sight)[-settings.sights :]
+
+    def confirms(self, decided: Hypothesis, sight: Sight) -> bool:
+        """Whether the search before this one decided for the same place, given how the robot moved since."""
+        if self.decided is None:
+            return False
+        before, T_odom_before = self.decided
+        moved = T_odom_before.inverse() @ sight.T_odom_base
+        return decided.same_as(replace(before, T_room_base=before.T_room_base @ moved))

@@ -8,6 +8,7 @@ from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.ndimage import binary_dilation
 
 from majordomo.perception.doors.wall_rays import WallRays
 
@@ -17,6 +18,7 @@ _BIN_M = 0.02
 _KEPT_SCANS = 60
 _MOST_RAYS = 30.0
 _FARTHEST_SAMPLE_M = 5.0
+_GRAZING = 2.0  # way along the wall per way into it
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -48,7 +50,8 @@ class GapSettings:
     ``narrowest_m``: least width that rays pass through; seen at an angle, the reveals of a thick wall take their share
     of a door. ``rays``: least number in a part of the wall that tells. ``bridge_m``: a part without rays this short is
     like its neighbors. ``post_m``: how far beside a gap wall may be first seen: rays that end on the reveal of a thick
-    wall tell nothing. ``hiding_m``: an unseen stretch this long could hide a door.
+    wall tell nothing. ``hiding_m``: an unseen stretch this long could hide a door, if ``dark_m`` of it showed nothing
+    at all.
     """
 
     narrowest_m: float = 0.35
@@ -56,12 +59,14 @@ class GapSettings:
     bridge_m: float = 0.12
     post_m: float = 0.36
     hiding_m: float = 0.5
+    dark_m: float = 0.2
 
 
 class WallEvidence:
     """Counts of rays that passed and that ended on the face, along one wall, and the recent rays themselves.
 
-    A ray that ends behind the face, on a reveal or a recessed panel, counts as neither.
+    A ray that ends behind the face, on a reveal or a recessed panel, counts as neither. One that grazes the wall may
+    have met the first centimeters of a reveal instead of the face: it tells only where no steeper ray does.
     """
 
     def __init__(self, length_m: float) -> None:
@@ -69,6 +74,7 @@ class WallEvidence:
         bins = max(1, int(np.ceil(length_m / _BIN_M)))
         self._passed = np.zeros(bins)
         self._ended = np.zeros(bins)
+        self._grazed = np.zeros(bins)
         self._low_hits = np.zeros(bins)
         self._blocked = np.zeros(bins)
         self._scans: deque[WallRays] = deque(maxlen=_KEPT_SCANS)
@@ -77,9 +83,12 @@ class WallEvidence:
         """Count the rays of one scan; ``keep`` them one by one too, for finding edges."""
         index = np.minimum((rays.station_m / _BIN_M).astype(np.int64), len(self._passed) - 1)
         weight = 1.0 / np.maximum(rays.distance_m, 1.0)
-        ended = rays.on_face & ~rays.passed
+        grazing = np.abs(rays.slope) > _GRAZING
+        ended = rays.on_face & ~rays.passed & ~grazing
+        grazed = rays.on_face & ~rays.passed & grazing
         np.add.at(self._passed, index[rays.passed], weight[rays.passed])
         np.add.at(self._ended, index[ended], weight[ended])
+        np.add.at(self._grazed, index[grazed], weight[grazed])
         np.add.at(self._low_hits, index[rays.low_hit], weight[rays.low_hit])
         np.add.at(self._blocked, np.minimum((rays.blocked_m / _BIN_M).astype(np.int64), len(self._blocked) - 1), 1.0)
         self._bound()
@@ -91,6 +100,7 @@ class WallEvidence:
         share = np.minimum(1.0, _MOST_RAYS / np.maximum(self._passed + self._ended, 1e-9))
         self._passed *= share
         self._ended *= share
+        self._grazed *= np.minimum(1.0, _MOST_RAYS / np.maximum(self._grazed, 1e-9))
         self._low_hits *= share
 
     def gaps(self, settings: GapSettings | None = None) -> list[Gap]:
@@ -112,20 +122,30 @@ class WallEvidence:
     def unseen(self, settings: GapSettings | None = None) -> list[Gap]:
         """Stretches that could hide a door: not seen to be wall, and nothing stands close before them."""
         settings = settings or GapSettings()
-        hidden = (self._states(settings) != -1) & (self._blocked < 1.0)
+        state = self._states(settings)
+        free = self._blocked < 1.0
+        dark = (state != -1) & free
+        grazed = (state == -1) & ~self._told(settings) & free
+        near_dark = binary_dilation(dark, iterations=round(settings.post_m / _BIN_M))
         known = self.gaps(settings)
-        runs = [(start * _BIN_M, min(end * _BIN_M, self.length_m)) for start, end in _runs(hidden)]
-        return [
-            Gap(start_m=start_m, end_m=end_m)
-            for start_m, end_m in runs
-            if end_m - start_m > settings.hiding_m and not any(start_m <= gap.center_m <= end_m for gap in known)
-        ]
+        found: list[Gap] = []
+        for start, end in _runs(dark | (grazed & near_dark)):
+            gap = Gap(start_m=start * _BIN_M, end_m=min(end * _BIN_M, self.length_m))
+            in_the_dark_m = float(dark[start:end].sum()) * _BIN_M
+            explained = any(gap.start_m <= other.center_m <= gap.end_m for other in known)
+            if gap.width_m > settings.hiding_m and in_the_dark_m > settings.dark_m and not explained:
+                found.append(gap)
+        return found
+
+    def _told(self, settings: GapSettings) -> NDArray[np.bool_]:
+        """Parts of the wall that rays met steeply enough."""
+        return np.asarray(self._passed + self._ended > settings.rays / 3.0)
 
     def _states(self, settings: GapSettings) -> NDArray[np.int64]:
         """Per part of the wall: 1 open, -1 wall, 0 unknown; short unknown parts take their neighbors' state."""
-        enough = self._passed + self._ended > settings.rays / 3.0
-        opened = enough & (self._passed > self._ended) & (self._low_hits <= 0.5 * self._passed)
-        state = np.where(opened, 1, np.where(enough, -1, 0))
+        told = self._told(settings)
+        opened = told & (self._passed > self._ended) & (self._low_hits <= 0.5 * self._passed)
+        state = np.where(opened, 1, np.where(told | (self._grazed > settings.rays / 3.0), -1, 0))
         known = np.flatnonzero(state)
         for before, after in pairwise(known.tolist()):
             if 1 < after - before <= settings.bridge_m / _BIN_M and state[before] == state[after]:

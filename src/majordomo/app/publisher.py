@@ -44,16 +44,27 @@ class Publisher:
         self._nodes: Documents = {}
         self._edges: Documents = {}
         self._next_status_s = 0.0
+        self._localized = True
 
     async def step(self, stamp_s: float) -> None:
         """Publish what is new."""
         for delta in self._subscription.poll():
             self._write(delta)
         self._publish_scene(stamp_s)
-        self._stream.publish("robot", self._robot(), stamp_s)
+        robot = self._robot()
+        self._stream.publish("robot", robot, stamp_s)
+        self._say_whether_localized(robot, stamp_s)
         if stamp_s >= self._next_status_s:
             self._next_status_s = stamp_s + 1.0
             self._stream.publish("perception", self._status(), stamp_s)
+
+    def _say_whether_localized(self, robot: Mapping[str, Any], stamp_s: float) -> None:
+        """A sentence for people when the robot has lost its place, and when it has found it."""
+        if robot["localized"] != self._localized:
+            self._localized = robot["localized"]
+            found = f"I know again where I am: in {robot['room']}"
+            message = found if self._localized else "I do not know where I am; I stay here until I have found out"
+            self._stream.publish("log", {"message": message}, stamp_s)
 
     def _publish_scene(self, stamp_s: float) -> None:
         scene = self._scene()

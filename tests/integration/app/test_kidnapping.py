@@ -1,0 +1,53 @@
+"""The simulated robot is picked up by a disturbance and set down elsewhere, while it explores the flat."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from majordomo.app.runtime import Runtime
+from majordomo.app.settings import ClockMode, Settings
+from majordomo.scene_graph.nodes import CrossingStatus, DoorNode, RoomNode
+
+pytestmark = pytest.mark.anyio
+
+
+@pytest.fixture
+def anyio_backend():
+    return "asyncio"
+
+
+async def until(runtime, condition, limit_s):
+    """Let simulated time pass until ``condition`` holds."""
+    start_s = runtime.now_s
+    while not condition():
+        assert runtime.now_s - start_s < limit_s, "simulated time ran out"
+        await runtime.wait_for_change()
+
+
+@pytest.mark.slow
+async def test_carried_into_another_room_the_robot_says_so_finds_itself_and_explores_to_the_end(tmp_path: Path):
+    runtime = Runtime(Settings(house="flat", clock=ClockMode.LOCKSTEP, speed=None, data=tmp_path, camera=False))
+    async with runtime.running():
+        await until(runtime, lambda: len(runtime.memory.snapshot().of_type(RoomNode)) == 2, 90.0)
+        await until(runtime, lambda at=runtime.now_s: runtime.now_s > at + 3.0, 10.0)
+        known = runtime.memory.snapshot()
+        assert known.current_room is not None
+        away = next(room.id for room in known.of_type(RoomNode) if room.id != known.current_room)
+        before = (await runtime.require_robot().truth())["robot"]["pose"]
+        inside = [2.2, 2.1, 0.7] if before[0] > 4.3 else [5.3, 4.6, 0.7]
+        await runtime.require_robot().disturb({"do": "move", "id": "robot", "to": {"pose": inside}})
+        await until(runtime, lambda: not runtime.status_document()["robot"]["localized"], 3.0)
+        assert runtime.status_document()["robot"]["room"] is None
+        await until(runtime, lambda: runtime.status_document()["robot"]["localized"], 10.0)
+        assert runtime.memory.snapshot().current_room == away
+        await until(runtime, lambda: runtime.memory.snapshot().root.explored, 200.0)
+        graph = runtime.memory.snapshot()
+        assert len(graph.of_type(RoomNode)) == 3
+        assert {door.crossing for door in graph.of_type(DoorNode)} == {CrossingStatus.CROSSED}
+        said = [event.data["message"] for event in runtime.stream._history if event.type == "log"]
+        assert [message.split(";")[0].split(":")[0] for message in said] == [
+            "I do not know where I am",
+            "I know again where I am",
+        ]

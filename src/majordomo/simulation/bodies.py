@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import pybullet as p
 
@@ -58,7 +58,10 @@ def make_block(client: int, block: Block, color: Rgb) -> int:
 
 
 def make_body(client: int, parts: Sequence[Part], mass_kg: float, height_m: float) -> int:
-    """One body of several parts at the origin. Its frame is at half of ``height_m`` above the parts' origin."""
+    """One body of several parts at the origin. Its frame is at half of ``height_m`` above the parts' origin.
+
+    At rest it falls asleep, and costs nothing until something touches it or ``wake_bodies`` is called.
+    """
     solid = [part for part in parts if part.solid]
     body: int = p.createMultiBody(
         mass_kg,
@@ -75,6 +78,7 @@ def make_body(client: int, parts: Sequence[Part], mass_kg: float, height_m: floa
         restitution=0.0,
         linearDamping=0.05,
         angularDamping=0.2,
+        activationState=p.ACTIVATION_STATE_ENABLE_SLEEPING,
         physicsClientId=client,
     )
     return body
@@ -85,6 +89,12 @@ def place_body(client: int, body: int, bottom: Size3, yaw_rad: float, height_m: 
     center = (bottom[0], bottom[1], bottom[2] + height_m / 2)
     p.resetBasePositionAndOrientation(body, center, yaw_quaternion(yaw_rad), physicsClientId=client)
     p.resetBaseVelocity(body, [0, 0, 0], [0, 0, 0], physicsClientId=client)
+
+
+def wake_bodies(client: int, bodies: Iterable[int]) -> None:
+    """Let sleeping bodies fall, after what they stood on may have gone."""
+    for body in bodies:
+        p.changeDynamics(body, -1, activationState=p.ACTIVATION_STATE_WAKE_UP, physicsClientId=client)
 
 
 def _collision(client: int, parts: Sequence[Part], lift_m: float) -> int:

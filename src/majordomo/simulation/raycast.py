@@ -1,11 +1,13 @@
 """Exact ray casting among upright solids for a LiDAR, much faster than asking the physics library ray by ray.
 
 Every solid of a house that stands is a prism: a box or a cylinder with a vertical axis. All rays of one azimuth lie in
-one vertical plane, so a solid is cut by that plane once, and each ring only decides at what height it passes.
+one vertical plane, so a solid is cut by the planes that meet it, once each, and each ring only decides at what height
+it passes.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -13,7 +15,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 Floats = NDArray[np.float32]
+Indices = NDArray[np.int64]
 _NEVER = np.float32(np.inf)
+_CORNERS = np.array([[1, 1], [-1, 1], [-1, -1], [1, -1]], dtype=np.float32)
+_MARGIN_RAD = 1e-3
+_NEAR_M = 1e-3
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -42,38 +48,80 @@ class Prisms:
         yaw = np.array([prism.yaw_rad for prism in ordered])
         self._cos, self._sin = np.cos(yaw).astype(np.float32), np.sin(yaw).astype(np.float32)
 
-    def cut(self, origin_m: tuple[float, float], headings_rad: NDArray[np.float64]) -> tuple[Floats, Floats]:
-        """Distances at which each heading enters and leaves each prism, (prisms, headings); missed if enter > leave."""
+    def cut(
+        self, origin_m: tuple[float, float], headings_rad: NDArray[np.float64]
+    ) -> tuple[Indices, Indices, Floats, Floats]:
+        """Where headings enter and leave prisms: prism, heading, and the two distances of each cut, (cuts,) each.
+
+        ``headings_rad``: ascending, within one turn.
+        """
         cos, sin = np.cos(headings_rad).astype(np.float32), np.sin(headings_rad).astype(np.float32)
         offset = self._center - np.asarray(origin_m, dtype=np.float32)
-        boxes = slice(0, self._boxes)
-        rounds = slice(self._boxes, None)
-        enter_box, leave_box = self._cut_boxes(offset[boxes], cos, sin)
-        enter_round, leave_round = _cut_circles(offset[rounds], self._half[rounds, 0], cos, sin)
-        return np.concatenate((enter_box, enter_round)), np.concatenate((leave_box, leave_round))
+        prism, heading = _pairs(*self._bearings(offset), headings_rad)
+        boxes = prism < self._boxes
+        enter, leave = np.empty(len(prism), dtype=np.float32), np.empty(len(prism), dtype=np.float32)
+        enter[boxes], leave[boxes] = self._cut_boxes(offset, cos, sin, prism[boxes], heading[boxes])
+        enter[~boxes], leave[~boxes] = _cut_circles(
+            offset[prism[~boxes]], self._half[prism[~boxes], 0], cos[heading[~boxes]], sin[heading[~boxes]]
+        )
+        met = leave > np.maximum(enter, 0.0)
+        return prism[met], heading[met], enter[met], leave[met]
 
     @property
     def heights_m(self) -> Floats:
         """(prisms, 2): bottom and top."""
         return self._heights
 
-    def _cut_boxes(self, offset: Floats, cos: Floats, sin: Floats) -> tuple[Floats, Floats]:
+    def _bearings(self, offset: Floats) -> tuple[Floats, Floats]:
+        """First bearing of each prism in radians, and how far it reaches counter-clockwise from there."""
+        c, s = self._cos[:, None], self._sin[:, None]
+        sides = self._half[:, None, :] * _CORNERS
+        x = offset[:, :1] + c * sides[..., 0] - s * sides[..., 1]
+        y = offset[:, 1:] + s * sides[..., 0] + c * sides[..., 1]
+        middle = np.arctan2(offset[:, 1], offset[:, 0])
+        turned = np.arctan2(y, x) - middle[:, None]
+        turned -= np.float32(math.tau) * np.round(turned / np.float32(math.tau))
+        first, last = turned.min(axis=1) - _MARGIN_RAD, turned.max(axis=1) + _MARGIN_RAD
+        local_x = np.abs(self._cos * offset[:, 0] + self._sin * offset[:, 1])
+        local_y = np.abs(self._cos * offset[:, 1] - self._sin * offset[:, 0])
+        within = (local_x <= self._half[:, 0] + _NEAR_M) & (local_y <= self._half[:, 1] + _NEAR_M)
+        return middle + np.where(within, 0.0, first), np.where(within, math.tau, last - first)
+
+    def _cut_boxes(
+        self, offset: Floats, cos: Floats, sin: Floats, prism: Indices, heading: Indices
+    ) -> tuple[Floats, Floats]:
         """The slab method in each box's own axes."""
-        count = self._boxes
-        c, s = self._cos[:count, None], self._sin[:count, None]
-        enter = np.full((count, len(cos)), -_NEVER, dtype=np.float32)
-        leave = np.full((count, len(cos)), _NEVER, dtype=np.float32)
-        axes = (
-            (c * cos + s * sin, c[:, 0] * offset[:, 0] + s[:, 0] * offset[:, 1]),
-            (c * sin - s * cos, c[:, 0] * offset[:, 1] - s[:, 0] * offset[:, 0]),
-        )
-        for axis, (along, center) in enumerate(axes):
+        c, s = self._cos[prism], self._sin[prism]
+        x, y = offset[prism, 0], offset[prism, 1]
+        cos, sin = cos[heading], sin[heading]
+        enter = np.full(len(prism), -_NEVER, dtype=np.float32)
+        leave = np.full(len(prism), _NEVER, dtype=np.float32)
+        for axis, (along, center) in enumerate(
+            ((c * cos + s * sin, c * x + s * y), (c * sin - s * cos, c * y - s * x))
+        ):
             direction = np.where(np.abs(along) < 1e-9, np.float32(1e-9), along)
-            near = (center - self._half[:count, axis])[:, None] / direction
-            far = (center + self._half[:count, axis])[:, None] / direction
+            half = self._half[prism, axis]
+            near, far = (center - half) / direction, (center + half) / direction
             np.maximum(enter, np.minimum(near, far), out=enter)
             np.minimum(leave, np.maximum(near, far), out=leave)
         return enter, leave
+
+
+def _pairs(first: Floats, width: Floats, headings_rad: NDArray[np.float64]) -> tuple[Indices, Indices]:
+    """Every prism with every heading in its range of bearings, (pairs,) each."""
+    count, start = len(headings_rad), headings_rad[0]
+    begin = start + np.mod(first - start, math.tau)
+    end = begin + np.minimum(width, math.tau)
+    low = np.searchsorted(headings_rad, begin, side="left")
+    high = np.where(
+        end < start + math.tau,
+        np.searchsorted(headings_rad, end, side="right"),
+        count + np.searchsorted(headings_rad, end - math.tau, side="right"),
+    )
+    many = np.minimum(high - low, count)
+    prism = np.repeat(np.arange(len(first)), many)
+    steps = np.arange(len(prism)) - np.repeat(np.cumsum(many) - many, many)
+    return prism, (np.repeat(low, many) + steps) % count
 
 
 def cast(
@@ -90,9 +138,7 @@ def cast(
         headings_rad: (headings,) directions in the plane.
         slopes: (slopes,) rise per meter, none of them zero.
     """
-    enter, leave, heights, balls = _cuts(scenes, origin_m, headings_rad)
-    heading, solid = np.nonzero((leave > np.maximum(enter, 0.0)).T)
-    enter, leave = enter[solid, heading], leave[solid, heading]
+    solid, heading, enter, leave, heights, balls = _cuts(scenes, origin_m, headings_rad)
     slope = slopes.astype(np.float32)[:, None]
     bottom = (heights[solid, 0] - np.float32(origin_m[2])) / slope
     top = (heights[solid, 1] - np.float32(origin_m[2])) / slope
@@ -110,12 +156,17 @@ def cast(
 
 def _cuts(
     scenes: Sequence[Prisms], origin_m: tuple[float, float, float], headings_rad: NDArray[np.float64]
-) -> tuple[Floats, Floats, Floats, NDArray[np.bool_]]:
+) -> tuple[Indices, Indices, Floats, Floats, Floats, NDArray[np.bool_]]:
+    """All cuts of all scenes in the order of their headings; solids are numbered through."""
     cuts = [scene.cut((origin_m[0], origin_m[1]), headings_rad) for scene in scenes]
-    enter = np.concatenate([enter for enter, _ in cuts])
-    leave = np.concatenate([leave for _, leave in cuts])
+    sizes = [len(scene.balls) for scene in scenes]
+    before = np.cumsum([0, *sizes[:-1]])
+    solid = np.concatenate([prism + start for (prism, _, _, _), start in zip(cuts, before, strict=True)])
+    heading, enter, leave = (np.concatenate([cut[part] for cut in cuts]) for part in (1, 2, 3))
+    order = np.argsort(heading, kind="stable")
     heights = np.concatenate([scene.heights_m for scene in scenes])
-    return enter, leave, heights, np.concatenate([scene.balls for scene in scenes])
+    balls = np.concatenate([scene.balls for scene in scenes])
+    return solid[order], heading[order], enter[order], leave[order], heights, balls
 
 
 def _on_balls(enter: Floats, leave: Floats, heights: Floats, slope: Floats) -> Floats:
@@ -127,9 +178,9 @@ def _on_balls(enter: Floats, leave: Floats, heights: Floats, slope: Floats) -> F
 
 
 def _cut_circles(offset: Floats, radius: Floats, cos: Floats, sin: Floats) -> tuple[Floats, Floats]:
-    along = offset[:, :1] * cos + offset[:, 1:] * sin
-    across = offset[:, :1] * sin - offset[:, 1:] * cos
-    chord = radius[:, None] ** 2 - across**2
+    along = offset[:, 0] * cos + offset[:, 1] * sin
+    across = offset[:, 0] * sin - offset[:, 1] * cos
+    chord = radius**2 - across**2
     half = np.sqrt(np.maximum(chord, 0.0))
     missed = chord < 0.0
     return np.where(missed, _NEVER, along - half), np.where(missed, -_NEVER, along + half)

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pybullet as p
 
-from majordomo.simulation.bodies import make_block, make_floor
+from majordomo.simulation.bodies import make_block, make_floor, wake_bodies
 from majordomo.simulation.errors import DisturbError
 from majordomo.simulation.house import ROBOT, Disturbance, House, Object, Place
 from majordomo.simulation.people import HEIGHT_M, Walker, person_body, person_parts
@@ -81,6 +81,7 @@ class World:
                 self._open(self._named(event.id))
             case "walk":
                 self._walk(self._named(event.id), event.to or Place())
+        wake_bodies(self._client, (thing.body for thing in self._things if thing.movable))
 
     def advance(self, dt_s: float, now_s: float) -> None:
         """Carry out the house's events due at ``now_s`` and let people walk on for ``dt_s``."""

@@ -128,3 +128,22 @@ def test_what_cannot_happen_is_refused_with_what_there_is(client, event):
     world = build(client)
     with pytest.raises(DisturbError):
         world.apply(parse_disturbance(event))
+
+
+def test_things_at_rest_still_tell_what_they_stand_on_and_fall_when_it_goes(client):
+    world = build(client)
+    before = objects(world)
+    settle(client, 6.0)
+    after = objects(world)
+    assert {name: item["on"] for name, item in after.items()} == {name: item["on"] for name, item in before.items()}
+    name, item = next((name, item) for name, item in after.items() if item["on"] and item["position_m"][2] > 0.5)
+    world.apply(parse_disturbance({"do": "remove", "id": item["on"]}))
+    settle(client, 2.0)
+    fallen = objects(world)[name]
+    assert fallen["on"] != item["on"]
+    assert fallen["position_m"][2] < item["position_m"][2] - 0.3
+
+
+def settle(client, seconds):
+    for _ in range(round(seconds * 240)):
+        p.stepSimulation(physicsClientId=client)

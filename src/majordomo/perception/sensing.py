@@ -10,6 +10,7 @@ import logging
 from bisect import bisect_left
 from collections import deque
 from collections.abc import Awaitable, Callable
+from functools import lru_cache
 from typing import TypeVar
 
 import numpy as np
@@ -26,17 +27,27 @@ _EXTRAPOLATION_LIMIT_S = 0.5
 
 
 def ray_directions_base(scan: LidarScan) -> NDArray[np.float64]:
-    """(rings, azimuths, 3) unit vectors of all rays in the base frame; they start at ``scan.T_base_lidar``'s origin."""
-    cos_elevation = np.cos(scan.elevations_rad)[:, None]
+    """(rings, azimuths, 3) unit vectors of all rays in the base frame; they start at ``scan.T_base_lidar``'s origin.
+
+    Read-only: successive scans of one sensor share them.
+    """
+    key = (scan.elevations_rad.tobytes(), scan.azimuths_rad.tobytes(), scan.T_base_lidar.quat_wxyz.tobytes())
+    return _ray_directions(*key)
+
+
+@lru_cache(maxsize=4)
+def _ray_directions(elevations: bytes, azimuths: bytes, quaternion: bytes) -> NDArray[np.float64]:
+    elevations_rad, azimuths_rad = np.frombuffer(elevations), np.frombuffer(azimuths)
+    cos_elevation = np.cos(elevations_rad)[:, None]
     directions_lidar = np.stack(
         np.broadcast_arrays(
-            cos_elevation * np.cos(scan.azimuths_rad),
-            cos_elevation * np.sin(scan.azimuths_rad),
-            np.sin(scan.elevations_rad)[:, None],
+            cos_elevation * np.cos(azimuths_rad), cos_elevation * np.sin(azimuths_rad), np.sin(elevations_rad)[:, None]
         ),
         axis=-1,
     )
-    return np.asarray(directions_lidar @ scan.T_base_lidar.rotation().T, dtype=np.float64)
+    directions = directions_lidar @ SE3(np.frombuffer(quaternion)).rotation().T
+    directions.flags.writeable = False
+    return np.asarray(directions, dtype=np.float64)
 
 
 def scan_points_base(scan: LidarScan) -> NDArray[np.float64]:

@@ -76,9 +76,15 @@ class OutlineSlicer:
         self._settings = settings or SliceSettings()
         self.wall_top_m: float | None = None
         self.ceiling_m: float | None = None
+        self._newest: tuple[LidarScan, OutlineScan] | None = None
 
     def cut(self, scan: LidarScan) -> OutlineScan:
-        """The nearest wall return above furniture and doors in each direction."""
+        """The nearest wall return above furniture and doors in each direction; the same scan is cut once."""
+        if self._newest is None or self._newest[0] is not scan:
+            self._newest = scan, self._cut(scan)
+        return self._newest[1]
+
+    def _cut(self, scan: LidarScan) -> OutlineScan:
         directions = ray_directions_base(scan)
         ranges = scan.ranges_m.astype(np.float64)
         origin = scan.T_base_lidar.translation_m

@@ -34,6 +34,7 @@ from majordomo.planner.queue import TaskQueue
 from majordomo.planner.skill_planner import SkillPlanner
 from majordomo.planner.task_planner import TaskPlanner
 from majordomo.planner.verifier import Verifier
+from majordomo.scene_graph.long_term.long_term_store import LongTermStore
 from majordomo.scene_graph.memory import WorkingMemory
 from majordomo.simulation.client import SimulatedRobot
 from majordomo.simulation.errors import SimulatorDied
@@ -48,7 +49,7 @@ class RobotStack:
         self, robot: SimulatedRobot, settings: Settings, queue: TaskQueue, model: LanguageModel | None, log: EventLog
     ) -> None:
         self.robot = robot
-        self.memory = WorkingMemory()
+        self.memory = WorkingMemory(long_term=LongTermStore())
         self._settings = settings
         seeds = np.random.SeedSequence(settings.seed).spawn(2)
         buffer = SensorBuffer(robot)

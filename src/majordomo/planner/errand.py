@@ -81,6 +81,12 @@ class Errand:
         self._progress.follow(self._job)
         return ending
 
+    @property
+    def needs(self) -> tuple[str, ...]:
+        """What the plan in force and the goals name."""
+        named = [*(step.args for step in self._progress.plan.steps), *(goal.args for goal in self._ledger.goals)]
+        return tuple(dict.fromkeys(arg for args in named for arg in args))
+
     def close(self) -> None:
         """End whatever is under way."""
         if self._job is not None:

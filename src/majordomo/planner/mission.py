@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from majordomo.planner.crew import Crew
 from majordomo.planner.errand import Errand, agent_of
 from majordomo.planner.explainer import holding_sentence
@@ -78,15 +80,18 @@ class Mission:
             self._intake.end(task, TaskStatus.FAILED, "I was restarted while I worked on this.", stamp_s)
             return
         edge = self._crew.memory.snapshot().edges.get(_intention_key(task.id))
+        needs = self._errand[1].needs
         if not isinstance(edge, HasIntentionEdge):
-            self._propose(task, stamp_s)
+            self._propose(task, needs, stamp_s)
+        elif edge.needs != needs:
+            self._crew.memory.commit([PutEdge(replace(edge, needs=needs))], agent=self.name, stamp_s=stamp_s)
         elif edge.status is IntentionStatus.GRANTED and not self._crew.executor.stopped:
             ending = self._errand[1].advance(stamp_s, dt_s)
             if ending is not None:
                 self._intake.end(task, ending.status, ending.explanation, stamp_s)
                 self._clear_away(stamp_s)
 
-    def _propose(self, task: Task, stamp_s: float) -> None:
+    def _propose(self, task: Task, needs: tuple[str, ...], stamp_s: float) -> None:
         edge = HasIntentionEdge(
             source=ROBOT_ID,
             target=ROBOT_ID,
@@ -94,6 +99,7 @@ class Mission:
             action=IntentionAction.TASK,
             priority=Priority.REQUEST,
             proposed_s=stamp_s,
+            needs=needs,
         )
         self._crew.memory.commit([PutEdge(edge)], agent=self.name, stamp_s=stamp_s)
 

@@ -174,6 +174,7 @@ class EdgeRecord(_Record):
     standoff_m: float = 0.0
     proposed_s: float = 0.0
     reason: str = ""
+    needs: tuple[str, ...] = ()
 
 
 class SceneDocument(_Record):

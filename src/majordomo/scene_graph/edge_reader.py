@@ -135,6 +135,7 @@ def _intention(record: EdgeRecord) -> HasIntentionEdge:
         standoff_m=record.standoff_m,
         proposed_s=record.proposed_s,
         reason=record.reason,
+        needs=record.needs,
     )
 
 

@@ -167,7 +167,8 @@ class HasEdge:
 class HasIntentionEdge:
     """An agent or task asks for the robot (source) to act on a node (target).
 
-    ``standoff_m`` is how far from the target to stop (visit, look). ``reason`` says why it ended.
+    ``standoff_m`` is how far from the target to stop (visit, look). ``reason`` says why it ended. ``needs`` names what
+    must be known for it besides the target: memory keeps the rooms of these nodes, and those on the way, at hand.
     """
 
     source: str
@@ -179,6 +180,7 @@ class HasIntentionEdge:
     standoff_m: float = 0.0
     proposed_s: float = 0.0
     reason: str = ""
+    needs: tuple[str, ...] = ()
 
     @property
     def key(self) -> EdgeKey:

@@ -82,6 +82,19 @@ class WorkingMemory:
             return tuple(self._long_term.rooms)
 
     @property
+    def unfinished(self) -> tuple[str, ...]:
+        """Unloaded rooms in which something is left to explore."""
+        return self._long_term.unfinished if self._long_term is not None else ()
+
+    def room_of(self, node_id: str) -> str | None:
+        """The room of a node, loaded or not; ``None`` when nobody knows."""
+        stored = self._long_term.room_of(node_id) if self._long_term is not None else None
+        if stored is not None:
+            return stored
+        snapshot = self._snapshot
+        return snapshot.room_of(node_id) if node_id in snapshot else None
+
+    @property
     def can_unload(self) -> bool:
         """Whether there is a long-term memory to unload rooms to."""
         return self._long_term is not None
@@ -193,9 +206,8 @@ class WorkingMemory:
         return after
 
     def _settle(self, store: LongTermStore, demand: Demand, draft: Draft) -> None:
-        """Long-term memory follows an edit that is in force: what moved out, was written anew, was torn off."""
-        dropped = [key for node_id in demand.moved for key in store.release(node_id)]
-        dropped += [key for node_id in draft.removed_nodes for key in store.forget(node_id)]
+        """Long-term memory follows an edit that is in force: what was written anew, what was torn off."""
+        dropped = [key for node_id in draft.removed_nodes for key in store.forget(node_id)]
         for edge in demand.replaced:
             store.replace(edge)
         self._building.note(draft, replaced=demand.replaced, dropped=dropped)

@@ -229,6 +229,7 @@ def _intention_details(edge: HasIntentionEdge) -> Iterator[tuple[str, object]]:
     yield "standoff_m", edge.standoff_m
     yield "proposed_s", edge.proposed_s
     yield "reason", edge.reason
+    yield "needs", list(edge.needs)
 
 
 def _rounded(numbers: Collection[float]) -> list[float]:

@@ -55,10 +55,11 @@ class SE3:
         if squared_norm < 1e-12:
             raise InvalidTransform(f"quaternion {(w, x, y, z)} has no direction")
         scale = 1.0 if abs(squared_norm - 1.0) <= _UNIT_TOLERANCE else 1.0 / math.sqrt(squared_norm)
+        w, x, y, z = w * scale, x * scale, y * scale, z * scale
         if (w, x, y, z) < (0.0, 0.0, 0.0, 0.0):  # q and -q are one rotation; keep the one that sorts first positive
-            scale = -scale
+            w, x, y, z = -w, -x, -y, -z
         # Adding 0.0 turns -0.0 into 0.0, so that equal transforms have equal bytes and equal hashes.
-        self._set("_q", (w * scale + 0.0, x * scale + 0.0, y * scale + 0.0, z * scale + 0.0))
+        self._set("_q", (w + 0.0, x + 0.0, y + 0.0, z + 0.0))
         self._set("_t", (tx + 0.0, ty + 0.0, tz + 0.0))
         self._set("quat_wxyz", _read_only(self._q))
         self._set("translation_m", _read_only(self._t))

@@ -45,6 +45,12 @@ class Story:
             asyncio.run(self.agent.step(self.now_s))
         return self.memory.snapshot()
 
+    def agent_only(self, steps):
+        """The agent's steps, without new measurements."""
+        for _ in range(steps):
+            self.now_s = round(self.now_s + 0.2, 3)
+            asyncio.run(self.agent.step(self.now_s))
+
     def wait(self, seconds):
         self.now_s += seconds
 

@@ -31,7 +31,8 @@ def nothing_left(snapshot: Snapshot) -> bool:
 class ExplorationJudge:
     """Sets ``explored`` on the root when nothing has been left for a while, and takes it back when something turns up.
 
-    The while gives every agent the time to ask for more after a room or a door was finished.
+    The while gives every agent the time to ask for more after a room or a door was finished. Rooms with something left
+    are never unloaded, so that working memory tells it all.
     """
 
     def __init__(self, memory: WorkingMemory) -> None:

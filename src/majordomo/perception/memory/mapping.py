@@ -48,23 +48,18 @@ class RoomLayout:
     def __init__(self, memory: WorkingMemory) -> None:
         self._memory = memory
         self._walks: dict[tuple[str, str], _Walk] = {}
-        self._signature: tuple[tuple[str, str, int, int], ...] = ()
+        self._places: dict[EdgeKey, tuple[RtEdge | None, RtEdge | None]] = {}
 
     def remember(self, door_id: str, other_id: str, T_near_far: Pose2, *, std_m: float = WALKED_STD_M) -> None:
         """How the far room lies in the near one by what was driven between them; gives the wall's thickness."""
         self._walks[(door_id, other_id)] = _Walk(T_near_far=T_near_far, std_m=std_m)
 
     def update(self, stamp_s: float) -> None:
-        """Lay the rooms out anew when any passage has changed since the last time."""
-        snapshot = self._memory.snapshot()
-        matches = _matches(snapshot)
-        signature = tuple(
-            (edge.source, edge.target, _revision(snapshot, edge.source), _revision(snapshot, edge.target))
-            for edge in matches
-        )
-        if signature == self._signature or not matches:
+        """Lay all rooms out anew, unloaded ones too, when a passage has changed since it was last in working memory."""
+        if not self._changed(self._memory.snapshot()):
             return
-        self._signature = signature
+        snapshot = self._memory.building()
+        matches = _matches(snapshot)
         passages = [self._passage(snapshot, edge.source, edge.target) for edge in matches]
         rooms = [child for child in snapshot.children(ROOT_ID) if child.startswith("room_")]
         first = min(rooms, key=lambda room: (len(room), room))
@@ -80,6 +75,13 @@ class RoomLayout:
         )
         placed.pop(first)
         self._write(snapshot, placed, stamp_s)
+
+    def _changed(self, snapshot: Snapshot) -> bool:
+        """Whether a door was joined or measured anew; rooms that come and go with their doors change nothing."""
+        places = {edge.key: (snapshot.parent(edge.source), snapshot.parent(edge.target)) for edge in _matches(snapshot)}
+        changed = any(self._places.get(key) != place for key, place in places.items())
+        self._places.update(places)
+        return changed
 
     def _passage(self, snapshot: Snapshot, door_id: str, other_id: str) -> Passage:
         near, far = snapshot.door(door_id).rooms[0], snapshot.door(other_id).rooms[0]
@@ -139,9 +141,3 @@ def _matches(snapshot: Snapshot) -> list[MatchEdge]:
         for edge in snapshot.edges_from(door.id, EdgeType.MATCH)
         if isinstance(edge, MatchEdge)
     ]
-
-
-def _revision(snapshot: Snapshot, door_id: str) -> int:
-    """When the door's place in its wall was last written."""
-    edge = snapshot.parent(door_id)
-    return -1 if edge is None else snapshot.revision_of(EdgeKey(EdgeType.RT, edge.source, door_id))

@@ -25,7 +25,7 @@ from majordomo.perception.memory.mapping import UNWALKED_STD_M, RoomLayout
 from majordomo.perception.memory.recognition import recognize, same_room
 from majordomo.perception.rooms.slice import OutlineSlicer
 from majordomo.perception.sensing import SensorBuffer
-from majordomo.scene_graph.edges import HasIntentionEdge, IntentionAction, IntentionStatus
+from majordomo.scene_graph.edges import HasIntentionEdge, IntentionAction, IntentionStatus, RtEdge
 from majordomo.scene_graph.memory import Transaction, WorkingMemory
 from majordomo.scene_graph.nodes import AffordanceNode, CrossingStatus, DoorNode
 from majordomo.scene_graph.snapshot import Snapshot
@@ -49,6 +49,7 @@ class Transit:
         self._slicer = OutlineSlicer()
         self._stamp_s = 0.0
         self._stayed: dict[str, int] = {}
+        self._one_sided: dict[str, tuple[RtEdge | None, RtEdge | None]] = {}
 
     def run(self, stamp_s: float) -> None:
         """One step: the robot, a crossing that ends, doors that are the same."""
@@ -101,7 +102,10 @@ class Transit:
         scan = self._buffer.scan
         T_root_base = root_pose(snapshot, pose.parent) @ pose.T_parent_base
         points = self._slicer.cut(scan).points_base if scan is not None else np.empty((0, 2))
-        known = recognize(snapshot, T_root_base, points, other_than=pose.parent) if len(points) > 20 else None
+        building = self._memory.building()
+        known = recognize(building, T_root_base, points, other_than=pose.parent) if len(points) > 20 else None
+        if known is not None:
+            self._memory.load(known.room_id, agent=self._agent, stamp_s=self._stamp_s)
         with self._memory.edit(self._agent, self._stamp_s) as tx:
             if known is None:
                 tx.put(mark_being_crossed(door))
@@ -131,7 +135,9 @@ class Transit:
         door, current = door_being_crossed(snapshot), snapshot.current_room
         if door is None or current is None or current == door.rooms[0]:
             return
-        known = same_room(snapshot, current)
+        known = same_room(self._memory.building(), current)
+        if known is not None:
+            snapshot = self._memory.load(known, agent=self._agent, stamp_s=self._stamp_s)
         with self._memory.edit(self._agent, self._stamp_s) as tx:
             if known is None:
                 T_new_near = root_pose(snapshot, current).inverse() @ root_pose(snapshot, door.rooms[0])
@@ -161,6 +167,7 @@ class Transit:
 
     def _match_doors(self) -> None:
         """Two doors found from two rooms may be the two sides of one, though nobody went through it."""
+        self._bring_far_sides()
         snapshot = self._memory.snapshot()
         doors = [door for door in unmatched_doors(snapshot) if not is_being_crossed(door)]
         for index, first in enumerate(doors):
@@ -175,6 +182,23 @@ class Transit:
                     self._layout.remember(first.id, second.id, T_near_far, std_m=UNWALKED_STD_M)
                     logger.info("%s and %s are one door", first.id, second.id, extra={"door": first.id})
                     return
+
+    def _bring_far_sides(self) -> None:
+        """Load unloaded rooms in which a door may be the other side of one that is loaded, when that one is new."""
+        snapshot = self._memory.snapshot()
+        one_sided = unmatched_doors(snapshot)
+        places = {door.id: (snapshot.parent(door.id), snapshot.parent(door.rooms[0])) for door in one_sided}
+        new = [door for door in one_sided if self._one_sided.get(door.id) != places[door.id]]
+        self._one_sided = places
+        if not new or not self._memory.unloaded:
+            return
+        building = self._memory.building()
+        stored = [door for door in unmatched_doors(building) if door.id not in snapshot]
+        for door in new:
+            pose = root_pose(snapshot, door.id)
+            for other in stored:
+                if same_door(pose, root_pose(building, other.id), (door.width_m, other.width_m)):
+                    self._memory.load(other.id, agent=self._agent, stamp_s=self._stamp_s)
 
 
 def _crossing_done(snapshot: Snapshot) -> tuple[DoorNode, HasIntentionEdge] | None:

@@ -192,7 +192,7 @@ class ObjectMemory:
 
     def _publish(self, stamp_s: float) -> None:
         """Write everything that changed in one transaction, on the newest snapshot."""
-        snapshot = self._memory.snapshot()
+        snapshot = self._bring_what_turned_up(stamp_s)
         self._recollection.sync(snapshot)
         tracks, settings = self._tracker.tracks, self._settings.publication
         edits = self._inspection.edits(snapshot, stamp_s)
@@ -209,6 +209,16 @@ class ObjectMemory:
         edits.extend(person_edits(snapshot, self._people.tracks, stamp_s, settings))
         edits.extend(relation_edits(snapshot, self._relations.stated(), tracks, self._published, stamp_s, settings))
         self._commit(edits, stamp_s)
+
+    def _bring_what_turned_up(self, stamp_s: float) -> Snapshot:
+        """Load the room in which a thing was kept that is now seen in another; the newest snapshot."""
+        snapshot = self._memory.snapshot()
+        turned_up = [
+            track.node_id
+            for track in self._tracker.tracks
+            if track.node_id is not None and track.node_id in snapshot.elsewhere and track.room in snapshot
+        ]
+        return self._memory.load(*turned_up, agent=self.name, stamp_s=stamp_s) if turned_up else snapshot
 
     def _commit(self, edits: list[Edit], stamp_s: float) -> None:
         try:

@@ -13,6 +13,7 @@ from majordomo.perception.objects.existence import ExistenceSettings, Visibility
 from majordomo.perception.objects.membership import Surroundings
 from majordomo.perception.objects.projection import View
 from majordomo.perception.objects.surface import Box
+from majordomo.perception.objects.taken_names import TakenNames
 from majordomo.scene_graph.identifiers import next_id
 from majordomo.scene_graph.nodes import PersonNode
 from majordomo.scene_graph.snapshot import Snapshot
@@ -60,12 +61,13 @@ class People:
         self._settings = settings
         self._existence = existence
         self.tracks: list[PersonTrack] = []
-        self.taken: set[str] = set()
+        self.taken = TakenNames()
 
     def sync(self, snapshot: Snapshot) -> None:
         """Adopt persons that the graph knows, drop those it no longer does."""
         nodes = {node.id: node for node in snapshot.of_type(PersonNode)}
         self.taken.update(nodes)
+        self.taken.elsewhere = snapshot.elsewhere
         self.tracks = [t for t in self.tracks if t.node_id is None or t.node_id in nodes]
         known = {t.node_id for t in self.tracks}
         for node in nodes.values():

@@ -153,8 +153,11 @@ def relation_edits(
     stamp_s: float,
     settings: PublicationSettings,
 ) -> list[Edit]:
-    """Relations to put and to take back. ``published``: those written by this agent, kept up to date here."""
-    node_of_number = {track.number: track.node_id for track in tracks}
+    """Relations to put and to take back, among things whose rooms are in working memory.
+
+    ``published``: those written by this agent, kept up to date here.
+    """
+    node_of_number = {track.number: track.node_id for track in tracks if track.room in snapshot}
     wanted: dict[EdgeKey, float] = {}
     for (a, b, predicate), probability in stated.items():
         source, target = node_of_number.get(a), node_of_number.get(b)

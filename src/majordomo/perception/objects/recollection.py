@@ -1,5 +1,5 @@
-"""Keeps tracks and nodes in step: what the graph brings back is adopted, what it unloads is let go, what people teach
-is believed.
+"""Keeps tracks and nodes in step: what the graph brings back is adopted, furniture that it unloads is let go, what
+people teach is believed.
 """
 
 from __future__ import annotations
@@ -28,9 +28,10 @@ class Recollection:
         """Bring the tracks in line with ``snapshot``; the relation edges of things that were adopted."""
         nodes = {node.id: node for node in snapshot.of_type(ObjectNode)}
         self._tracker.taken.update(nodes)
+        self._tracker.taken.elsewhere = snapshot.elsewhere
         tracks = {track.node_id: track for track in self._tracker.tracks if track.node_id is not None}
         for node_id, track in tracks.items():
-            if node_id in self._written and node_id not in nodes:
+            if node_id in self._written and node_id not in nodes and not self._may_turn_up(track, snapshot):
                 self._tracker.drop(track)
         self._written = set(nodes)
         new = [self._adopt(node, snapshot) for node in nodes.values() if self._is_new(node, tracks)]
@@ -38,6 +39,11 @@ class Recollection:
         for node in nodes.values():
             self._listen(node, tracks.get(node.id))
         return self._adopt_relations(adopted, snapshot) if adopted else set()
+
+    @staticmethod
+    def _may_turn_up(track: Track, snapshot: Snapshot) -> bool:
+        """Whether a thing in an unloaded room is one that people carry about: it is recognized wherever it is seen."""
+        return track.node_id in snapshot.elsewhere and not track.is_furniture
 
     def _is_new(self, node: ObjectNode, tracks: Mapping[str, Track]) -> bool:
         return node.id not in tracks and node.id not in self._tracker.removed
@@ -66,8 +72,9 @@ class Recollection:
         number_of = {t.node_id: t.number for t in self._tracker.tracks if t.node_id is not None}
         keys: set[EdgeKey] = set()
         for track in adopted:
-            for edge in snapshot.relations(source=track.node_id):
-                if edge.target in number_of:
-                    self._relations.remember((track.number, number_of[edge.target], edge.predicate), edge.probability)
+            for edge in (*snapshot.relations(source=track.node_id), *snapshot.relations(target=track.node_id)):
+                if edge.source in number_of and edge.target in number_of:
+                    key = (number_of[edge.source], number_of[edge.target], edge.predicate)
+                    self._relations.remember(key, edge.probability)
                     keys.add(edge.key)
         return keys

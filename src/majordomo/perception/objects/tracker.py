@@ -30,6 +30,7 @@ from majordomo.perception.objects.identity import IdentitySettings
 from majordomo.perception.objects.projection import View
 from majordomo.perception.objects.sight import Sight
 from majordomo.perception.objects.surface import Box
+from majordomo.perception.objects.taken_names import TakenNames
 from majordomo.perception.objects.track import Track, TrackSettings
 from majordomo.perception.vocabulary import category_of
 from majordomo.scene_graph.identifiers import next_id
@@ -73,7 +74,7 @@ class Tracker:
         self._born = 0
         self._previous: tuple[View, NDArray[np.int16], list[int]] | None = None
         self.tracks: list[Track] = []
-        self.taken: set[str] = set()
+        self.taken = TakenNames()
         self.matches: dict[int, Track] = {}
         self.united: dict[int, Track] = {}
         self.removed: set[str] = set()

@@ -6,7 +6,7 @@ from collections.abc import Collection, Iterable, Iterator
 
 from majordomo.scene_graph.edges import Edge, EdgeKey
 from majordomo.scene_graph.errors import RoomNotStored
-from majordomo.scene_graph.long_term.room_parts import RoomParts
+from majordomo.scene_graph.long_term.room_parts import RoomParts, unfinished
 from majordomo.scene_graph.nodes import Node
 
 
@@ -23,6 +23,7 @@ class LongTermStore:
         self._home: dict[str, str] = {}
         self._edges: dict[EdgeKey, Edge] = {}
         self._at: dict[str, dict[EdgeKey, None]] = {}
+        self._unfinished: dict[str, None] = {}
         for parts in rooms:
             self.store(parts)
 
@@ -36,6 +37,11 @@ class LongTermStore:
     def rooms(self) -> Collection[str]:
         """Identifiers of the stored rooms, in the order in which they were stored."""
         return self._nodes.keys()
+
+    @property
+    def unfinished(self) -> tuple[str, ...]:
+        """Stored rooms in which something is left to explore, in the order in which they were stored."""
+        return tuple(self._unfinished)
 
     def room_of(self, node_id: str) -> str | None:
         """The stored room that holds a node, if any."""
@@ -69,6 +75,8 @@ class LongTermStore:
         self._home.update(dict.fromkeys(self._nodes[parts.room_id], parts.room_id))
         for edge in parts.edges:
             self._put(edge)
+        if any(map(unfinished, parts.nodes)):
+            self._unfinished[parts.room_id] = None
 
     def peek(self, rooms: Collection[str]) -> tuple[list[Node], list[Edge]]:
         """What ``load`` would bring back if all these rooms came together.
@@ -89,6 +97,7 @@ class LongTermStore:
         """
         nodes, edges = self.peek(rooms)
         for room in rooms:
+            self._unfinished.pop(room, None)
             for node_id in self._nodes.pop(room):
                 del self._home[node_id]
         for edge in edges:
@@ -98,11 +107,6 @@ class LongTermStore:
     def replace(self, edge: Edge) -> None:
         """Write a stored edge anew, in its place."""
         self._edges[edge.key] = edge
-
-    def release(self, node_id: str) -> tuple[EdgeKey, ...]:
-        """Forget a node that is written anew in working memory, with its edges; their keys."""
-        del self._nodes[self._home.pop(node_id)][node_id]
-        return self.forget(node_id)
 
     def forget(self, node_id: str) -> tuple[EdgeKey, ...]:
         """Forget all stored edges at a node that is no more, wherever it was; their keys."""

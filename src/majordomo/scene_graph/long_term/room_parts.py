@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from majordomo.scene_graph.edges import Edge, EdgeKey, EdgeType
-from majordomo.scene_graph.nodes import ROBOT_ID, Node, RoomNode
+from majordomo.scene_graph.nodes import ROBOT_ID, CrossingStatus, DoorNode, Node, RoomNode, RoomStatus
 from majordomo.scene_graph.snapshot import Snapshot
 
 
@@ -34,6 +34,17 @@ def cut_room(snapshot: Snapshot, room_id: str) -> RoomParts:
     return RoomParts(
         room_id=room_id, nodes=tuple(snapshot.node(node_id) for node_id in ids), edges=tuple(edges.values())
     )
+
+
+def unfinished(node: Node) -> bool:
+    """Whether a room is still being measured, or a door still to be looked at or crossed."""
+    match node:
+        case RoomNode():
+            return node.status is RoomStatus.TEMPORARY
+        case DoorNode():
+            return node.provisional or node.crossing is CrossingStatus.UNCROSSED
+        case _:
+            return False
 
 
 def keeps_in_use(snapshot: Snapshot, room_id: str) -> str | None:

@@ -4,18 +4,16 @@ from __future__ import annotations
 
 import asyncio
 import json
-import multiprocessing
 import tempfile
 from collections.abc import Sequence
-from concurrent.futures import ProcessPoolExecutor, as_completed
 from pathlib import Path
 from typing import Any
 
 from rich.console import Console
-from rich.progress import track
 from rich.table import Table
 
 from majordomo.app.demo import DemoOutcome, Scenario, play
+from majordomo.app.evaluations.pool import run_all
 from majordomo.app.runtime import Runtime
 from majordomo.app.settings import ClockMode, Settings
 from majordomo.planner.tasks import Task
@@ -41,12 +39,7 @@ def evaluate(
 ) -> bool:
     """Run all seeds, print a table, write JSON; whether enough succeeded and nothing was claimed that is not true."""
     load_house(house)
-    context = multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(max_workers=jobs, mp_context=context, max_tasks_per_child=1) as pool:
-        futures = [pool.submit(run_once, house, seed, logs) for seed in seeds]
-        finished = track(as_completed(futures), total=len(futures), description="runs", console=console)
-        runs = [future.result() for future in finished]
-    runs.sort(key=lambda run: int(run["seed"]))
+    runs = run_all(run_once, [(house, seed, logs) for seed in seeds], jobs=jobs, console=console)
     if json_file is not None:
         json_file.parent.mkdir(parents=True, exist_ok=True)
         json_file.write_text(json.dumps({"house": house, "runs": runs}, indent=2) + "\n", encoding="utf-8")

@@ -66,6 +66,9 @@ def serve(
     simulation_api: Annotated[bool, typer.Option("--simulation-api", help="Offer truth and disturbances.")] = False,
     explore: Annotated[bool, typer.Option(help="Explore the building unasked.")] = True,
     camera: Annotated[bool, typer.Option(help="Use the RGB-D camera.")] = True,
+    remember: Annotated[
+        bool, typer.Option("--remember/--forget", help="Go on with the building as it was known, or begin anew.")
+    ] = True,
     graph: Annotated[Path | None, typer.Option(help="Serve a stored scene graph without a robot.")] = None,
     verbose: Annotated[bool, typer.Option("--verbose", "-v", help="Log every frame's doings.")] = False,
 ) -> None:
@@ -90,6 +93,7 @@ def serve(
         simulation_api=simulation_api,
         explore=explore,
         camera=camera,
+        remember=remember,
         graph=graph,
     )
     _log_to_stderr(verbose=verbose)

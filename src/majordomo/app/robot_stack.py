@@ -6,12 +6,14 @@ Agents are listed in the order in which they take their turns in lockstep: sense
 from __future__ import annotations
 
 import asyncio
+import time
 from collections.abc import Sequence
 
 import numpy as np
 
 from majordomo.app.event_log import EventLog
 from majordomo.app.ranges import ScanRanges
+from majordomo.app.remembering import Remembering, building_folder
 from majordomo.app.scheduler import Agent
 from majordomo.app.settings import ClockMode, Settings
 from majordomo.perception.doors.door_concept import DoorConcept
@@ -46,10 +48,18 @@ class RobotStack:
     """A simulated robot and all agents around it. Make one with ``build``."""
 
     def __init__(
-        self, robot: SimulatedRobot, settings: Settings, queue: TaskQueue, model: LanguageModel | None, log: EventLog
+        self,
+        robot: SimulatedRobot,
+        settings: Settings,
+        queue: TaskQueue,
+        model: LanguageModel | None,
+        log: EventLog,
+        *,
+        remembering: Remembering | None = None,
     ) -> None:
         self.robot = robot
-        self.memory = WorkingMemory(long_term=LongTermStore())
+        self.memory = remembering.memory if remembering is not None else WorkingMemory(long_term=LongTermStore())
+        self._remembering = remembering
         self._settings = settings
         seeds = np.random.SeedSequence(settings.seed).spawn(2)
         buffer = SensorBuffer(robot)
@@ -91,20 +101,24 @@ class RobotStack:
             Arbiter(self.memory, stopped=lambda: self.stopped, exploration_enabled=settings.explore),
             Mission(crew, planner),
             self._executor,
+            *([remembering] if remembering is not None else []),
         ]
 
     @classmethod
     async def build(
-        cls, settings: Settings, queue: TaskQueue, model: LanguageModel | None, log: EventLog
+        cls, settings: Settings, queue: TaskQueue, model: LanguageModel | None, log: EventLog, *, anew: bool = False
     ) -> RobotStack:
         """Start the simulator and build everything around it.
+
+        ``anew``: begin with an empty graph, whatever is remembered.
 
         Raises:
             HouseError: the house cannot be built.
         """
+        remembering = _remembering(settings, anew=anew)
         mode = "lockstep" if settings.clock is ClockMode.LOCKSTEP else "real"
         robot = await SimulatedRobot.start(settings.house, seed=settings.seed, mode=mode, speed=settings.speed or 1.0)
-        return cls(robot, settings, queue, model, log)
+        return cls(robot, settings, queue, model, log, remembering=remembering)
 
     @property
     def path_room(self) -> tuple[tuple[float, float], ...]:
@@ -155,7 +169,9 @@ class RobotStack:
         return await asyncio.to_thread(preview_jpeg, *newest) if newest is not None else None
 
     async def close(self) -> None:
-        """End the simulator."""
+        """Write the building down, and end the simulator."""
+        if self._remembering is not None:
+            await asyncio.to_thread(self._remembering.write, self.now())
         await self.robot.close()
 
     def _object_memory(self, buffer: SensorBuffer, random: np.random.Generator) -> ObjectMemory:
@@ -166,3 +182,12 @@ class RobotStack:
         newest = {"lidar": self._buffer.scan, "camera": self._buffer.frame, "joints": self._buffer.joints}
         now_s = self.now()
         return {name: now_s - data.stamp_s for name, data in newest.items() if data is not None}
+
+
+def _remembering(settings: Settings, *, anew: bool) -> Remembering | None:
+    """Who keeps the building on disk, if that is wanted. In lockstep no wall time passes between two starts."""
+    if not settings.remember:
+        return None
+    lockstep = settings.clock is ClockMode.LOCKSTEP
+    folder = building_folder(settings.data_folder, settings.house)
+    return Remembering(folder, wall_time=(lambda: 0.0) if lockstep else time.time, anew=anew)

@@ -138,7 +138,7 @@ class Runtime:
                     self.queue.cancel(task.id, stamp_s=self.now_s)
             await self._halt()
             self._lost = ""
-            await self._start()
+            await self._start(anew=True)
         self.stream.begin_anew()
         self._say("the simulator was restarted; the building is explored again")
         return True
@@ -216,12 +216,12 @@ class Runtime:
             raise RobotUnavailable("not started")
         return self._stack
 
-    async def _start(self) -> None:
+    async def _start(self, *, anew: bool = False) -> None:
         settings = self.settings
         if settings.graph is not None:
             stack: Stack = GraphStack.load(settings.graph, self.queue, self.model)
         else:
-            stack = await RobotStack.build(settings, self.queue, self.model, self.log)
+            stack = await RobotStack.build(settings, self.queue, self.model, self.log, anew=anew)
         self._stack = stack
         self._scene_cache.clear()
         publisher = Publisher(

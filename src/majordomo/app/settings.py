@@ -22,6 +22,7 @@ class Settings(BaseModel):
 
     ``speed``: simulated seconds per wall second, ``None`` for as fast as the machine allows (lockstep only).
     ``llm``: ``provider:model`` or ``None`` for the command grammar alone. ``data``: folder of token, logs and memory.
+    ``remember``: take up the building that the data folder holds, and keep it there.
     """
 
     model_config = ConfigDict(frozen=True, extra="forbid")
@@ -39,6 +40,7 @@ class Settings(BaseModel):
     simulation_api: bool = False
     explore: bool = True
     camera: bool = True
+    remember: bool = False
     graph: Path | None = None
     max_body_bytes: int = 65_536
 

@@ -140,13 +140,17 @@ def test_a_room_with_a_door_to_cross_stays_until_it_is_crossed() -> None:
     assert paged.loaded() == {"room_1", "room_2"}
 
 
-def test_a_robot_that_is_in_no_room_may_need_any_of_them() -> None:
+def test_while_the_robot_is_in_no_room_nothing_comes_or_goes() -> None:
     paged = Paged()
-    paged.loaded()
+    before = paged.loaded()
     old = paged.memory.snapshot()
     lost = [RemoveEdge(edge.key) for edge in (*old.edges_to("robot"), *old.edges_from("robot"))]
     paged.memory.commit([*lost, PutEdge(hang("root", "robot"))], agent="test", stamp_s=2.0)
-    assert len(paged.loaded()) == 6
+    assert paged.loaded() == before
+    paged.memory.commit(
+        [RemoveEdge(hang("root", "robot").key), PutEdge(hang("room_5", "robot"))], agent="test", stamp_s=4.0
+    )
+    assert paged.loaded() == {"room_4", "room_5", "room_6"}
 
 
 def test_working_memory_is_as_small_in_a_large_building_as_in_a_small_one() -> None:

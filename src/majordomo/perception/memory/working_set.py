@@ -32,7 +32,7 @@ class WorkingSet:
     Held are the robot's room and those behind its doors, so that every far side is there before its door is crossed;
     rooms in which something is left to explore or that an open intention names; and, for a task, the rooms of what it
     names and those on the way there. While a door is being crossed into the unknown, nothing is unloaded: the old room
-    goes when the new one stands. A robot that is in no room may be in any, so then all of them are held.
+    goes when the new one stands. While the robot is in no room, everything stays as it is.
     """
 
     def __init__(self, agent: str, memory: WorkingMemory, settings: WorkingSetSettings | None = None) -> None:
@@ -56,7 +56,7 @@ class WorkingSet:
         """The rooms to hold, in the order in which they were thought of."""
         here = snapshot.current_room
         if here is None:
-            return dict.fromkeys((*(room.id for room in snapshot.of_type(RoomNode)), *self._memory.unloaded))
+            return dict.fromkeys(room.id for room in snapshot.of_type(RoomNode))
         rooms = [here, *neighbors(snapshot, here), *self._memory.unfinished]
         rooms += [room.id for room in snapshot.of_type(RoomNode) if unfinished(room)]
         rooms += [door.rooms[0] for door in snapshot.of_type(DoorNode) if unfinished(door)]

@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from majordomo.perception.localization.planar import Pose2, diagonal_covariance, spatial_covariance
-from majordomo.scene_graph.edges import EdgeKey, EdgeType, InEdge, RtEdge
+from majordomo.scene_graph.edges import EdgeKey, EdgeType, InEdge, IntentionAction, IntentionStatus, RtEdge
 from majordomo.scene_graph.memory import Transaction
 from majordomo.scene_graph.nodes import ROBOT_ID, ROOT_ID, CrossingStatus, DoorNode
 from majordomo.scene_graph.snapshot import Snapshot
@@ -93,6 +93,9 @@ def lose_robot(tx: Transaction) -> None:
     guess = Pose2.from_se3(snapshot.transform(ROOT_ID, ROBOT_ID))
     for old in (*snapshot.edges_to(ROBOT_ID, EdgeType.RT), *snapshot.edges_from(ROBOT_ID, EdgeType.IN)):
         tx.remove(old.key)
+    for done in snapshot.intentions(IntentionStatus.DONE):
+        if done.action is IntentionAction.CROSS:  # where it led to, nobody can tell now
+            tx.remove(done.key)
     tx.put(
         replace(robot, localized=False, confidence=0.0),
         RtEdge(

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import logging
 
-import numpy as np
-
 from majordomo.perception.crossing import (
     DOOR_AGENT,
     door_being_crossed,
@@ -18,6 +16,7 @@ from majordomo.perception.crossing import (
 )
 from majordomo.perception.localization.landmarks import RoomModel, room_model
 from majordomo.perception.localization.planar import Pose2
+from majordomo.perception.localization.relocalization import Sight
 from majordomo.perception.localization.robot_pose import RobotPose, robot_pose_at
 from majordomo.perception.memory.dual import place_in, root_pose, same_door, through_door, unmatched_doors
 from majordomo.perception.memory.joining import join, put_dual, remove_room
@@ -73,11 +72,11 @@ class Transit:
         elif crossed is not None and depth_m > 0.0:
             self._stayed_inside(*crossed)
         elif crossed is not None:
-            self._enter_unknown(snapshot, pose, crossed[0])
+            self._enter_unknown(pose, crossed[0])
         elif depth_m < -_AWAY_M and not snapshot.intentions(IntentionStatus.GRANTED):
             door = _nearest_door(snapshot, room, pose.T_parent_base)
             if door is not None and door.crossing is CrossingStatus.UNCROSSED:
-                self._enter_unknown(snapshot, pose, door)
+                self._enter_unknown(pose, door)
 
     def _enter_known(self, snapshot: Snapshot, pose: RobotPose) -> bool:
         """Through a door whose far side is known: predict the pose there by the door's dual coordinates."""
@@ -97,13 +96,12 @@ class Transit:
                 return True
         return False
 
-    def _enter_unknown(self, snapshot: Snapshot, pose: RobotPose, door: DoorNode) -> None:
+    def _enter_unknown(self, pose: RobotPose, door: DoorNode) -> None:
         """Behind a door that nobody crossed: a known room after all, or one to be measured."""
-        scan = self._buffer.scan
-        T_root_base = root_pose(snapshot, pose.parent) @ pose.T_parent_base
-        points = self._slicer.cut(scan).points_base if scan is not None else np.empty((0, 2))
-        building = self._memory.building()
-        known = recognize(building, T_root_base, points, other_than=pose.parent) if len(points) > 20 else None
+        scan, known = self._buffer.scan, None
+        if scan is not None:
+            sight = Sight(scan=scan, outline=self._slicer.cut(scan), T_odom_base=pose.T_odom_base)
+            known = recognize(self._memory.building(), pose.T_parent_base, sight, door)
         if known is not None:
             self._memory.load(known.room_id, agent=self._agent, stamp_s=self._stamp_s)
         with self._memory.edit(self._agent, self._stamp_s) as tx:
@@ -135,22 +133,21 @@ class Transit:
         door, current = door_being_crossed(snapshot), snapshot.current_room
         if door is None or current is None or current == door.rooms[0]:
             return
-        known = same_room(self._memory.building(), current)
-        if known is not None:
-            snapshot = self._memory.load(known, agent=self._agent, stamp_s=self._stamp_s)
+        same = same_room(self._memory.building(), current, door)
+        if same is not None:
+            snapshot = self._memory.load(same.room_id, agent=self._agent, stamp_s=self._stamp_s)
         with self._memory.edit(self._agent, self._stamp_s) as tx:
-            if known is None:
-                T_new_near = root_pose(snapshot, current).inverse() @ root_pose(snapshot, door.rooms[0])
+            T_new_near = root_pose(snapshot, current).inverse() @ root_pose(snapshot, door.rooms[0])
+            if same is None:
                 self._attach(tx, door, current, T_new_near)
                 return
-            T_known_near = root_pose(snapshot, known).inverse() @ root_pose(snapshot, door.rooms[0])
             pose = robot_pose_at(snapshot, self._buffer, self._stamp_s)
             if pose is not None:
-                T_known_base = root_pose(snapshot, known).inverse() @ root_pose(snapshot, current) @ pose.T_parent_base
-                move_robot(tx, known, T_known_base, self._buffer.odometry[-1].stamp_s, std=0.05)
+                T_known_base = same.T_old_new @ pose.T_parent_base
+                move_robot(tx, same.room_id, T_known_base, self._buffer.odometry[-1].stamp_s, std=0.05)
             remove_room(tx, current)
-            self._attach(tx, door, known, T_known_near)
-        logger.info("%s is %s; closed a loop", current, known, extra={"room": known})
+            self._attach(tx, door, same.room_id, same.T_old_new @ T_new_near)
+        logger.info("%s is %s; closed a loop", current, same.room_id, extra={"room": same.room_id})
 
     def _attach(self, tx: Transaction, door: DoorNode, room_id: str, T_room_near: Pose2) -> None:
         """Join ``door`` with its side in ``room_id``: one found there already, or a predicted one."""

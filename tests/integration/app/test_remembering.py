@@ -107,7 +107,7 @@ async def test_a_restarted_simulator_begins_with_an_empty_graph(tmp_path):
         assert rooms(runtime)
         os.kill(runtime.require_robot().pid, signal.SIGKILL)
         with anyio.fail_after(30):
-            while runtime.ready:  # noqa: ASYNC110 - the process dies outside any event loop
+            while runtime.robot.alive:  # noqa: ASYNC110 - the process dies outside any event loop
                 await anyio.sleep(0.05)
         assert await runtime.restart_robot()
         assert rooms(runtime) == []

@@ -8,6 +8,7 @@ import pytest
 
 from majordomo.app.runtime import Runtime
 from majordomo.app.settings import ClockMode, Settings
+from majordomo.planner.tasks import TaskStatus
 from majordomo.scene_graph.nodes import CrossingStatus, DoorNode, RoomNode
 
 pytestmark = pytest.mark.anyio
@@ -51,3 +52,19 @@ async def test_carried_into_another_room_the_robot_says_so_finds_itself_and_expl
             "I do not know where I am",
             "I know again where I am",
         ]
+        await carry_during_a_task(runtime)
+
+
+async def carry_during_a_task(runtime: Runtime) -> None:
+    """A request goes on where the robot was set down, and succeeds."""
+    here = runtime.memory.snapshot().current_room
+    task = runtime.submit(f"go to {next(r for r in ('room_1', 'room_2', 'room_3') if r != here)}")
+    await until(runtime, lambda: runtime.memory.snapshot().robot.status.startswith(("driving", "crossing")), 20.0)
+    robot = runtime.require_robot()
+    x_m, y_m, _ = (await robot.truth())["robot"]["pose"]
+    elsewhere = [5.5, 2.0, 1.0] if x_m < 4.3 and y_m > 3.5 else [2.2, 5.6, 0.5]
+    await robot.disturb({"do": "move", "id": "robot", "to": {"pose": elsewhere}})
+    await until(runtime, lambda: not runtime.status_document()["robot"]["localized"], 3.0)
+    await until(runtime, lambda: runtime.queue.task(task.id).status.ended, 120.0)
+    assert runtime.queue.task(task.id).status is TaskStatus.SUCCEEDED
+    assert (await robot.truth())["collisions"] == 0

@@ -15,6 +15,7 @@ from majordomo.scene_graph.long_term.keeping import rooms_to_keep, take_up
 from majordomo.scene_graph.long_term.long_term_store import LongTermStore
 from majordomo.scene_graph.long_term.room_files import RoomFiles
 from majordomo.scene_graph.memory import WorkingMemory
+from majordomo.scene_graph.nodes import RegionNode
 from majordomo.simulation.house import load_house
 
 logger = logging.getLogger(__name__)
@@ -80,7 +81,9 @@ class Remembering:
 
     def write(self, stamp_s: float) -> None:
         """Write what has changed since the last time."""
-        rooms = rooms_to_keep(self.memory.building())
+        building = self.memory.building()
+        rooms = rooms_to_keep(building)
         if rooms:
+            regions = building.of_type(RegionNode)
             with self._writing:
-                self._files.write(rooms, shared=(), stamp_s=stamp_s, saved_s=self._wall_time())
+                self._files.write(rooms, shared=regions, stamp_s=stamp_s, saved_s=self._wall_time())

@@ -34,7 +34,7 @@ def query_scene(snapshot: Snapshot, query: SceneQuery) -> dict[str, Any]:
 
     Raises:
         InvalidQuery: unknown type, attribute or order.
-        NodeNotFound, UnknownRoom: it names something that is not there.
+        NodeNotFound, UnknownRoom, UnknownRegion: it names something that is not there.
     """
     records = {record["id"]: record for record in document_nodes(snapshot)}
     selection = select(snapshot, _filter(query))
@@ -67,6 +67,7 @@ def _filter(query: SceneQuery) -> NodeFilter:
         name=name,
         categories=(categories,) if categories else (),
         room=query.room,
+        region=query.region,
         related=Related(predicate=query.relation.predicate, target=query.relation.target) if query.relation else None,
         near=Near(node=query.near.node, point_m=query.near.point_m, radius_m=query.near.radius_m)
         if query.near

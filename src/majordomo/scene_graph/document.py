@@ -147,6 +147,13 @@ class AffordanceRecord(_NodeRecord):
     target: str
 
 
+class RegionRecord(_NodeRecord):
+    """A region; its rooms are listed here or told by ``in`` edges."""
+
+    type: Literal["region"]
+    rooms: tuple[str, ...] = ()
+
+
 NodeRecord = (
     RootRecord
     | RoomRecord
@@ -157,6 +164,7 @@ NodeRecord = (
     | PersonRecord
     | RobotRecord
     | AffordanceRecord
+    | RegionRecord
 )
 
 

@@ -16,7 +16,8 @@ _T = NodeType
 _RELATIVE_TOLERANCE = 1e-9
 _ABSOLUTE_TOLERANCE = 1e-12
 
-# Source types and target types of every edge type; rt is listed by child, because the child decides.
+# Source types and target types of every edge type; rt is listed by child, because the child decides, and so is what a
+# room is in.
 PARENT_TYPES: dict[NodeType, frozenset[NodeType]] = {
     _T.ROOM: frozenset({_T.ROOT, _T.ROOM}),
     _T.WALL: frozenset({_T.ROOM}),
@@ -55,6 +56,8 @@ def _end_violations(snapshot: Snapshot, key: EdgeKey) -> Iterator[Violation]:
     source, target = snapshot.node(key.source), snapshot.node(key.target)
     if key.type is EdgeType.RT:
         sources, targets = PARENT_TYPES.get(node_type(target), frozenset()), frozenset(PARENT_TYPES)
+    elif key.type is EdgeType.IN and node_type(source) is NodeType.ROOM:
+        sources, targets = frozenset({NodeType.ROOM}), frozenset({NodeType.REGION})
     else:
         sources, targets = END_TYPES[key.type]
     if node_type(source) not in sources or node_type(target) not in targets:

@@ -14,6 +14,7 @@ from majordomo.scene_graph.document import (
     NodeRecord,
     ObjectRecord,
     PersonRecord,
+    RegionRecord,
     RobotRecord,
     RootRecord,
     SceneDocument,
@@ -64,13 +65,15 @@ class EdgeReader:
         for record in self._document.nodes:
             if isinstance(record, AffordanceRecord):
                 yield from self._owner(record)
+            elif isinstance(record, RegionRecord):
+                yield from (InEdge(source=room, target=record.id) for room in self._rooms_of(record))
             elif not isinstance(record, RootRecord) and not self._places.is_hung(record.id):
                 yield self._rt(self._places.parent(record), record.id)
                 yield from self._rooms(record)
 
     def _read(self, record: EdgeRecord, path: str) -> Edge:
         source, target = record.source, record.target
-        is_room = self._places.is_room(target)
+        is_room = self._places.is_room(target) or self._places.is_region(target)
         match record.type:
             case EdgeType.RT:
                 return self._rt(source, target)
@@ -113,6 +116,12 @@ class EdgeReader:
             room_of = self._places.room(record)
             if room_of is not None:
                 yield InEdge(source=record.id, target=room_of)
+
+    def _rooms_of(self, region: RegionRecord) -> tuple[str, ...]:
+        for room in region.rooms:
+            if not self._places.is_room(room):
+                raise SceneFormatError(f"nodes of {region.id}.rooms", f"no room {room!r}")
+        return region.rooms
 
     def _owner(self, record: AffordanceRecord) -> Iterator[Edge]:
         owned = any(edge.type == EdgeType.HAS and edge.target == record.id for edge in self._document.edges)

@@ -102,7 +102,7 @@ class RtEdge:
 
 @dataclass(frozen=True, kw_only=True)
 class InEdge:
-    """An object, person or robot (source) belongs to a room (target); exactly one."""
+    """An object, person or robot (source) belongs to a room (target), a room to a region; to one at most."""
 
     source: str
     target: str

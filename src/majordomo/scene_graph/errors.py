@@ -167,6 +167,15 @@ class UnknownRoom(SceneGraphError, LookupError):
         super().__init__(f"no room {room!r}; rooms: {_list_names(room, self.available)}")
 
 
+class UnknownRegion(SceneGraphError, LookupError):
+    """No region has this identifier or label."""
+
+    def __init__(self, region: str, available: Iterable[str]) -> None:
+        self.region = region
+        self.available = tuple(available)
+        super().__init__(f"no region {region!r}; regions: {_list_names(region, self.available)}")
+
+
 class RoomNotStored(SceneGraphError, LookupError):
     """Long-term memory holds no room of this identifier."""
 

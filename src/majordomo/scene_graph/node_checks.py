@@ -18,6 +18,7 @@ from majordomo.scene_graph.nodes import (
     Node,
     ObjectNode,
     ObjectState,
+    RegionNode,
     RobotNode,
     RoomNode,
     RootNode,
@@ -69,7 +70,7 @@ def structure_violations(snapshot: Snapshot, node_id: str) -> Iterator[Violation
     if len(parents) > 1:
         message = f"{node_id} has {len(parents)} parent frames: {', '.join(sorted(parents))}"
         yield Violation(kind=ViolationKind.TWO_PARENTS, subject=node_id, message=message)
-    if not parents and not isinstance(node, RootNode | AffordanceNode):
+    if not parents and not isinstance(node, RootNode | AffordanceNode | RegionNode):
         message = f"{node_id} has no parent frame: no rt edge leads to it"
         yield Violation(kind=ViolationKind.NO_PARENT, subject=node_id, message=message)
     if isinstance(node, AffordanceNode) and not snapshot.edges_to(node_id, EdgeType.HAS):
@@ -77,7 +78,8 @@ def structure_violations(snapshot: Snapshot, node_id: str) -> Iterator[Violation
         yield Violation(kind=ViolationKind.AFFORDANCE_WITHOUT_OWNER, subject=node_id, message=message)
     rooms = [edge.target for edge in snapshot.edges_from(node_id, EdgeType.IN)]
     if len(rooms) > 1:
-        message = f"{node_id} is in {len(rooms)} rooms: {', '.join(sorted(rooms))}"
+        what = "regions" if isinstance(node, RoomNode) else "rooms"
+        message = f"{node_id} is in {len(rooms)} {what}: {', '.join(sorted(rooms))}"
         yield Violation(kind=ViolationKind.TWO_ROOMS, subject=node_id, message=message)
 
 

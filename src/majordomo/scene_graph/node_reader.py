@@ -12,6 +12,7 @@ from majordomo.scene_graph.document import (
     NodeRecord,
     ObjectRecord,
     PersonRecord,
+    RegionRecord,
     RobotRecord,
     RoomRecord,
     RootRecord,
@@ -26,6 +27,7 @@ from majordomo.scene_graph.nodes import (
     ObjectNode,
     ObjectState,
     PersonNode,
+    RegionNode,
     RobotNode,
     RoomNode,
     RootNode,
@@ -75,6 +77,8 @@ def read_node(record: NodeRecord, places: Places, stamp_s: float) -> Node:
             return AffordanceNode(
                 id=record.id, label=label, confidence=record.confidence, kind=record.kind, target=record.target
             )
+        case RegionRecord():
+            return RegionNode(id=record.id, label=label, confidence=record.confidence)
         case _:
             assert_never(record)
 

@@ -28,6 +28,7 @@ class NodeType(StrEnum):
     PERSON = "person"
     ROBOT = "robot"
     AFFORDANCE = "affordance"
+    REGION = "region"
 
 
 class RoomStatus(StrEnum):
@@ -210,7 +211,27 @@ class AffordanceNode:
     target: str
 
 
-Node = RootNode | RoomNode | WallNode | CornerNode | DoorNode | ObjectNode | PersonNode | RobotNode | AffordanceNode
+@dataclass(frozen=True, kw_only=True)
+class RegionNode:
+    """Rooms that belong together: a floor, a wing. An ``in`` edge leads from each of them; a room is in one at most."""
+
+    id: str
+    label: str = ""
+    confidence: float = 1.0
+
+
+Node = (
+    RootNode
+    | RoomNode
+    | WallNode
+    | CornerNode
+    | DoorNode
+    | ObjectNode
+    | PersonNode
+    | RobotNode
+    | AffordanceNode
+    | RegionNode
+)
 
 NODE_CLASSES: dict[NodeType, type[Node]] = {
     NodeType.ROOT: RootNode,
@@ -222,6 +243,7 @@ NODE_CLASSES: dict[NodeType, type[Node]] = {
     NodeType.PERSON: PersonNode,
     NodeType.ROBOT: RobotNode,
     NodeType.AFFORDANCE: AffordanceNode,
+    NodeType.REGION: RegionNode,
 }
 _TYPE_OF_CLASS = {cls: kind for kind, cls in NODE_CLASSES.items()}
 

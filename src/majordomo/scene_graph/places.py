@@ -12,6 +12,7 @@ from majordomo.scene_graph.document import (
     ObjectRecord,
     PersonRecord,
     Point2,
+    RegionRecord,
     RobotRecord,
     RoomRecord,
     SceneDocument,
@@ -35,6 +36,7 @@ class Places:
         self._stated_rooms = {
             edge.source: edge.target for edge in document.edges if edge.type == "in" and edge.target in self._rooms
         }
+        self._regions = frozenset(record.id for record in document.nodes if isinstance(record, RegionRecord))
         self._supports = {edge.source: edge for edge in document.edges if self._is_support(edge)}
         self._connected: dict[str, list[str]] = {}
         for edge in document.edges:
@@ -54,6 +56,10 @@ class Places:
     def is_room(self, node_id: str) -> bool:
         """Whether the node is a room."""
         return node_id in self._rooms
+
+    def is_region(self, node_id: str) -> bool:
+        """Whether the node is a region."""
+        return node_id in self._regions
 
     def supports(self, node_id: str) -> bool:
         """Whether something is on or in the node."""
@@ -149,7 +155,7 @@ class Places:
 
     def _is_support(self, edge: EdgeRecord) -> bool:
         predicate = edge.label if edge.type == "relation" else edge.type
-        return predicate in _SUPPORTING and edge.target not in self._rooms
+        return predicate in _SUPPORTING and edge.target not in self._rooms and edge.target not in self._regions
 
     def _error(self, record: NodeRecord, field: str, problem: str) -> SceneFormatError:
         return SceneFormatError(f"nodes[{self._index[record.id]}].{field}", problem)

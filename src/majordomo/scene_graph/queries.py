@@ -11,7 +11,7 @@ from math import dist, inf, prod
 from typing import Any
 
 from majordomo.scene_graph.edges import EdgeType
-from majordomo.scene_graph.errors import UnknownRoom
+from majordomo.scene_graph.errors import UnknownRegion, UnknownRoom
 from majordomo.scene_graph.identifiers import natural_key, next_id
 from majordomo.scene_graph.nodes import (
     NODE_CLASSES,
@@ -21,6 +21,7 @@ from majordomo.scene_graph.nodes import (
     NodeType,
     ObjectNode,
     PersonNode,
+    RegionNode,
     RobotNode,
     RoomNode,
     WallNode,
@@ -73,6 +74,7 @@ class NodeFilter:
         color, name: attributes, compared in the same way.
         categories: the node has all of these.
         room: identifier of a room, or a room label, which may stand for several rooms.
+        region: identifier or label of a region; the region itself, its rooms and all that is in them pass.
         state: of an object or door, status of a room or robot.
         max_age_s: last seen at most this long before the snapshot's stamp; for nodes that do not say, the age of their
             pose counts.
@@ -86,6 +88,7 @@ class NodeFilter:
     categories: tuple[str, ...] = ()
     name: str | None = None
     room: str | None = None
+    region: str | None = None
     related: Related | None = None
     near: Near | None = None
     state: str | None = None
@@ -112,7 +115,7 @@ def select(snapshot: Snapshot, wanted: NodeFilter) -> Selection:
     """The nodes that pass the filter.
 
     Raises:
-        UnknownRoom: ``room`` names no room.
+        UnknownRoom, UnknownRegion: ``room`` names no room, ``region`` no region.
         NodeNotFound: ``near`` or ``related`` names no node.
     """
     distance = _distances(snapshot, wanted.near)
@@ -146,6 +149,9 @@ def _conditions(
     if wanted.room is not None:
         rooms = _rooms_named(snapshot, wanted.room)
         yield lambda node: snapshot.room_of(node.id) in rooms
+    if wanted.region is not None:
+        regions = _regions_named(snapshot, wanted.region)
+        yield lambda node: snapshot.region_of(node.id) in regions
     if wanted.related is not None:
         related = _related(snapshot, wanted.related)
         yield lambda node: node.id in related
@@ -186,6 +192,14 @@ def _rooms_named(snapshot: Snapshot, name: str) -> frozenset[str]:
     }
     if not named:
         raise UnknownRoom(name, [known for room in rooms for known in (room.id, room.label) if known])
+    return frozenset(named)
+
+
+def _regions_named(snapshot: Snapshot, name: str) -> frozenset[str]:
+    regions = snapshot.of_type(RegionNode)
+    named = {region.id for region in regions if region.id == name or _plain(region.label) == _plain(name)}
+    if not named:
+        raise UnknownRegion(name, [known for region in regions for known in (region.id, region.label) if known])
     return frozenset(named)
 
 

@@ -20,6 +20,7 @@ from majordomo.scene_graph.nodes import (
     NodeType,
     ObjectNode,
     PersonNode,
+    RegionNode,
     RobotNode,
     RoomNode,
     RootNode,
@@ -103,7 +104,7 @@ class SceneWriter:
     def _node(self, node: Node) -> Record:
         anchor = self._anchor(node)
         room = self._snapshot.room_of(anchor)
-        pose = self._pose(anchor, room)
+        pose = self._region_pose(node.id) if isinstance(node, RegionNode) else self._pose(anchor, room)
         if faces := self._faces(anchor):
             pose = SE3(pose.quat_wxyz, sum(faces) / len(faces))
         return {
@@ -138,6 +139,14 @@ class SceneWriter:
         poses = [self._poses.pose(member.id) for member in door.members] if door else []
         return [pose.translation_m for pose in poses if pose is not None] if len(poses) == 2 else []
 
+    def _region_pose(self, region: str) -> SE3:
+        """In the middle of its rooms."""
+        poses = [pose for room in self._snapshot.rooms_in(region) if (pose := self._poses.pose(room)) is not None]
+        if not poses or self._frame == "room":
+            return _IDENTITY
+        x_m, y_m, z_m = (sum(axis) / len(poses) for axis in zip(*(pose.translation_m for pose in poses), strict=True))
+        return SE3.from_xyz_yaw(x_m, y_m, z_m, 0.0)
+
     def _details(self, node: Node, pose: SE3) -> Record:
         match node:
             case RootNode():
@@ -150,6 +159,7 @@ class SceneWriter:
                     "status": node.status.value,
                     "label_probability": node.label_probability,
                     "label_taught": node.label_taught,
+                    "region": self._snapshot.region_of(node.id),
                 }
             case WallNode():
                 return {"length_m": node.length_m, "normal": list(node.normal), "offset_m": node.offset_m}
@@ -169,6 +179,8 @@ class SceneWriter:
             case AffordanceNode():
                 target = self._stands_for.get(node.target, node.target)
                 return {"kind": node.kind.value, "target": target}
+            case RegionNode():
+                return {"rooms": list(self._snapshot.rooms_in(node.id))}
             case _:
                 return {}
 

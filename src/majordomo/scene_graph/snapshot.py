@@ -30,6 +30,7 @@ from majordomo.scene_graph.nodes import (
     NodeType,
     ObjectNode,
     PersonNode,
+    RegionNode,
     RobotNode,
     RoomNode,
     RootNode,
@@ -212,6 +213,24 @@ class Snapshot(Store):
             return stated[0].target
         above = (edge.source for edge in chain_up(self.parent, node_id))
         return next((frame for frame in above if isinstance(self._nodes.get(frame), RoomNode)), None)
+
+    def region(self, node_id: str) -> RegionNode:
+        """The region of this identifier."""
+        return self.typed(node_id, RegionNode)
+
+    def region_of(self, node_id: str) -> str | None:
+        """The region of the room that a node belongs to; a region is its own."""
+        if isinstance(self.node(node_id), RegionNode):
+            return node_id
+        room = self.room_of(node_id)
+        stated = self._adjacency.outgoing(room, EdgeType.IN) if room is not None else ()
+        return stated[0].target if stated else None
+
+    def rooms_in(self, region_id: str) -> tuple[str, ...]:
+        """The rooms of a region, in natural order."""
+        self.region(region_id)
+        members = (key.source for key in self._adjacency.incoming(region_id, EdgeType.IN))
+        return tuple(sorted(members, key=natural_key))
 
     @property
     def current_room(self) -> str | None:

@@ -12,7 +12,7 @@ import igraph
 
 from majordomo.scene_graph.doors import PhysicalDoor, physical_doors
 from majordomo.scene_graph.errors import FramesNotConnected, UnknownRoom
-from majordomo.scene_graph.nodes import DoorState, RoomNode
+from majordomo.scene_graph.nodes import DoorState, RegionNode, RoomNode
 from majordomo.scene_graph.poses import layout
 from majordomo.scene_graph.snapshot import Snapshot
 
@@ -156,22 +156,25 @@ def path_between(
 ) -> Path | None:
     """The shortest way between two nodes of any type, measured from the one to the other; None when there is none.
 
-    None is also the answer when one of them is in no known room.
+    None is also the answer when one of them is in no known room. A region is reached in its nearest room.
 
     Raises:
         NodeNotFound: one of the nodes does not exist.
     """
-    room_a, room_b = snapshot.room_of(source), snapshot.room_of(target)
-    if room_a is None or room_b is None:
-        return None
-    return Topology.from_snapshot(snapshot).path(
-        room_a,
-        room_b,
-        avoid_doors,
-        only_open,
-        start_m=_planar(snapshot, source, room_a),
-        goal_m=_planar(snapshot, target, room_b),
-    )
+    topology = Topology.from_snapshot(snapshot)
+    ways = [
+        topology.path(
+            room_a,
+            room_b,
+            avoid_doors,
+            only_open,
+            start_m=_planar(snapshot, source, room_a),
+            goal_m=_planar(snapshot, target, room_b),
+        )
+        for room_a in _rooms_of(snapshot, source)
+        for room_b in _rooms_of(snapshot, target)
+    ]
+    return min((way for way in ways if way is not None), key=lambda way: way.length_m, default=None)
 
 
 def _is_barred(door: PhysicalDoor, avoid_doors: Collection[str], only_open: bool) -> bool:
@@ -193,6 +196,14 @@ def _legs_in(snapshot: Snapshot, room: str, doors: Sequence[PhysicalDoor]) -> li
     to_center = [_Leg(room, (door,), (point,), dist(point, (0.0, 0.0))) for door, point in here]
     across = [_Leg(room, (a, b), (p, q), dist(p, q)) for (a, p), (b, q) in combinations(here, 2)]
     return [*to_center, *across]
+
+
+def _rooms_of(snapshot: Snapshot, node_id: str) -> tuple[str, ...]:
+    """The room that a node is in, or the rooms of a region."""
+    if isinstance(snapshot.node(node_id), RegionNode):
+        return snapshot.rooms_in(node_id)
+    room = snapshot.room_of(node_id)
+    return (room,) if room is not None else ()
 
 
 def _planar(snapshot: Snapshot, node_id: str, room: str) -> tuple[float, float]:

@@ -66,6 +66,7 @@ class SceneQuery(Document):
     label: str | None = None
     attributes: dict[str, str] = Field(default_factory=dict)
     room: str | None = None
+    region: str | None = None
     relation: Relation | None = None
     near: Nearness | None = None
     state: str | None = None
@@ -81,11 +82,12 @@ class NodePatch(Document):
 
     label: TaughtWord | None = None
     name: TaughtWord | None = None
+    region: TaughtWord | None = None
 
     @model_validator(mode="after")
     def _says_something(self) -> Self:
-        if self.label is None and self.name is None:
-            raise ValueError("tell a label or a name")
+        if self.label is None and self.name is None and self.region is None:
+            raise ValueError("tell a label, a name or a region")
         return self
 
 

@@ -12,7 +12,7 @@ from majordomo.app.map_picture import map_svg
 from majordomo.app.runtime import Runtime
 from majordomo.app.scene_documents import InvalidQuery, document_nodes, query_scene, scene_path
 from majordomo.app.teaching import NotTeachable, teach
-from majordomo.scene_graph.errors import NodeNotFound, TransactionRejected, UnknownLayer, UnknownRoom
+from majordomo.scene_graph.errors import NodeNotFound, TransactionRejected, UnknownLayer, UnknownRegion, UnknownRoom
 
 Frame = Literal["map", "room"]
 
@@ -35,7 +35,7 @@ def scene_routes(runtime: Runtime) -> APIRouter:
             return query_scene(runtime.memory.building(), body)
         except NodeNotFound as error:
             raise Problem(404, "node_not_found", str(error)) from None
-        except (InvalidQuery, UnknownRoom) as error:
+        except (InvalidQuery, UnknownRoom, UnknownRegion) as error:
             raise Problem(422, "invalid_query", str(error)) from None
 
     @router.get("/v1/scene/path", summary="Rooms and doors between two nodes")
@@ -48,10 +48,11 @@ def scene_routes(runtime: Runtime) -> APIRouter:
             raise Problem(404, "no_path", f"I know of no way from {origin} to {to}")
         return found
 
-    @router.patch("/v1/scene/nodes/{node_id}", summary="Teach a name or label")
+    @router.patch("/v1/scene/nodes/{node_id}", summary="Teach a name, a label, or the region of a room")
     async def patch(node_id: str, body: NodePatch) -> dict[str, Any]:
         try:
-            teach(runtime.memory, node_id, label=body.label, name=body.name, stamp_s=runtime.now_s)
+            taught = {"label": body.label, "name": body.name, "region": body.region}
+            teach(runtime.memory, node_id, **taught, stamp_s=runtime.now_s)
         except NodeNotFound as error:
             raise Problem(404, "node_not_found", str(error)) from None
         except (NotTeachable, TransactionRejected) as error:

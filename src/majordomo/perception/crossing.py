@@ -96,6 +96,9 @@ def lose_robot(tx: Transaction) -> None:
     for done in snapshot.intentions(IntentionStatus.DONE):
         if done.action is IntentionAction.CROSS:  # where it led to, nobody can tell now
             tx.remove(done.key)
+    door = door_being_crossed(snapshot)
+    if door is not None:
+        tx.put(uncrossed(door))
     tx.put(
         replace(robot, localized=False, confidence=0.0),
         RtEdge(

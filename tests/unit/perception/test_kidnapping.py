@@ -7,7 +7,7 @@ import logging
 import numpy as np
 import pytest
 
-from majordomo.perception.crossing import lose_robot
+from majordomo.perception.crossing import door_being_crossed, is_lost, lose_robot
 from majordomo.perception.doors.door_concept import DoorConcept
 from majordomo.perception.localization.energy_optimizer import EnergyOptimizer
 from majordomo.perception.localization.planar import Pose2
@@ -182,6 +182,26 @@ def test_exploration_goes_on_after_a_kidnapping_and_the_map_is_as_good_as_ever()
     run.run(60.0, until=lambda one: len(one.memory.snapshot().of_type(RoomNode)) >= 3)
     run.run(3.0)
     run.port.pose = Pose2(3.0, 1.8, 2.0)
+    run.run(200.0, until=lambda one: one.memory.snapshot().root.explored)
+    assert run.memory.snapshot().root.explored
+    assert_aims_met(run, house)
+
+
+def test_carried_from_one_twin_to_the_other_the_robot_does_not_take_one_for_the_other() -> None:
+    kidnapping = Kidnapping(offices(), "twin one", IN_TWIN)
+    kidnapping.carry(Pose2(10.2, 1.4, 0.5))
+    assert not kidnapping.localized
+
+
+@pytest.mark.slow
+def test_carried_off_while_it_enters_an_unknown_room_it_starts_over_and_the_map_is_as_good_as_ever() -> None:
+    house = four_rooms()
+    run = Exploration.of(house, Pose2(1.0, 1.0, 0.7), 0, agents)
+    run.run(60.0, until=lambda one: len(one.memory.snapshot().of_type(RoomNode)) >= 2)
+    run.run(60.0, until=lambda one: door_being_crossed(one.memory.snapshot()) is not None)
+    run.port.pose = Pose2(3.0, 1.8, 2.0)
+    run.run(1.0, until=lambda one: is_lost(one.memory.snapshot()))
+    assert door_being_crossed(run.memory.snapshot()) is None
     run.run(200.0, until=lambda one: one.memory.snapshot().root.explored)
     assert run.memory.snapshot().root.explored
     assert_aims_met(run, house)

@@ -83,6 +83,10 @@ class FitnessMonitor:
         """The pose was found anew."""
         self.doubt_s = 0.0
 
+    def startle(self) -> None:
+        """What is seen has changed all of a sudden: doubt, but wait for one more look."""
+        self.doubt_s = max(self.doubt_s, 0.5 * self.settings.patience_s)
+
     def rest(self, stamp_s: float) -> None:
         """A scan that cannot be judged, outside of the rooms that stand: doubt goes."""
         self.doubt_s = max(0.0, self.doubt_s - self.settings.relief * self._elapsed(stamp_s))

@@ -15,6 +15,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from majordomo.perception.crossing import door_being_crossed, find_robot, lose_robot
+from majordomo.perception.localization.continuity import continuity
 from majordomo.perception.localization.doorways import doorway_fit, doorway_model
 from majordomo.perception.localization.expectation import fit_of
 from majordomo.perception.localization.fitness import FitnessMonitor
@@ -27,7 +28,7 @@ from majordomo.perception.rooms.slice import OutlineSlicer
 from majordomo.perception.sensing import SensorBuffer
 from majordomo.scene_graph.edges import EdgeKey, EdgeType, HasIntentionEdge, IntentionAction, IntentionStatus, Priority
 from majordomo.scene_graph.memory import WorkingMemory
-from majordomo.scene_graph.nodes import ROBOT_ID
+from majordomo.scene_graph.nodes import ROBOT_ID, RoomNode, RoomStatus
 from majordomo.scene_graph.snapshot import Snapshot
 
 logger = logging.getLogger(__name__)
@@ -41,7 +42,9 @@ class RecoverySettings:
     """Pace of the search.
 
     ``search_every_s``: between searches. ``settle_s``: after this long without a decision the robot looks around, at
-    most ``looks`` times. ``step_m``: between views that are kept, ``sights`` of them at most.
+    most ``looks`` times. ``step_m``: between views that are kept, ``sights`` of them at most. ``continuous``: share of
+    a view that the one before must have shown, ``soon_s`` before it at most; ``breaks`` views in a row that do not
+    agree with the last good one mean that the robot was carried.
     """
 
     search_every_s: float = 0.5
@@ -49,6 +52,9 @@ class RecoverySettings:
     looks: int = 2
     step_m: float = 0.5
     sights: int = 5
+    continuous: float = 0.55
+    soon_s: float = 0.6
+    breaks: int = 2
 
 
 class Relocalization:
@@ -80,6 +86,7 @@ class Relocalization:
         self._monitor = FitnessMonitor()
         self._scan_stamp_s = -np.inf
         self._search = _Search()
+        self._view = _View()
 
     async def step(self, stamp_s: float) -> None:
         """Judge the newest scan where the robot believes to be, or search for where it was taken."""
@@ -111,7 +118,10 @@ class Relocalization:
             fit = fit_of(sight.outline, room, pose.T_parent_base)
             doorways = doorway_fit(sight.scan, doorway_model(snapshot, room), pose.T_parent_base)
             self._monitor.add(room.room_id, depth_m, fit, doorways, stamp_scan_s)
-        if self._monitor.lost:
+        carried = self._view.changed(sight, self._settings)
+        if self._view.broken:
+            self._monitor.startle()
+        if (carried or self._monitor.lost) and _knows_a_room(self._memory.building()):
             self._lose(snapshot.current_room, stamp_s)
         else:
             self._doubt(snapshot, stamp_s)
@@ -128,7 +138,7 @@ class Relocalization:
     def _lose(self, room_id: str | None, stamp_s: float) -> None:
         with self._memory.edit(self.name, stamp_s) as tx:
             lose_robot(tx)
-        self._search = _Search()
+        self._search, self._view = _Search(), _View()
         logger.warning("I do not know where I am: what I see is not %s", room_id, extra={"room": room_id})
 
     # While it does not.
@@ -198,6 +208,28 @@ class Relocalization:
 
 
 _LOOK = EdgeKey(EdgeType.HAS_INTENTION, ROBOT_ID, ROBOT_ID, Relocalization.name)
+
+
+def _knows_a_room(building: Snapshot) -> bool:
+    return any(room.status is not RoomStatus.TEMPORARY for room in building.of_type(RoomNode))
+
+
+@dataclass(kw_only=True)
+class _View:
+    """The last view that agreed with the one before it, and how many have not since."""
+
+    last: Sight | None = None
+    broken: int = 0
+
+    def changed(self, sight: Sight, settings: RecoverySettings) -> bool:
+        """Whether what is seen is another place than a moment ago, for long enough to be sure."""
+        before = self.last
+        late = before is None or sight.scan.stamp_s > before.scan.stamp_s + settings.soon_s
+        if late or before is None or continuity(before, sight) >= settings.continuous:
+            self.last, self.broken = sight, 0
+        else:
+            self.broken += 1
+        return self.broken >= settings.breaks
 
 
 @dataclass(kw_only=True)

@@ -1,7 +1,8 @@
 """What a scan should show from a pose in a known room, and how well a scan agrees with it, both ways.
 
 Of each ray above furniture and doors the outline says where it ends. A return there is explained. One beyond has passed
-through a wall, which cannot be; one before it may be tall furniture.
+through a wall, which cannot be, unless the wall is so near that the ray passed under a door's lintel; one before it may
+be tall furniture.
 """
 
 from __future__ import annotations
@@ -54,13 +55,15 @@ def fit_of(scan: OutlineScan, room: RoomModel, T_room_base: Pose2, settings: Fit
     origin = T_room_base.apply(scan.origin_base)
     nearest, farthest, incidence = expected_ranges(room.walls, origin, scan.azimuths_rad + T_room_base.yaw_rad)
     measured = scan.ranges_m
-    tells = np.isfinite(measured) & np.isfinite(farthest)
+    too_near = nearest <= scan.blind_m + _BLIND_MARGIN_M
+    below_lintel = too_near & (measured > farthest + settings.through_m)
+    tells = np.isfinite(measured) & np.isfinite(farthest) & ~below_lintel
     if tells.sum() < _FEWEST_RETURNS:
         return ScanFit(explained=0.0, passed=0.0, cost=settings.gate**2)
     measured, nearest, farthest = measured[tells], nearest[tells], farthest[tells]
     off = (measured - np.clip(measured, nearest, farthest)) * incidence[tells]
     deviation = np.maximum(np.abs(off) - settings.slack_m, 0.0) / max(settings.least_std_m, scan.noise_m)
-    passed = (off > settings.through_m) & (nearest > scan.blind_m + _BLIND_MARGIN_M)
+    passed = off > settings.through_m
     cost = np.minimum(deviation**2, settings.gate**2) / 2.0 * np.where(passed, 2.0, 1.0)
     return ScanFit(
         explained=float((deviation <= settings.gate).mean()),

@@ -7,78 +7,18 @@ import timeit
 import tracemalloc
 from dataclasses import dataclass
 
-import numpy as np
 import pytest
 
+from majordomo.app.evaluations.known_building import known_building
 from majordomo.perception.memory.working_set import WorkingSet
-from majordomo.scene_graph.edges import ConnectsEdge, InEdge, MatchEdge, RelationEdge, RtEdge
 from majordomo.scene_graph.edits import PutEdge
 from majordomo.scene_graph.long_term.long_term_store import LongTermStore
 from majordomo.scene_graph.memory import WorkingMemory
-from majordomo.scene_graph.nodes import (
-    CornerNode,
-    CrossingStatus,
-    DoorNode,
-    ObjectNode,
-    RobotNode,
-    RoomNode,
-    RoomStatus,
-    RootNode,
-    WallNode,
-)
 from majordomo.scene_graph.queries import NodeFilter, NodeType, select
-from majordomo.scene_graph.se3 import SE3
-from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.scene_graph.topology import path_between
 
-SQUARE = ((-2.0, -2.0), (2.0, -2.0), (2.0, 2.0), (-2.0, 2.0))
 ROOMS = (10, 100, 1000)
-WALLS, THINGS = 4, 19
 GROWTH = 1.10
-
-
-def hang(parent: str, child: str, x_m: float = 0.0) -> RtEdge:
-    pose = SE3.from_xyz_yaw(x_m, 0.1, 0.0, 0.2)
-    return RtEdge(source=parent, target=child, T_source_target=pose, covariance=np.eye(6) * 1e-4)
-
-
-def corridor(count: int) -> Snapshot:
-    """Rooms in a row, each of 30 nodes: itself, walls, corners, doors, things on a table. The robot is in the fifth."""
-    nodes = [RootNode(), RobotNode()]
-    edges = [hang("room_5", "robot"), InEdge(source="robot", target="room_5")]
-    for i in range(1, count + 1):
-        room = f"room_{i}"
-        nodes.append(RoomNode(id=room, polygon_m=SQUARE, status=RoomStatus.PERMANENT))
-        edges.append(hang("root", room, 4.2 * i))
-        for k in range(WALLS):
-            wall, corner = f"wall_{i}_{k}", f"corner_{i}_{k}"
-            nodes += [WallNode(id=wall, parent_room=room, normal=(0.0, 1.0), offset_m=-2.0, length_m=4.0)]
-            nodes += [CornerNode(id=corner)]
-            edges += [hang(room, wall), hang(wall, corner)]
-        for k in range(THINGS):
-            thing = f"thing_{i}_{k}"
-            nodes.append(ObjectNode(id=thing, label="cup", graspable=k > 0, support=k == 0))
-            edges += [hang(room, thing), InEdge(source=thing, target=room)]
-            if k:
-                edges.append(RelationEdge(source=thing, target=f"thing_{i}_0", predicate="on", probability=0.9))
-        for k, other in enumerate(n for n in (i - 1, i + 1) if 1 <= n <= count):
-            door = DoorNode(
-                id=f"door_{i}_{k}_0",
-                rooms=(room, f"room_{other}"),
-                width_m=0.9,
-                provisional=False,
-                crossing=CrossingStatus.CROSSED,
-            )
-            nodes.append(door)
-            edges += [
-                hang(f"wall_{i}_{k}", door.id),
-                *(ConnectsEdge(source=door.id, target=r) for r in door.rooms if r),
-            ]
-    edges += [
-        MatchEdge(source=min(ends), target=max(ends))
-        for ends in ((f"door_{i}_{int(i > 1)}_0", f"door_{i + 1}_0_0") for i in range(1, count))
-    ]
-    return Snapshot.of(nodes, edges)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -98,7 +38,7 @@ class Cost:
 
 
 def measured(count: int) -> Cost:
-    building = corridor(count)
+    building = known_building(count)
     memory = WorkingMemory(building, long_term=LongTermStore())
     working_set = WorkingSet("ltsm", memory)
     for stamp_s in (0.0, 10.0):

@@ -1,4 +1,4 @@
-"""The command line: ``majordomo demo | serve | ask | evaluate | doctor``."""
+"""The command line: ``majordomo demo | serve | ask | house | evaluate | doctor``."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
+from majordomo.app.evaluations.commands import evaluations
 from majordomo.app.settings import DEFAULT_DATA, ClockMode, Settings
 
 application = typer.Typer(
@@ -21,7 +22,6 @@ application = typer.Typer(
     add_completion=False,
     pretty_exceptions_enable=False,
 )
-evaluations = typer.Typer(help="Measure something, print a table, write JSON.", no_args_is_help=True)
 application.add_typer(evaluations, name="evaluate")
 
 console = Console()
@@ -139,6 +139,21 @@ def ask(
     raise typer.Exit(0 if succeeded else 1)
 
 
+@application.command("house")
+def make_house(
+    rooms: Annotated[int, typer.Option(min=1, help="How many, corridors and halls included.")] = 6,
+    seed: Seed = 0,
+    loop: Annotated[bool, typer.Option("--loop", help="Let some rooms be reached in two ways.")] = False,
+    rectilinear: Annotated[bool, typer.Option("--rectilinear", help="Make some rooms L-, T- or U-shaped.")] = False,
+    empty: Annotated[bool, typer.Option("--empty", help="Leave out furniture and objects.")] = False,
+) -> None:
+    """Write a generated house to standard output, to be used with --house."""
+    from majordomo.simulation.generator import generate_house
+
+    house = generate_house(rooms=rooms, seed=seed, loops=loop, rectilinear=rectilinear, furnished=not empty)
+    sys.stdout.write(house.model_dump_json(by_alias=True, exclude_none=True, indent=1) + "\n")
+
+
 @application.command()
 def doctor() -> None:
     """Check what Majordomo needs on this machine, and say what to do about what is missing."""
@@ -146,29 +161,6 @@ def doctor() -> None:
 
     healthy = examine(console)
     raise typer.Exit(0 if healthy else 1)
-
-
-@evaluations.command("demo")
-def evaluate_demo(
-    seeds: Annotated[int, typer.Option(min=1, help="How many runs, with seeds 0, 1, 2 …")] = 10,
-    json_file: Annotated[Path | None, typer.Option("--json", help="Where to write the figures.")] = None,
-    house: House = "flat",
-    jobs: Annotated[int, typer.Option(min=1, help="Runs at the same time.")] = 2,
-    logs: Annotated[Path | None, typer.Option(help="Folder for the runs' event logs.")] = None,
-    first_seed: Annotated[int, typer.Option(min=0)] = 0,
-) -> None:
-    """Play the demonstration under several seeds and compare what was reported with the truth."""
-    from majordomo.app.evaluations.demo import evaluate
-
-    good = evaluate(
-        house=house,
-        seeds=range(first_seed, first_seed + seeds),
-        jobs=jobs,
-        logs=logs,
-        json_file=json_file,
-        console=console,
-    )
-    raise typer.Exit(0 if good else 1)
 
 
 def _speed(text: str, clock: ClockMode) -> float | None:

@@ -10,7 +10,7 @@ import contextlib
 import json
 import logging
 import time
-from collections.abc import AsyncIterator, Mapping
+from collections.abc import AsyncIterator, Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -24,7 +24,7 @@ from majordomo.app.model_choice import make_language_model
 from majordomo.app.publisher import Publisher
 from majordomo.app.robot_stack import RobotStack
 from majordomo.app.scene_documents import robot_document, scene_document
-from majordomo.app.scheduler import LockstepScheduler, RealTimeScheduler, Scheduler
+from majordomo.app.scheduler import Agent, LockstepScheduler, RealTimeScheduler, Scheduler, Turns
 from majordomo.app.settings import ClockMode, Settings
 from majordomo.app.stack import Stack
 from majordomo.planner.queue import TaskQueue
@@ -46,8 +46,16 @@ class RobotUnavailable(RuntimeError):
 class Runtime:
     """Everything that runs behind the interface. Use ``async with runtime.running()``."""
 
-    def __init__(self, settings: Settings, *, event_log: Path | None = None) -> None:
+    def __init__(
+        self,
+        settings: Settings,
+        *,
+        event_log: Path | None = None,
+        witnesses: Callable[[Runtime], Sequence[Agent]] | None = None,
+    ) -> None:
+        """``witnesses``: makes agents that take the last turns and look on, as evaluations do."""
         self.settings = settings
+        self._witnesses = witnesses
         self.queue = TaskQueue()
         self.stream = EventStream(self._snapshot_document, first_seq=time.time_ns() // 1_000_000)
         self.log = EventLog(event_log)
@@ -203,6 +211,10 @@ class Runtime:
             "revision": snapshot.revision,
         }
 
+    def turns(self) -> Sequence[Turns]:
+        """Account of every agent's turns."""
+        return self._scheduler.turns if self._scheduler is not None else ()
+
     def metrics_text(self) -> bytes:
         """Prometheus text."""
         return metrics_text(self.memory.building(), self._agents(), self.queue.tasks)
@@ -232,7 +244,7 @@ class Runtime:
             robot=self.robot_document,
             status=self.status_document,
         )
-        agents = [*stack.agents, publisher, _Herald(self._changed)]
+        agents = [*stack.agents, publisher, *(self._witnesses(self) if self._witnesses else ()), _Herald(self._changed)]
         if isinstance(stack, RobotStack) and settings.clock is ClockMode.LOCKSTEP:
             scheduler: Scheduler = LockstepScheduler(agents, stack.advance, speed=settings.speed, fatal=FATAL)
         else:

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import logging
 import tempfile
 import time
-from collections.abc import Callable
+from collections.abc import AsyncIterator, Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from majordomo.app.runtime import Runtime
-from majordomo.app.scene_documents import scene_document
+from majordomo.app.scheduler import Agent
 from majordomo.app.settings import ClockMode, Settings
 from majordomo.simulation.house import House
 
@@ -28,38 +29,55 @@ class Exploration:
     complete: bool
     sim_seconds: float
     wall_seconds: float
-    agents: dict[str, dict[str, float | int]]
     collisions: int
 
 
-def explore_house(house: House, seed: int, *, on_tick: Callable[[Runtime], None] | None = None) -> Exploration:
+def explore_house(house: House, seed: int) -> Exploration:
     """Explore until the robot says it is done, or for far longer than that should take."""
-    return asyncio.run(_explore(house, seed, on_tick))
+    return asyncio.run(_explore(house, seed))
 
 
-async def _explore(house: House, seed: int, on_tick: Callable[[Runtime], None] | None) -> Exploration:
-    logging.getLogger("majordomo").setLevel(logging.WARNING)
-    limit_s = LIMIT_S + LIMIT_PER_ROOM_S * len(house.rooms)
+async def _explore(house: House, seed: int) -> Exploration:
+    async with service_in_lockstep(house, seed) as runtime:
+        started = time.monotonic()
+        complete = await until_explored(runtime, house)
+        wall_seconds = time.monotonic() - started
+        truth = await runtime.require_robot().truth()
+        return Exploration(
+            scene=runtime.scene_document("map"),
+            complete=complete,
+            sim_seconds=runtime.now_s,
+            wall_seconds=wall_seconds,
+            collisions=int(truth["collisions"]),
+        )
+
+
+@contextlib.asynccontextmanager
+async def service_in_lockstep(
+    house: House,
+    seed: int,
+    *,
+    camera: bool = False,
+    witnesses: Callable[[Runtime], Sequence[Agent]] | None = None,
+) -> AsyncIterator[Runtime]:
+    """A service with its robot in a house, as fast as the machine allows, forgotten afterwards."""
+    logging.getLogger("majordomo").setLevel(logging.ERROR)
     with tempfile.TemporaryDirectory(prefix="majordomo-evaluate-") as folder:
         file = Path(folder) / "house.json"
         file.write_text(house.model_dump_json(by_alias=True, exclude_none=True), encoding="utf-8")
         settings = Settings(
-            house=str(file), seed=seed, clock=ClockMode.LOCKSTEP, speed=None, camera=False, data=Path(folder)
+            house=str(file), seed=seed, clock=ClockMode.LOCKSTEP, speed=None, camera=camera, data=Path(folder)
         )
-        runtime = Runtime(settings)
+        runtime = Runtime(settings, witnesses=witnesses)
         async with runtime.running():
-            started = time.monotonic()
-            while not (complete := runtime.memory.snapshot().root.explored) and runtime.now_s < limit_s:
-                await runtime.wait_for_change()
-                if on_tick is not None:
-                    on_tick(runtime)
-            wall_seconds = time.monotonic() - started
-            truth = await runtime.require_robot().truth()
-            return Exploration(
-                scene=scene_document(runtime.memory.snapshot(), "map"),
-                complete=complete,
-                sim_seconds=runtime.now_s,
-                wall_seconds=wall_seconds,
-                agents=runtime.status_document()["agents"],
-                collisions=int(truth["collisions"]),
-            )
+            yield runtime
+
+
+async def until_explored(runtime: Runtime, house: House) -> bool:
+    """Wait until the robot says that it is done; false when that takes far too long."""
+    limit_s = LIMIT_S + LIMIT_PER_ROOM_S * len(house.rooms)
+    while not runtime.memory.snapshot().root.explored:
+        if runtime.now_s > limit_s:
+            return False
+        await runtime.wait_for_change()
+    return True

@@ -116,6 +116,11 @@ def plan_of_scene(scene: Mapping[str, Any], start: Sequence[float]) -> FloorPlan
     return plan.moved(_rotation(start[2]), np.array(start[:2]))
 
 
+def in_house(points_map: Array, start: Sequence[float]) -> Array:
+    """(N, 2) points of the map in the house, where the robot started at ``start`` [x, y, yaw]."""
+    return np.asarray(points_map @ _rotation(start[2]).T + np.array(start[:2]))
+
+
 def compare(found: FloorPlan, true: FloorPlan) -> Score:
     """Match rooms by shared area and doors by place and rooms; then measure."""
     same = _same_rooms(found, true)
@@ -131,6 +136,11 @@ def compare(found: FloorPlan, true: FloorPlan) -> Score:
         errors=_errors(aligned, true, same, doors),
         unaligned=_errors(found, true, same, doors),
     )
+
+
+def placement(found: Array, true: Array) -> tuple[Array, Array]:
+    """Rotation (2, 2) and shift (2,) that put a found room best upon the true one."""
+    return _kabsch(*_boxes(found, true))
 
 
 def iou(first: Array, second: Array) -> float:
@@ -188,7 +198,11 @@ def _alignment(found: FloorPlan, true: FloorPlan, rooms: Mapping[str, str]) -> t
     if not rooms:
         return np.eye(2), np.zeros(2)
     boxes = [_boxes(found.rooms[name], true.rooms[truth]) for truth, name in rooms.items()]
-    ours, theirs = np.concatenate([box for box, _ in boxes]), np.concatenate([box for _, box in boxes])
+    return _kabsch(np.concatenate([ours for ours, _ in boxes]), np.concatenate([theirs for _, theirs in boxes]))
+
+
+def _kabsch(ours: Array, theirs: Array) -> tuple[Array, Array]:
+    """Rotation (2, 2) and shift (2,) that bring (N, 2) points closest to others, one by one."""
     center, goal = ours.mean(axis=0), theirs.mean(axis=0)
     u, _, vt = np.linalg.svd((ours - center).T @ (theirs - goal))
     turn = np.diag([1.0, np.sign(np.linalg.det(vt.T @ u.T))])

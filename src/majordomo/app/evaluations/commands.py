@@ -1,0 +1,120 @@
+"""``majordomo evaluate …``: one command a measurement. What a command runs is loaded when it runs."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.console import Console
+
+evaluations = typer.Typer(help="Measure something, print a table, write JSON.", no_args_is_help=True)
+
+console = Console()
+
+House = Annotated[str, typer.Option(help="A built-in house's name or a house file.")]
+Houses = Annotated[
+    list[str] | None, typer.Option("--house", help="House files, names of built-in houses, or generated:N; repeat it.")
+]
+Seeds = Annotated[int, typer.Option(min=1, help="Runs of each, with seeds 0, 1, 2 …")]
+JsonFile = Annotated[Path | None, typer.Option("--json", help="Where to write the figures.")]
+Plot = Annotated[Path | None, typer.Option(help="Where to draw them, a PNG file.")]
+Jobs = Annotated[int, typer.Option(min=1, help="Runs at the same time.")]
+
+
+@evaluations.command("demo")
+def evaluate_demo(
+    seeds: Seeds = 10,
+    json_file: JsonFile = None,
+    house: House = "flat",
+    jobs: Jobs = 2,
+    logs: Annotated[Path | None, typer.Option(help="Folder for the runs' event logs.")] = None,
+    first_seed: Annotated[int, typer.Option(min=0)] = 0,
+) -> None:
+    """Play the demonstration under several seeds and compare what was reported with the truth."""
+    from majordomo.app.evaluations.demo import evaluate
+
+    good = evaluate(
+        house=house,
+        seeds=range(first_seed, first_seed + seeds),
+        jobs=jobs,
+        logs=logs,
+        json_file=json_file,
+        console=console,
+    )
+    raise typer.Exit(0 if good else 1)
+
+
+@evaluations.command("mapping")
+def evaluate_mapping(
+    houses: Annotated[int, typer.Option(min=0, help="How many generated houses, of 4 to 12 rooms.")] = 4,
+    seeds: Seeds = 1,
+    full: Annotated[
+        bool, typer.Option("--full", help="20 generated houses and those that ship with the package.")
+    ] = False,
+    house: Houses = None,
+    json_file: JsonFile = None,
+    plot: Plot = None,
+    jobs: Jobs = 2,
+) -> None:
+    """Let the robot map houses, and compare rooms and doors with the truth and with the paper's table 2."""
+    from majordomo.app.evaluations.mapping import evaluate
+    from majordomo.simulation.house import builtin_houses
+
+    names = [f"generated:{number}" for number in range(20 if full else houses)]
+    names += [*(builtin_houses() if full else ()), *(house or ())]
+    good = evaluate(houses=names, seeds=range(seeds), jobs=jobs, json_file=json_file, plot_file=plot, console=console)
+    raise typer.Exit(0 if good else 1)
+
+
+@evaluations.command("noise")
+def evaluate_noise(
+    house: Houses = None,
+    seeds: Seeds = 1,
+    json_file: JsonFile = None,
+    plot: Plot = None,
+    jobs: Jobs = 2,
+) -> None:
+    """Raise the noise of LiDAR and odometry, one at a time, until the map is no longer right."""
+    from majordomo.app.evaluations.noise import evaluate
+
+    good = evaluate(
+        houses=house or ("flat", "generated:1"),
+        seeds=range(seeds),
+        jobs=jobs,
+        json_file=json_file,
+        plot_file=plot,
+        console=console,
+    )
+    raise typer.Exit(0 if good else 1)
+
+
+@evaluations.command("localization")
+def evaluate_localization(
+    hours: Annotated[float, typer.Option(min=0.01, help="Simulated hours of driving in each house.")] = 4.0,
+    house: Houses = None,
+    json_file: JsonFile = None,
+    plot: Plot = None,
+    jobs: Jobs = 2,
+) -> None:
+    """Drive from room to room for hours, and compare where the robot believes to be with where it is."""
+    from majordomo.app.evaluations.localization import evaluate
+
+    good = evaluate(
+        houses=house or ("office",), hours=hours, jobs=jobs, json_file=json_file, plot_file=plot, console=console
+    )
+    raise typer.Exit(0 if good else 1)
+
+
+@evaluations.command("resources")
+def evaluate_resources(
+    house: House = "flat",
+    camera: Annotated[bool, typer.Option(help="Map with the camera on, or with the LiDAR alone.")] = True,
+    json_file: JsonFile = None,
+    plot: Plot = None,
+) -> None:
+    """Measure processor time and memory while a house is mapped, and while the known building grows to 1,000 rooms."""
+    from majordomo.app.evaluations.resources import evaluate
+
+    good = evaluate(house=house, camera=camera, json_file=json_file, plot_file=plot, console=console)
+    raise typer.Exit(0 if good else 1)

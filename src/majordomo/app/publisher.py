@@ -45,12 +45,16 @@ class Publisher:
         self._edges: Documents = {}
         self._next_status_s = 0.0
         self._localized = True
+        self._first = True
 
     async def step(self, stamp_s: float) -> None:
         """Publish what is new."""
-        for delta in self._subscription.poll():
+        deltas = self._subscription.poll()
+        for delta in deltas:
             self._write(delta)
-        self._publish_scene(stamp_s)
+        if self._first or self._subscription.lagged or any(not _is_motion(delta) for delta in deltas):
+            self._first = False
+            self._publish_scene(stamp_s)
         robot = self._robot()
         self._stream.publish("robot", robot, stamp_s)
         self._say_whether_localized(robot, stamp_s)
@@ -104,6 +108,13 @@ class Publisher:
             "removed_edges": [list(key) for key in removed],
         }
         self._log.write(delta.stamp_s, "graph", data)
+
+
+def _is_motion(delta: Delta) -> bool:
+    """Whether nothing changed but the robot's pose in its parent, which is published by itself."""
+    if delta.put_nodes or delta.removed_nodes or delta.removed_edges or delta.loaded or delta.unloaded:
+        return False
+    return all(edge.key.type is EdgeType.RT and edge.target == ROBOT_ID for edge in delta.put_edges)
 
 
 def _edge_line(edge: Any) -> list[Any]:

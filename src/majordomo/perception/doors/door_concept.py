@@ -17,7 +17,7 @@ from majordomo.perception.doors.insertion import (
     wall_id_of,
 )
 from majordomo.perception.doors.room_watch import RoomWatch
-from majordomo.perception.doors.scene import Scene
+from majordomo.perception.doors.scene import NARROWEST_DOOR_M, Scene
 from majordomo.perception.doors.upkeep import DoorUpkeep
 from majordomo.perception.lifecycle import LifeCycle, Verdict
 from majordomo.perception.localization.landmarks import room_model
@@ -39,7 +39,7 @@ class DoorSettings:
     robot must be for its scans to count, ``pose_std_m``: how well localized.
     """
 
-    narrowest_m: float = 0.5
+    narrowest_m: float = NARROWEST_DOOR_M
     seen_s: float = 1.0
     clear_m: float = 0.2
     detect_every_s: float = 0.5

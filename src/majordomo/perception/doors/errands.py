@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from majordomo.perception.crossing import DOOR_AGENT, cross_affordance, given_up, is_being_crossed
 from majordomo.perception.doors.insertion import cross, put_permanent, visit
-from majordomo.perception.doors.scene import Scene
+from majordomo.perception.doors.scene import NARROWEST_DOOR_M, Scene
 from majordomo.scene_graph.edges import EdgeKey, EdgeType, HasIntentionEdge, IntentionAction, IntentionStatus
 from majordomo.scene_graph.memory import WorkingMemory
 from majordomo.scene_graph.nodes import ROBOT_ID, AffordanceNode, CrossingStatus, DoorNode, DoorState
@@ -65,7 +65,7 @@ class DoorErrands:
             return
         door, wall, span = found
         gap = scene.watch.gap_at(wall, span)
-        if gap is None:
+        if gap is None or scene.watch.measure(wall, gap).width_m < NARROWEST_DOOR_M:
             scene.watch.checked.append((wall, span.center_m))
             with self._memory.edit(DOOR_AGENT, scene.stamp_s) as tx:
                 tx.remove(door.id)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -18,6 +19,7 @@ _BIN_M = 0.02
 _KEPT_SCANS = 60
 _MOST_RAYS = 30.0
 _FARTHEST_SAMPLE_M = 5.0
+_FRAME_M = 0.10
 _GRAZING = 2.0  # way along the wall per way into it
 
 
@@ -119,21 +121,27 @@ class WallEvidence:
                 found.append(gap)
         return found
 
-    def unseen(self, settings: GapSettings | None = None) -> list[Gap]:
-        """Stretches that could hide a door: not seen to be wall, and nothing stands close before them."""
+    def unseen(self, settings: GapSettings | None = None, explained: Sequence[tuple[float, float]] = ()) -> list[Gap]:
+        """Stretches that could hide a door: not seen to be wall, and nothing stands close before them.
+
+        ``explained``: from where to where doors are known. A gap too narrow for a door may be part of a hidden one.
+        """
         settings = settings or GapSettings()
         state = self._states(settings)
         free = self._blocked < 1.0
         dark = (state != -1) & free
         grazed = (state == -1) & ~self._told(settings) & free
         near_dark = binary_dilation(dark, iterations=round(settings.post_m / _BIN_M))
-        known = self.gaps(settings)
+        hidden = dark | (grazed & near_dark)
+        doors = [(gap.start_m, gap.end_m) for gap in self.gaps(settings) if gap.width_m > settings.hiding_m]
+        for start_m, end_m in (*doors, *explained):
+            first, last = round((start_m - _FRAME_M) / _BIN_M), round((end_m + _FRAME_M) / _BIN_M)
+            hidden[max(first, 0) : max(last, 0)] = False
         found: list[Gap] = []
-        for start, end in _runs(dark | (grazed & near_dark)):
+        for start, end in _runs(hidden):
             gap = Gap(start_m=start * _BIN_M, end_m=min(end * _BIN_M, self.length_m))
             in_the_dark_m = float(dark[start:end].sum()) * _BIN_M
-            explained = any(gap.start_m <= other.center_m <= gap.end_m for other in known)
-            if gap.width_m > settings.hiding_m and in_the_dark_m > settings.dark_m and not explained:
+            if gap.width_m > settings.hiding_m and in_the_dark_m > settings.dark_m:
                 found.append(gap)
         return found
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -75,12 +76,13 @@ class RoomWatch:
         """Open stretches of a wall."""
         return self._evidence[wall].gaps()
 
-    def unseen(self, wall: int) -> list[Gap]:
-        """Stretches of a wall that could hide a door and were not looked at from the front yet."""
+    def unseen(self, wall: int, doors: Sequence[Span] = ()) -> list[Gap]:
+        """Stretches of a wall, beside its known ``doors``, that could hide another and were not looked at yet."""
+        explained = [(door.center_m - door.width_m / 2.0, door.center_m + door.width_m / 2.0) for door in doors]
         checked = [station_m for other, station_m in self.checked if other == wall]
         return [
             gap
-            for gap in self._evidence[wall].unseen()
+            for gap in self._evidence[wall].unseen(explained=explained)
             if not any(gap.start_m - 0.3 < station_m < gap.end_m + 0.3 for station_m in checked)
         ]
 

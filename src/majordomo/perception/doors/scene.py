@@ -11,6 +11,9 @@ from majordomo.perception.localization.landmarks import RoomModel
 from majordomo.scene_graph.nodes import DoorNode
 from majordomo.scene_graph.snapshot import Snapshot
 
+NARROWEST_DOOR_M = 0.5
+"""Least width of a door (``D_min`` of algorithm 2)."""
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Scene:
@@ -60,6 +63,5 @@ class Scene:
             (wall, stretch)
             for wall in range(len(self.room.polygon))
             if self.wall_exists(wall)
-            for stretch in self.watch.unseen(wall)
-            if not any(other == wall and span.overlaps(stretch) for _, other, span in known)
+            for stretch in self.watch.unseen(wall, [span for _, other, span in known if other == wall])
         ]

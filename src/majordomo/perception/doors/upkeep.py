@@ -9,7 +9,7 @@ from majordomo.perception.crossing import DOOR_AGENT, given_up, match_of, uncros
 from majordomo.perception.doors.insertion import door_label, hang, is_suspicion, measured_confidence, wall_id_of
 from majordomo.perception.doors.posts import MeasuredGap
 from majordomo.perception.doors.room_watch import Span
-from majordomo.perception.doors.scene import Scene
+from majordomo.perception.doors.scene import NARROWEST_DOOR_M, Scene
 from majordomo.scene_graph.memory import WorkingMemory
 from majordomo.scene_graph.nodes import CrossingStatus, DoorNode, DoorState
 from majordomo.scene_graph.snapshot import Snapshot
@@ -74,6 +74,8 @@ class DoorUpkeep:
             return
         self._gap_seen_s[door.id] = scene.stamp_s
         measured = scene.watch.measure(wall, gap)
+        if is_suspicion(door) and measured.width_m < NARROWEST_DOOR_M:
+            return
         if door.provisional or measured.posts == 2:
             self._write(scene, door, wall, span, measured)
 

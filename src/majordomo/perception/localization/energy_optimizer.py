@@ -47,11 +47,18 @@ class EnergyOptimizer:
 
     name = "energy_optimizer"
 
-    def __init__(self, memory: WorkingMemory, buffer: SensorBuffer, *, period_s: float = 0.1) -> None:
+    def __init__(
+        self,
+        memory: WorkingMemory,
+        buffer: SensorBuffer,
+        *,
+        slicer: OutlineSlicer | None = None,
+        period_s: float = 0.1,
+    ) -> None:
         self.period_s = period_s
         self._memory = memory
         self._buffer = buffer
-        self._slicer = OutlineSlicer()
+        self._slicer = slicer or OutlineSlicer()
         self._window: PoseWindow | None = None
         self._model: RoomModel | None = None
         self._own_revision = -1

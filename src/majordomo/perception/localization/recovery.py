@@ -76,13 +76,14 @@ class Relocalization:
         buffer: SensorBuffer,
         *,
         settings: RecoverySettings | None = None,
+        slicer: OutlineSlicer | None = None,
         period_s: float = 0.1,
     ) -> None:
         self.period_s = period_s
         self.found: list[Hypothesis] = []
         self._memory, self._buffer = memory, buffer
         self._settings = settings or RecoverySettings()
-        self._slicer = OutlineSlicer()
+        self._slicer = slicer or OutlineSlicer()
         self._monitor = FitnessMonitor()
         self._scan_stamp_s = -np.inf
         self._search = _Search()

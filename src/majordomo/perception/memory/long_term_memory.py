@@ -8,6 +8,7 @@ from majordomo.perception.memory.exploration import ExplorationJudge
 from majordomo.perception.memory.mapping import LAYOUT_AGENT, RoomLayout
 from majordomo.perception.memory.transit import Transit
 from majordomo.perception.memory.working_set import WorkingSet, WorkingSetSettings
+from majordomo.perception.rooms.slice import OutlineSlicer
 from majordomo.perception.sensing import SensorBuffer
 from majordomo.scene_graph.memory import WorkingMemory
 
@@ -26,11 +27,12 @@ class LongTermMemory:
         buffer: SensorBuffer,
         *,
         settings: WorkingSetSettings | None = None,
+        slicer: OutlineSlicer | None = None,
         period_s: float = 0.1,
     ) -> None:
         self.period_s = period_s
         self._layout = RoomLayout(memory)
-        self._transit = Transit(self.name, memory, buffer, self._layout)
+        self._transit = Transit(self.name, memory, buffer, self._layout, slicer=slicer)
         self._working_set = WorkingSet(self.name, memory, settings)
         self._judge = ExplorationJudge(memory)
 

@@ -40,12 +40,20 @@ _ATTEMPTS = 2
 class Transit:
     """Follows the robot through doors and joins what it finds behind them."""
 
-    def __init__(self, agent: str, memory: WorkingMemory, buffer: SensorBuffer, layout: RoomLayout) -> None:
+    def __init__(
+        self,
+        agent: str,
+        memory: WorkingMemory,
+        buffer: SensorBuffer,
+        layout: RoomLayout,
+        *,
+        slicer: OutlineSlicer | None = None,
+    ) -> None:
         self._agent = agent
         self._memory = memory
         self._buffer = buffer
         self._layout = layout
-        self._slicer = OutlineSlicer()
+        self._slicer = slicer or OutlineSlicer()
         self._stamp_s = 0.0
         self._stayed: dict[str, int] = {}
         self._one_sided: dict[str, tuple[RtEdge | None, RtEdge | None]] = {}

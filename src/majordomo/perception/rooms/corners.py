@@ -83,7 +83,11 @@ def detect_lines(points: Array, settings: CornerSettings | None = None) -> list[
     lines: list[WallLine] = []
     for _ in range(settings.passes):
         known = len(lines)
-        for rho, theta in _hough(points[free], settings):
+        candidates = _hough(points[free], settings)
+        near = _near(points, candidates, 2.0 * settings.gate_m)
+        for (rho, theta), close in zip(candidates, near, strict=True):
+            if np.count_nonzero(close & free) < settings.fewest_votes:
+                continue
             line, claimed = _refine(points, free, rho, theta, settings)
             if line is not None:
                 lines.append(line)
@@ -112,6 +116,12 @@ def _hough(points: Array, settings: CornerSettings) -> Array:
     if found is None:
         return np.empty((0, 2))
     return np.asarray(found, dtype=np.float64).reshape(-1, 3)[:, 1:]
+
+
+def _near(points: Array, candidates: Array, gate_m: float) -> NDArray[np.bool_]:
+    """(K, N) which points are within the gate of which candidate (rho, theta)."""
+    normals = np.stack([np.cos(candidates[:, 1]), np.sin(candidates[:, 1])])
+    return np.asarray(gate_m > np.abs(points @ normals - candidates[:, 0]).T)
 
 
 def _refine(

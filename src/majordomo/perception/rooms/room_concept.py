@@ -46,13 +46,14 @@ class RoomConcept:
         buffer: SensorBuffer,
         *,
         settings: SurveySettings | None = None,
+        slicer: OutlineSlicer | None = None,
         period_s: float = 0.1,
     ) -> None:
         self.period_s = period_s
         self._memory = memory
         self._buffer = buffer
         self._settings = settings or SurveySettings()
-        self._slicer = OutlineSlicer()
+        self._slicer = slicer or OutlineSlicer()
         self._survey = Survey(self._settings)
         self._scan_stamp_s = -np.inf
         self._stamp_s = 0.0

@@ -33,6 +33,9 @@ class SurroundingsConfig:
     min_hits: int = 2
 
 
+_NEIGHBORS = np.array([(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1)])
+
+
 @dataclass(kw_only=True)
 class Surroundings:
     """Cells of ``CELL_M`` in which something was hit lately.
@@ -110,11 +113,9 @@ def _beside_tall(points: Points, tall: NDArray[np.bool_]) -> NDArray[np.bool_]:
     A person's feet are seen beside the torso; they must fade with it, or every step would leave an obstacle behind.
     """
     patches = np.floor(points / PATCH_M).astype(np.int64)
-    high = np.unique(_packed(patches[tall]))
-    part = tall.copy()
-    for step in ((i, j) for i in (-1, 0, 1) for j in (-1, 0, 1)):
-        part |= np.isin(_packed(patches + step), high)
-    return part
+    high = np.unique(patches[tall], axis=0)
+    around = np.concatenate([high + step for step in _NEIGHBORS])
+    return np.asarray(tall | np.isin(_packed(patches), _packed(around)))
 
 
 def _centers(keys: NDArray[np.int64]) -> Points:

@@ -22,7 +22,7 @@ from majordomo.perception.localization.landmarks import RoomModel, match_corners
 from majordomo.perception.localization.planar import Pose2, planar_covariance, spatial_covariance
 from majordomo.perception.localization.window import LandmarkSighting, PoseWindow
 from majordomo.perception.ports import LidarScan
-from majordomo.perception.rooms.corners import corners_of, detect_lines
+from majordomo.perception.rooms.corners import confirm_lines, corners_of
 from majordomo.perception.rooms.slice import OutlineSlicer
 from majordomo.perception.sensing import SensorBuffer
 from majordomo.scene_graph.edges import RtEdge
@@ -120,7 +120,7 @@ class EnergyOptimizer:
         found = align(outline.points_base, model.walls, predicted, covariance, settings)
         if found is None or found.matched < _LEAST_MATCHED or not _plausible(found, predicted, covariance):
             return None, []
-        seen = corners_of(detect_lines(outline.points_base))
+        seen = corners_of(confirm_lines(outline.points_base, *_expected_lines(model, found.pose)))
         spread = np.asarray(np.linalg.inv(found.information + np.linalg.inv(covariance)), dtype=np.float64)
         return found, match_corners(model.polygon, seen, found.pose, spread)
 
@@ -141,6 +141,12 @@ class EnergyOptimizer:
             logger.debug("pose not written: %s", conflict)
             return
         self._own_revision = tx.snapshot.revision_of(written.key)
+
+
+def _expected_lines(model: RoomModel, pose: Pose2) -> tuple[Array, Array]:
+    """Normals (K, 2) and offsets (K,) of the room's walls, in the base frame at ``pose``."""
+    normals = model.walls.normal @ pose.rotation()
+    return normals, model.walls.offset_m - model.walls.normal @ pose.position_m
 
 
 def _plausible(found: Alignment, predicted: Pose2, covariance: Array) -> bool:

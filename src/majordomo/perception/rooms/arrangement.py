@@ -22,6 +22,8 @@ from majordomo.perception.rooms.views import View
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
+_EDGE_STEP_M = 0.1
+_RUN = 4  # steps
 _GRAZING = 0.12  # cosine of incidence below which a ray says nothing about passing a line
 
 
@@ -114,6 +116,10 @@ def arrange(
         return None
     turn = Pose2(0.0, 0.0, direction_rad)
     turned = [view.moved(turn.inverse() @ view.T_frame_base) for view in _spread(views, settings.views)]
+    xs, ys = (
+        _with_edges(xs, _opening_edges(turned, ys, xs, y_facing, 1, settings), settings),
+        _with_edges(ys, _opening_edges(turned, xs, ys, x_facing, 0, settings), settings),
+    )
     free = _free_share(turned, xs, ys, settings.free_margin_m)
     blocked_x = _ending_share(turned, xs, ys, 0, settings.gate_m) > settings.blocked
     blocked_y = settings.blocked < _ending_share(turned, ys, xs, 1, settings.gate_m).T
@@ -154,10 +160,18 @@ def _ending_share(views: Sequence[View], lines: Array, crossing: Array, axis: in
     ``lines`` are offsets along ``axis``; ``crossing`` cuts them into stretches.
     """
     stations = _samples(crossing)
-    station_all = np.concatenate(stations)
-    points = np.empty((len(lines), len(station_all), 2))
+    ending, passing = _endings(views, lines, np.concatenate(stations), axis, gate_m)
+    starts = np.cumsum([0] + [len(part) for part in stations[:-1]])
+    ended = np.add.reduceat(ending, starts, axis=1)
+    passed = np.add.reduceat(passing, starts, axis=1)
+    return np.asarray(ended / np.maximum(ended + passed, 1.0))
+
+
+def _endings(views: Sequence[View], lines: Array, stations: Array, axis: int, gate_m: float) -> tuple[Array, Array]:
+    """(lines, stations) how many views see a ray end on a line at a station, and how many see one pass it."""
+    points = np.empty((len(lines), len(stations), 2))
     points[..., axis] = lines[:, None]
-    points[..., 1 - axis] = station_all[None, :]
+    points[..., 1 - axis] = stations[None, :]
     ending, passing = np.zeros(points.shape[:2]), np.zeros(points.shape[:2])
     for view in views:
         beyond, direction, distance = view.beyond(points.reshape(-1, 2))
@@ -167,10 +181,51 @@ def _ending_share(views: Sequence[View], lines: Array, crossing: Array, axis: in
         with np.errstate(invalid="ignore"):
             ending += np.abs(clearance) <= gate_m
             passing += clearance > gate_m
-    starts = np.cumsum([0] + [len(part) for part in stations[:-1]])
-    ended = np.add.reduceat(ending, starts, axis=1)
-    passed = np.add.reduceat(passing, starts, axis=1)
-    return np.asarray(ended / np.maximum(ended + passed, 1.0))
+    return ending, passing
+
+
+def _opening_edges(
+    views: Sequence[View], lines: Array, crossing: Array, facets: Facets, axis: int, settings: ArrangementSettings
+) -> list[float]:
+    """Stations at which a wall on one of the ``lines`` ends and a wide opening begins.
+
+    Another wall goes off there, though nobody may have stood where its face can be seen: the corner of a nook.
+    ``facets`` lie along the lines.
+    """
+    stations = np.arange(crossing[0] + _EDGE_STEP_M / 2.0, crossing[-1], _EDGE_STEP_M)
+    ending, passing = _endings(views, lines, stations, axis, settings.gate_m)
+    edges: list[float] = []
+    for k, line in enumerate(lines):
+        told = ending[k] + passing[k] > 0.0
+        wall = told & (ending[k] > settings.blocked * (ending[k] + passing[k]))
+        on_line = facets.near(float(line), 1.5 * settings.gate_m).station_m
+        for edge, wall_first in _changes(wall, told & ~wall):
+            middle = stations[0] + (edge - 0.5) * _EDGE_STEP_M
+            near = on_line[np.abs(on_line - middle) < 1.5 * _EDGE_STEP_M]
+            if len(near):
+                edges.append(float(near.max() if wall_first else near.min()))
+    return edges
+
+
+def _changes(wall: Mask, opened: Mask) -> list[tuple[int, bool]]:
+    """Indices at which a long enough run of wall meets a long enough run of opening, and whether wall came first."""
+    found: list[tuple[int, bool]] = []
+    for index in range(_RUN, len(wall) - _RUN + 1):
+        before, after = slice(index - _RUN, index), slice(index, index + _RUN)
+        if wall[before].all() and opened[after].all():
+            found.append((index, True))
+        elif opened[before].all() and wall[after].all():
+            found.append((index, False))
+    return found
+
+
+def _with_edges(offsets: Array, edges: Sequence[float], settings: ArrangementSettings) -> Array:
+    """Wall lines, and the edges that are not near one."""
+    merged = offsets.tolist()
+    for edge in sorted(edges):
+        if all(abs(edge - other) > 2.0 * settings.separation_m for other in merged):
+            merged.append(edge)
+    return np.array(sorted(merged))
 
 
 def _samples(lines: Array) -> list[Array]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 from itertools import combinations
 from typing import Any
@@ -88,12 +89,30 @@ def detect_lines(points: Array, settings: CornerSettings | None = None) -> list[
         for (rho, theta), close in zip(candidates, near, strict=True):
             if np.count_nonzero(close & free) < settings.fewest_votes:
                 continue
-            line, claimed = _refine(points, free, rho, theta, settings)
+            line, claimed = _fit(points, free, np.array([np.cos(theta), np.sin(theta)]), rho, settings)
             if line is not None:
                 lines.append(line)
                 free &= ~claimed
         if len(lines) == known:
             break
+    return lines
+
+
+def confirm_lines(
+    points: Array, normals: Array, offsets: Array, settings: CornerSettings | None = None
+) -> list[WallLine]:
+    """Wall lines in (N, 2) ``points`` near those that are expected: ``normals`` (K, 2) and ``offsets`` (K,).
+
+    What a known room predicts needs no search: each expected line is fitted to the returns near it.
+    """
+    settings = settings or CornerSettings()
+    free = np.ones(len(points), dtype=bool)
+    lines: list[WallLine] = []
+    for normal, offset in zip(normals, offsets, strict=True):
+        line, claimed = _fit(points, free, normal, float(offset), settings)
+        if line is not None:
+            lines.append(line)
+            free &= ~claimed
     return lines
 
 
@@ -124,11 +143,10 @@ def _near(points: Array, candidates: Array, gate_m: float) -> NDArray[np.bool_]:
     return np.asarray(gate_m > np.abs(points @ normals - candidates[:, 0]).T)
 
 
-def _refine(
-    points: Array, free: NDArray[np.bool_], rho: float, theta: float, settings: CornerSettings
+def _fit(
+    points: Array, free: NDArray[np.bool_], normal: Array, offset: float, settings: CornerSettings
 ) -> tuple[WallLine | None, NDArray[np.bool_]]:
     """Fit the returns near a candidate, twice, with a narrowing gate; keep its longest unbroken run."""
-    normal, offset = np.array([np.cos(theta), np.sin(theta)]), rho
     inliers = np.zeros(len(points), dtype=bool)
     for gate_m in (2.0 * settings.gate_m, settings.gate_m, settings.gate_m):
         inliers = free & (np.abs(points @ normal - offset) < gate_m)
@@ -145,10 +163,11 @@ def _refine(
 
 def fit_line(points: Array) -> tuple[Array, float]:
     """Normal and offset of the line that minimizes squared perpendicular distances."""
-    center = points.mean(axis=0)
-    _, vectors = np.linalg.eigh((points - center).T @ (points - center))
-    normal = vectors[:, 0]
-    return normal, float(normal @ center)
+    x, y = points.sum(axis=0) / len(points)
+    dx, dy = points[:, 0] - x, points[:, 1] - y
+    angle = 0.5 * math.atan2(2.0 * float(dx @ dy), float(dx @ dx) - float(dy @ dy))  # of the line
+    normal = np.array([-math.sin(angle), math.cos(angle)])
+    return normal, float(normal[0] * x + normal[1] * y)
 
 
 def _longest_run(

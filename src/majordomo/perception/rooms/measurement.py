@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from majordomo.perception.localization.alignment import Walls, align, odometry_covariance
-from majordomo.perception.localization.planar import Pose2, wrap
+from majordomo.perception.localization.alignment import Alignment, AlignmentSettings, Walls, align, odometry_covariance
+from majordomo.perception.localization.planar import Pose2, diagonal_covariance, wrap
 from majordomo.perception.rooms.freeform import freeform_outline
 from majordomo.perception.rooms.outline import RECTILINEAR, Outline, find_outline
 from majordomo.perception.rooms.pose_graph import VotedCorner, optimize
@@ -51,6 +51,12 @@ class Fit:
     def anchor(self, least_matched: float) -> int:
         """Index of the earliest view that lies well in the outline."""
         return next((k for k, share in enumerate(self.matched) if share >= least_matched), len(self.views) - 1)
+
+
+_WELL_MATCHED = 0.6
+_VAGUE = diagonal_covariance(0.4, 0.4, 0.25)
+_WIDE = AlignmentSettings(gates_m=(0.6, 0.4, 0.25, 0.15, 0.10, 0.08))
+_TURNS_RAD = (0.0, 0.08, -0.08, 0.16, -0.16)
 
 
 class RoomMeasurement:
@@ -125,6 +131,19 @@ def _find(views: Sequence[View]) -> Outline | None:
     return freeform_outline(views) or outline
 
 
+def _search(view: View, walls: Walls, guess: Pose2) -> Alignment | None:
+    """The pose near ``guess``, or where the pose graph had the view, at which it fits well; after a long way between
+    two views odometry leads astray.
+    """
+    found = [
+        align(view.scan.points_base, walls, origin @ Pose2(0.0, 0.0, turn_rad), _VAGUE, _WIDE)
+        for origin in (guess, view.T_frame_base)
+        for turn_rad in _TURNS_RAD
+    ]
+    best = max((one for one in found if one is not None), key=lambda one: one.matched, default=None)
+    return best if best is not None and best.matched >= _WELL_MATCHED else None
+
+
 def _align_all(views: Sequence[View], outline: Outline) -> tuple[list[View], list[float]]:
     """Each view put where it fits the outline best, led by odometry from its successor.
 
@@ -141,6 +160,8 @@ def _align_all(views: Sequence[View], outline: Outline) -> tuple[list[View], lis
             guess = placed[-1].T_frame_base @ moved
             covariance = odometry_covariance(moved) + np.diag([2e-3, 2e-3, 5e-4]) ** 2
         found = align(view.scan.points_base, walls, guess, covariance)
+        if found is None or found.matched < _WELL_MATCHED:
+            found = _search(view, walls, guess) or found
         placed.append(view.moved(found.pose if found else guess))
         matched.append(found.matched if found and found.conditioned else 0.0)
     return placed[::-1], matched[::-1]

@@ -88,6 +88,7 @@ class RoomConcept:
             self._survey = Survey(self._settings)
         model = room_model(snapshot, pose.parent)
         if model is None or not model.contains(pose.T_parent_base.position_m):
+            self._survey.known = model
             self._survey.add(self._slicer.cut(scan), pose)
         elif self._survey.started and model.depth_m(pose.T_parent_base.position_m) > _WELL_INSIDE_M:
             self._abandon(snapshot)

@@ -17,6 +17,9 @@ from majordomo.perception.sensing import ray_directions_base
 Array = NDArray[np.float64]
 
 
+_FLOOR_M = 0.15
+
+
 @dataclass(frozen=True, kw_only=True)
 class SliceSettings:
     """Heights in meters above the floor.
@@ -40,6 +43,7 @@ class OutlineScan:
     ``points_base``: (N, 2), counter-clockwise by direction. ``origin_base``: (2,) where the rays start.
     ``ranges_m``: (azimuths,) horizontal distance for every direction of ``azimuths_rad`` (base frame), ``inf`` where
     nothing returned. ``blind_m``: nearer than this no ray rises into the slice, so that a lintel is not seen.
+    ``surrounded``: share of directions in which anything but the floor returned, at any height.
     """
 
     stamp_s: float
@@ -48,6 +52,7 @@ class OutlineScan:
     azimuths_rad: Array
     ranges_m: Array
     blind_m: float
+    surrounded: float = 1.0
 
     @property
     def coverage(self) -> float:
@@ -105,6 +110,7 @@ class OutlineSlicer:
             azimuths_rad=azimuths,
             ranges_m=nearest,
             blind_m=float((bottom_m - origin[2]) / np.tan(scan.elevations_rad.max())),
+            surrounded=float((heights > _FLOOR_M).any(axis=0).mean()),
         )
 
     def _nearest(self, distance: Array) -> Array:

@@ -7,13 +7,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from majordomo.perception.localization.landmarks import inside
+from majordomo.perception.localization.landmarks import RoomModel, inside
 from majordomo.perception.localization.planar import Pose2
 from majordomo.perception.localization.robot_pose import RobotPose
 from majordomo.perception.rooms.instance import MeasuredRoom, measured_room
 from majordomo.perception.rooms.measurement import Fit, RoomMeasurement
 from majordomo.perception.rooms.slice import OutlineScan
-from majordomo.perception.rooms.vantage import next_vantage
+from majordomo.perception.rooms.vantage import freest_way, next_vantage
 
 Array = NDArray[np.float64]
 
@@ -23,9 +23,10 @@ class SurveySettings:
     """Priors and patience.
 
     ``shortest_side_m``, ``longest_side_m``: of the bounding rectangle. ``views``: least number for a room. ``agree_m``:
-    two successive fits must agree this well. ``wall_std_m``: of every wall. ``coverage``: share of directions with
-    walls below which the robot stands outdoors. ``least_matched``: share of returns on the outline in a view
-    that may tie the room to where the robot came from; in a doorway about half of them are.
+    two successive fits must agree this well. ``wall_std_m``: of every wall. ``surrounded``: share of directions with
+    anything in them below which the robot stands outdoors. ``least_matched``: share of returns on the outline in a view
+    that may tie the room to where the robot came from; in a doorway about half of them are. ``feels``: how often the
+    robot drives on where nothing fits. ``shared``: share of the known room that a new one may cover.
     """
 
     shortest_side_m: float = 0.9
@@ -33,9 +34,11 @@ class SurveySettings:
     views: int = 8
     agree_m: float = 0.012
     wall_std_m: float = 0.004
-    coverage: float = 0.6
+    surrounded: float = 0.7
     least_matched: float = 0.3
     solve_every_s: float = 0.5
+    feels: int = 4
+    shared: float = 0.2
 
 
 class Survey:
@@ -44,11 +47,13 @@ class Survey:
     Attributes:
         fit: newest fit that is plausible, in the frame of the first view.
         places: vantage points proposed so far, same frame.
+        known: the room that the robot came from, in its parent frame.
     """
 
     def __init__(self, settings: SurveySettings | None = None) -> None:
         self.settings = settings or SurveySettings()
         self.fit: Fit | None = None
+        self.known: RoomModel | None = None
         self.places: list[Array] = []
         self._previous: Fit | None = None
         self._measurement = RoomMeasurement()
@@ -56,7 +61,8 @@ class Survey:
         self._solved_s = -np.inf
         self._solved_views = 0
         self._added = 0
-        self._coverage: list[float] = []
+        self._felt = 0
+        self._surrounded: list[float] = []
 
     @property
     def started(self) -> bool:
@@ -71,7 +77,7 @@ class Survey:
         """Take in a view."""
         self._first = self._first or pose
         self._added += 1
-        self._coverage.append(scan.coverage)
+        self._surrounded.append(scan.surrounded)
         self._measurement.add(scan, pose.T_odom_base, pose.T_parent_base)
 
     def due(self, stamp_s: float) -> bool:
@@ -92,7 +98,20 @@ class Survey:
             return False
         polygon = Pose2(0.0, 0.0, -fit.outline.direction_rad).apply(fit.outline.polygon)
         sides = np.ptp(polygon, axis=0)
-        return bool(sides.min() > self.settings.shortest_side_m and sides.max() < self.settings.longest_side_m)
+        fits = sides.min() > self.settings.shortest_side_m and sides.max() < self.settings.longest_side_m
+        return bool(fits and not self._holds_known_room(fit))
+
+    def _holds_known_room(self, fit: Fit) -> bool:
+        """Whether the outline takes in the room that the robot came from; from under a lintel both look like one."""
+        if self.known is None:
+            return False
+        polygon = self.known.polygon
+        low, high = polygon.min(axis=0), polygon.max(axis=0)
+        axes = [np.linspace(a, b, 8, endpoint=False) + (b - a) / 16.0 for a, b in zip(low, high, strict=True)]
+        grid = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 2)
+        grid = grid[[inside(polygon, point) for point in grid]]
+        placed = (fit.views[-1].T_frame_base @ fit.in_parent[-1].inverse()).apply(grid)
+        return float(np.mean([inside(fit.outline.polygon, point) for point in placed])) > self.settings.shared
 
     @property
     def closed(self) -> bool:
@@ -113,13 +132,13 @@ class Survey:
     @property
     def outdoors(self) -> bool:
         """Whether what is around looks like no room: too few walls within range in the last views."""
-        recent = self._coverage[-5:]
-        return not self.closed and len(recent) == 5 and max(recent) < self.settings.coverage
+        recent = self._surrounded[-5:]
+        return not self.closed and len(recent) == 5 and max(recent) < self.settings.surrounded
 
     def next_place(self, obstacles_base: Array, pose: RobotPose) -> Pose2 | None:
         """The next vantage point as a place in the robot's base frame; remembered as proposed."""
         if self.fit is None:
-            return None
+            return self._feel_the_way(obstacles_base)
         T_frame_base = self._now(self.fit, pose)
         obstacles = T_frame_base.apply(obstacles_base)
         place = next_vantage(self.fit.outline, obstacles, self.places, T_frame_base.position_m)
@@ -128,6 +147,16 @@ class Survey:
         self.places.append(place)
         local = T_frame_base.inverse().apply(place)
         return Pose2(float(local[0]), float(local[1]), 0.0)
+
+    def _feel_the_way(self, obstacles_base: Array) -> Pose2 | None:
+        """Where to look from when the views fit no room yet, a few times."""
+        if self._solved_views < self.settings.views or self._felt >= self.settings.feels:
+            return None
+        place = freest_way(obstacles_base)
+        if place is None:
+            return None
+        self._felt += 1
+        return Pose2(float(place[0]), float(place[1]), 0.0)
 
     def measured(self, pose: RobotPose) -> MeasuredRoom | None:
         """The room in its own frame, with the robot at ``pose`` in it."""

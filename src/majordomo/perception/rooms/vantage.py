@@ -17,6 +17,11 @@ _STEP_BACK_M = 0.6
 _VISITED_M = 0.5
 
 
+_WAYS_RAD = np.deg2rad([0, 15, -15, 30, -30, 45, -45, 60, -60, 75, -75, 90, -90, 105, -105])
+_LEAST_WAY_M, _LONGEST_WAY_M = 0.4, 1.6
+_OWN_BODY_M, _HALF_WAY_M = 0.35, 0.33
+
+
 def next_vantage(outline: Outline, obstacles: Array, visited: Sequence[Array], robot: Array) -> Array | None:
     """A free place to measure from, frame of the outline, or ``None`` when all useful ones were visited.
 
@@ -38,6 +43,25 @@ def next_vantage(outline: Outline, obstacles: Array, visited: Sequence[Array], r
         if place is not None and all(np.linalg.norm(place - other) > _VISITED_M for other in visited):
             return place
     return None
+
+
+def freest_way(obstacles_base: Array) -> Array | None:
+    """A place (2,) in the base frame that the robot can drive to straight ahead or aside, as far as it is free.
+
+    For where too few walls are in view to know the room's shape: a doorway into a narrow corridor. ``None`` when there
+    is no way.
+    """
+    obstacles_base = obstacles_base[np.linalg.norm(obstacles_base, axis=1) > _OWN_BODY_M]
+    best_m, best = _LEAST_WAY_M, None
+    for angle in _WAYS_RAD:
+        along = np.array([np.cos(angle), np.sin(angle)])
+        forward = obstacles_base @ along
+        aside = np.abs(obstacles_base @ np.array([-along[1], along[0]]))
+        ahead = forward[(forward > 0.0) & (aside < _HALF_WAY_M)]
+        way_m = min(_LONGEST_WAY_M, float(ahead.min()) - _CLEARANCE_M if len(ahead) else _LONGEST_WAY_M)
+        if way_m > best_m + 0.05:
+            best_m, best = way_m, way_m * along
+    return best
 
 
 def _middle(polygon: Array) -> Array:

@@ -5,7 +5,7 @@ BIN   := $(VENV)/bin
 STAMP := $(VENV)/.installed
 ARGS  ?=
 
-.PHONY: demo serve test benchmark check install clean lock
+.PHONY: demo serve test test-long benchmark check install clean lock
 
 demo: $(STAMP)   ## explore a simulated house, carry out one request while a person interferes, report
 	$(BIN)/majordomo demo $(ARGS)
@@ -15,6 +15,9 @@ serve: $(STAMP)  ## start the service on the simulated flat and print the page's
 
 test: $(STAMP)   ## all tests, with branch coverage
 	$(BIN)/python -m pytest --numprocesses 2 --dist worksteal --cov --cov-report=term $(ARGS)
+
+test-long: $(STAMP)  ## the long drives that make test leaves out
+	$(BIN)/python -m pytest --numprocesses 2 --dist worksteal -m long $(ARGS)
 
 benchmark: $(STAMP)  ## measurements of speed, for a machine that does nothing else meanwhile
 	$(BIN)/python -m pytest -m benchmark -s tests/benchmarks $(ARGS)

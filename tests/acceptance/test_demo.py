@@ -12,7 +12,7 @@ import pytest
 from service_process import majordomo
 
 EXPLORE = Path(__file__).parent.parent / "explore_briefly.py"
-SECONDS = 45.0
+SECONDS = 25.0
 
 
 @pytest.mark.slow

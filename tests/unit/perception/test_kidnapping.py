@@ -175,7 +175,7 @@ def test_a_robot_that_starts_anywhere_in_a_known_building_finds_out_where() -> N
     assert kidnapping.error_m("L") < 0.03
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_exploration_goes_on_after_a_kidnapping_and_the_map_is_as_good_as_ever() -> None:
     house = four_rooms()
     run = Exploration.of(house, Pose2(1.0, 1.0, 0.7), 0, agents)
@@ -193,7 +193,7 @@ def test_carried_from_one_twin_to_the_other_the_robot_does_not_take_one_for_the_
     assert not kidnapping.localized
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_carried_off_while_it_enters_an_unknown_room_it_starts_over_and_the_map_is_as_good_as_ever() -> None:
     house = four_rooms()
     run = Exploration.of(house, Pose2(1.0, 1.0, 0.7), 0, agents)
@@ -207,7 +207,7 @@ def test_carried_off_while_it_enters_an_unknown_room_it_starts_over_and_the_map_
     assert_aims_met(run, house)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("sigma_m", [0.02, 0.05])
 @pytest.mark.parametrize("seed", range(2))
 def test_nothing_alarms_while_exploring_furnished_rooms(sigma_m: float, seed: int, caplog) -> None:

@@ -201,6 +201,7 @@ def two_offices() -> House:
 
 
 @pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("seed", range(2))
 def test_two_equal_offices_on_one_corridor_become_two_rooms(seed: int) -> None:
     house = two_offices()
@@ -239,6 +240,7 @@ def ring() -> House:
 
 
 @pytest.mark.slow
+@pytest.mark.long
 def test_a_ring_of_rooms_closes_with_odometry_five_times_as_bad_as_usual() -> None:
     run = Exploration.of(ring(), Pose2(1.5, 1.5, 0.3), 0, agents, way_error=0.05, turn_error=0.05)
     run.run(300.0, until=lambda one: one.memory.snapshot().root.explored)

@@ -15,7 +15,7 @@ EXPLORE = Path(__file__).parent.parent / "explore_briefly.py"
 SECONDS = 25.0
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_the_demonstration_succeeds_in_truth_after_a_change_of_plan(tmp_path):
     path = tmp_path / "figures.json"
     done = majordomo("evaluate", "demo", "--seeds", "1", "--jobs", "1", "--json", str(path))

@@ -65,6 +65,8 @@ class Operators:
     def _worth_trying(self, goal: Goal, state: PlanState) -> Iterator[Step]:
         if goal.object_id is None or (goal.predicate is Predicate.FOUND and state.holding != goal.args[0]):
             yield from self._goto(state, goal.args[0])
+            if goal.predicate is Predicate.FOUND and state.holding is None:
+                yield Step(skill=PICK, args=goal.args)
         elif state.holding == goal.args[0]:
             yield from self._put(state, goal.args[0], self.places(goal, state))
         elif state.holding is not None:

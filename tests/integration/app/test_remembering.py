@@ -69,6 +69,7 @@ async def test_a_known_building_is_known_at_once_and_the_robot_finds_its_place(t
         assert places(runtime) == {room: pytest.approx(place, abs=0.01) for room, place in before.items()}
 
 
+@pytest.mark.long
 async def test_what_was_explored_so_far_is_not_explored_again(tmp_path):
     async with Runtime(settings(tmp_path)).running() as runtime:
         await until(runtime, lambda: len(rooms(runtime)) >= 2 and runtime.now_s > 30.0)

@@ -187,7 +187,9 @@ def five_in_a_row() -> House:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("house", [four_rooms(), five_in_a_row()], ids=["loop", "row"])
+@pytest.mark.parametrize(
+    "house", [pytest.param(four_rooms(), id="loop", marks=pytest.mark.long), pytest.param(five_in_a_row(), id="row")]
+)
 def test_a_building_is_explored_as_if_nothing_were_ever_unloaded(house: House) -> None:
     plain, paged = explore(house, long_term=None), explore(house, long_term=LongTermStore())
     assert paged.memory.building().root.explored

@@ -111,6 +111,17 @@ def test_with_an_empty_hand_no_way_is_cheaper_than_the_one_found(snapshot, goals
     assert abs(found.cost_s - least_s) < 1e-6, (found.steps, found.cost_s, least_s)
 
 
+def test_what_is_found_within_reach_and_wanted_later_is_picked_up_without_another_approach():
+    sketch = Sketch().room("room_1", at=(0.0, 0.0))
+    sketch.furniture("table_1", "table", "room_1", at=(1.0, 0.0)).thing("cup_1", "cup", on="table_1")
+    sketch.person("person_1", "Anna", "room_1", at=(-1.2, 0.0))
+    start = PlanState.from_snapshot(sketch.snapshot(robot_in="room_1", at=(0.0, 0.0)))
+    near = SKILLS["GOTO"].effects(start, ("table_1",))
+    found = Search([goal("found", "cup_1"), goal("given", "cup_1", "person_1")], SKILLS).run(near)
+    assert [step.skill for step in found.steps] == ["PICK", "GOTO", "PLACE"]
+    assert [step.skill for step in Search([goal("found", "cup_1")], SKILLS).run(near).steps] == ["GOTO"]
+
+
 @settings(max_examples=80, deadline=None, suppress_health_check=list(HealthCheck))
 @given(small_worlds(), st.lists(some_goal, min_size=1, max_size=4))
 def test_the_steps_found_can_be_carried_out_and_reach_every_goal_in_turn(snapshot, goals):

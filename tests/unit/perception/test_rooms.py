@@ -100,6 +100,33 @@ def test_standing_in_front_of_an_open_door_does_not_join_two_rooms(x_m: float) -
     assert corner_error_m(house.rooms["a"], outline.polygon) < 0.012
 
 
+@pytest.mark.parametrize(
+    ("width_m", "station_m", "thickness_m"),
+    [(0.9, 1.5, 0.1), (0.8, 0.45, 0.2), (0.9, 2.2, 0.4), (1.8, 1.4, 0.15)],
+    ids=["in the middle", "at the corner", "thick wall", "wide"],
+)
+def test_an_opening_as_high_as_the_walls_does_not_join_two_rooms(
+    width_m: float, station_m: float, thickness_m: float
+) -> None:
+    house = House(
+        rooms={"a": rectangle(4.0, 3.0), "b": rectangle(5.0, 3.4, x=4.0 + thickness_m)},
+        doors=[Door(rooms=("a", "b"), center=(4.0 + thickness_m / 2.0, station_m), width=width_m, height=2.5)],
+        wall_thickness=thickness_m,
+    )
+    outline = outline_from(house, (1.0, 1.0), (2.0, 1.9), (3.2, 0.4), (3.0, 1.4))
+    assert outline.closed
+    assert corner_error_m(house.rooms["a"], outline.polygon) < 0.012
+    beyond = outline_from(house, (5.2, 0.8), (6.0, 1.4), (5.0, 0.3), (6.6, 2.4))
+    assert beyond.closed
+    assert corner_error_m(house.rooms["b"], beyond.polygon) < 0.012
+
+
+def test_a_nook_behind_an_opening_with_thick_walls_beside_it_belongs_to_the_room() -> None:
+    alcove = np.array([[0, 0], [4, 0], [4, 1], [4.9, 1], [4.9, 2], [4, 2], [4, 3], [0, 3]], dtype=np.float64)
+    outline = outline_from(House(rooms={"a": alcove}), (1.0, 1.0), (2.5, 1.5), (3.4, 1.3))
+    assert corner_error_m(alcove, outline.polygon) < 0.012
+
+
 def test_a_slanted_wall_gives_an_outline_that_does_not_count_as_closed() -> None:
     polygon = np.array([[0.0, 0.0], [5.0, 0.0], [3.0, 4.0], [0.0, 4.0]])
     measured = approach(polygon, (1.0, 1.0), (1.8, 1.6), 0)

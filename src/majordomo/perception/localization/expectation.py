@@ -1,8 +1,8 @@
 """What a scan should show from a pose in a known room, and how well a scan agrees with it, both ways.
 
 Of each ray above furniture and doors the outline says where it ends. A return there is explained. One beyond has passed
-through a wall, which cannot be, unless the wall is so near that the ray passed under a door's lintel; one before it may
-be tall furniture.
+through a wall, which cannot be, unless the wall is so near that the ray passed under a door's lintel, or a door is
+there that may have none; one before it may be tall furniture.
 """
 
 from __future__ import annotations
@@ -21,6 +21,7 @@ Array = NDArray[np.float64]
 
 _WINDOW_RAD = 0.012
 _BLIND_MARGIN_M = 0.15
+_POST_M = 0.1
 _FEWEST_RETURNS = 60
 
 
@@ -53,10 +54,11 @@ def fit_of(scan: OutlineScan, room: RoomModel, T_room_base: Pose2, settings: Fit
     """How well ``scan``, taken at ``T_room_base``, agrees with ``room``; nothing explained when too little returned."""
     settings = settings or FitSettings()
     origin = T_room_base.apply(scan.origin_base)
-    nearest, farthest, incidence = expected_ranges(room.walls, origin, scan.azimuths_rad + T_room_base.yaw_rad)
+    azimuths_rad = scan.azimuths_rad + T_room_base.yaw_rad
+    nearest, farthest, incidence = expected_ranges(room.walls, origin, azimuths_rad)
     measured = scan.ranges_m
-    too_near = nearest <= scan.blind_m + _BLIND_MARGIN_M
-    below_lintel = too_near & (measured > farthest + settings.through_m)
+    may_pass = (nearest <= scan.blind_m + _BLIND_MARGIN_M) | _at_openings(room.openings, origin, azimuths_rad, nearest)
+    below_lintel = may_pass & (measured > farthest + settings.through_m)
     tells = np.isfinite(measured) & np.isfinite(farthest) & ~below_lintel
     if tells.sum() < _FEWEST_RETURNS:
         return ScanFit(explained=0.0, passed=0.0, cost=settings.gate**2)
@@ -70,6 +72,21 @@ def fit_of(scan: OutlineScan, room: RoomModel, T_room_base: Pose2, settings: Fit
         passed=float(passed.mean()),
         cost=float(cost.mean()),
     )
+
+
+def _at_openings(openings: Array, origin: Array, azimuths_rad: Array, ranges_m: Array) -> NDArray[np.bool_]:
+    """(N,) rays that meet the outline where a door is."""
+    met = np.isfinite(ranges_m)
+    directions = np.stack([np.cos(azimuths_rad), np.sin(azimuths_rad)], axis=1)
+    hits = origin + directions * np.where(met, ranges_m, 0.0)[:, None]
+    there = np.zeros(len(hits), dtype=bool)
+    for start, end in openings:
+        width_m = float(np.linalg.norm(end - start))
+        along = (end - start) / width_m
+        offset = hits - start
+        station, away = offset @ along, offset @ np.array([-along[1], along[0]])
+        there |= (station > -_POST_M) & (station < width_m + _POST_M) & (np.abs(away) < _POST_M)
+    return there & met
 
 
 def expected_ranges(walls: Walls, origin: Array, azimuths_rad: Array) -> tuple[Array, Array, Array]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,7 +12,7 @@ from majordomo.perception.localization.alignment import Walls
 from majordomo.perception.localization.planar import Pose2
 from majordomo.perception.localization.window import LandmarkSighting
 from majordomo.perception.rooms.corners import CornerSighting
-from majordomo.scene_graph.nodes import RoomNode, RoomStatus
+from majordomo.scene_graph.nodes import DoorNode, RoomNode, RoomStatus
 from majordomo.scene_graph.snapshot import Snapshot
 
 Array = NDArray[np.float64]
@@ -23,11 +23,15 @@ _SIGHTING_FLOOR_M = 0.008
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class RoomModel:
-    """What the scan should show in a room: its wall faces and corners, room frame."""
+    """What the scan should show in a room: its wall faces and corners, room frame.
+
+    ``openings``: (D, 2, 2) ends of the gaps where doors are known or presumed; some are as high as the walls.
+    """
 
     room_id: str
     polygon: Array
     walls: Walls
+    openings: Array = field(default_factory=lambda: np.empty((0, 2, 2)))
 
     def contains(self, point: Array) -> bool:
         """Whether (2,) ``point`` lies inside the outline."""
@@ -50,7 +54,26 @@ def room_model(snapshot: Snapshot, room_id: str | None) -> RoomModel | None:
     polygon = np.array(room.polygon_m)
     number = room.id.rsplit("_", 1)[-1]
     known = np.array([f"wall_{number}_{k}" in snapshot for k in range(len(polygon))])
-    return RoomModel(room_id=room.id, polygon=polygon, walls=Walls.of_polygon(polygon, known))
+    return RoomModel(
+        room_id=room.id,
+        polygon=polygon,
+        walls=Walls.of_polygon(polygon, known),
+        openings=_openings(snapshot, number, polygon),
+    )
+
+
+def _openings(snapshot: Snapshot, number: str, polygon: Array) -> Array:
+    found: list[Array] = []
+    for k, (start, end) in enumerate(zip(polygon, np.roll(polygon, -1, axis=0), strict=True)):
+        if f"wall_{number}_{k}" not in snapshot:
+            continue
+        for child in snapshot.children(f"wall_{number}_{k}"):
+            door, edge = snapshot.get(child), snapshot.parent(child)
+            if isinstance(door, DoorNode) and edge is not None:
+                along = (end - start) / np.linalg.norm(end - start)
+                center = (start + end) / 2.0 + edge.T_source_target.x_m * along
+                found.append(center + np.array([[-0.5], [0.5]]) * door.width_m * along)
+    return np.array(found).reshape(-1, 2, 2)
 
 
 def match_corners(

@@ -2,7 +2,8 @@
 
 Somebody may pick the robot up and set it down elsewhere. Its wheels do not tell, so only what it sees does. While it is
 lost it hangs from the root, in no room: nothing is mapped, nothing is driven to. A place is believed once two views in
-a row single it out; between places that look the same nothing is decided.
+a row single it out; between places that look the same nothing is decided. Where nothing fits, and nobody carried the
+robot, it is the room that was wrong: it is taken back, and the room concept measures it again.
 """
 
 from __future__ import annotations
@@ -24,6 +25,7 @@ from majordomo.perception.localization.planar import Pose2
 from majordomo.perception.localization.relocalization import Hypothesis, Sight, decide, hypotheses, known_rooms
 from majordomo.perception.localization.robot_pose import robot_pose_at
 from majordomo.perception.ports import LidarScan
+from majordomo.perception.rooms.revision import take_back
 from majordomo.perception.rooms.slice import OutlineSlicer
 from majordomo.perception.sensing import SensorBuffer
 from majordomo.scene_graph.edges import EdgeKey, EdgeType, HasIntentionEdge, IntentionAction, IntentionStatus, Priority
@@ -44,7 +46,8 @@ class RecoverySettings:
     ``search_every_s``: between searches. ``settle_s``: after this long without a decision the robot looks around, at
     most ``looks`` times. ``step_m``: between views that are kept, ``sights`` of them at most. ``continuous``: share of
     a view that the one before must have shown, ``soon_s`` before it at most; ``breaks`` views in a row that do not
-    agree with the last good one mean that the robot was carried.
+    agree with the last good one mean that the robot was carried. ``blame_s``: after this long without any place that
+    fits, a robot that was not carried doubts the room.
     """
 
     search_every_s: float = 0.5
@@ -55,6 +58,7 @@ class RecoverySettings:
     continuous: float = 0.55
     soon_s: float = 0.6
     breaks: int = 2
+    blame_s: float = 6.0
 
 
 class Relocalization:
@@ -88,6 +92,7 @@ class Relocalization:
         self._scan_stamp_s = -np.inf
         self._search = _Search()
         self._view = _View()
+        self._blamed: set[str] = set()
 
     async def step(self, stamp_s: float) -> None:
         """Judge the newest scan where the robot believes to be, or search for where it was taken."""
@@ -99,7 +104,7 @@ class Relocalization:
         sight = self._sight(scan)
         if robot.localized:
             self._watch(snapshot, sight, stamp_s)
-        else:
+        elif not self._blames_room(snapshot, sight, stamp_s):
             await self._find_out(sight, stamp_s)
 
     def _sight(self, scan: LidarScan) -> Sight:
@@ -123,7 +128,7 @@ class Relocalization:
         if self._view.broken:
             self._monitor.startle()
         if (carried or self._monitor.lost) and _knows_a_room(self._memory.building()):
-            self._lose(snapshot.current_room, stamp_s)
+            self._lose(snapshot.current_room, stamp_s, carried=carried)
         else:
             self._doubt(snapshot, stamp_s)
 
@@ -136,13 +141,43 @@ class Relocalization:
             with self._memory.edit(self.name, stamp_s) as tx:
                 tx.put(replace(tx.snapshot.robot or robot, confidence=confidence))
 
-    def _lose(self, room_id: str | None, stamp_s: float) -> None:
+    def _lose(self, room_id: str | None, stamp_s: float, *, carried: bool) -> None:
         with self._memory.edit(self.name, stamp_s) as tx:
             lose_robot(tx)
         self._search, self._view = _Search(), _View()
+        self._search.doubted = None if carried else room_id
         logger.warning("I do not know where I am: what I see is not %s", room_id, extra={"room": room_id})
 
     # While it does not.
+
+    def _blames_room(self, snapshot: Snapshot, sight: Sight, stamp_s: float) -> bool:
+        """After a while without a decision, let a robot that was not carried stay where it was.
+
+        If what it sees does not even fit there, the room is taken back; once for each room.
+        """
+        search = self._search
+        if self._view.changed(sight, self._settings):
+            search.doubted, search.looks = None, 0
+        room = snapshot.get(search.doubted) if search.doubted is not None else None
+        waited = search.since_s is not None and stamp_s >= search.since_s + self._settings.blame_s
+        if not waited or not isinstance(room, RoomNode):
+            return False
+        T_room_base = Pose2.from_se3(snapshot.transform(room.id, ROBOT_ID))
+        fits = any(one.same_as(replace(one, room_id=room.id, T_room_base=T_room_base)) for one in self.found)
+        if not fits and (self.found or room.id in self._blamed):
+            return False
+        with self._memory.edit(self.name, stamp_s) as tx:
+            find_robot(tx, room.id, T_room_base, sight.scan.stamp_s)
+            if not fits:
+                take_back(tx, room.id)
+            if _LOOK in snapshot.edges:
+                tx.remove(_LOOK)
+        self._monitor.forget_doubt()
+        self._search = _Search()
+        if not fits:
+            self._blamed.add(room.id)
+            logger.info("nobody carried me: %s is not as I took it to be", room.id, extra={"room": room.id})
+        return True
 
     async def _find_out(self, sight: Sight, stamp_s: float) -> None:
         search, settings = self._search, self._settings
@@ -154,7 +189,7 @@ class Relocalization:
         rooms = known_rooms(self._memory.building(), self._monitor.usual_shares())
         self.found = await asyncio.to_thread(hypotheses, [*search.sights, sight], rooms)
         if not self.found and search.sights:
-            self._search = _Search(since_s=stamp_s)
+            search.sights, search.decided = (), None
             return
         decided = decide(self.found)
         if decided is None:
@@ -238,7 +273,8 @@ class _Search:
     """One search for the robot's place.
 
     ``sights``: earlier views from other spots. ``decided``: what the last search decided, with the odometry then.
-    ``named``: the rooms that were said to be possible.
+    ``named``: the rooms that were said to be possible. ``doubted``: the room that the robot was in, unless it was
+    carried.
     """
 
     since_s: float | None = None
@@ -247,6 +283,7 @@ class _Search:
     decided: tuple[Hypothesis, Pose2] | None = None
     named: list[str] | None = None
     looks: int = 0
+    doubted: str | None = None
 
     def keep(self, sight: Sight, settings: RecoverySettings) -> None:
         """Keep a view from a new spot; the oldest makes room."""

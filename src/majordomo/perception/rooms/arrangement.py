@@ -2,7 +2,8 @@
 
 All wall lines of a rectilinear room, taken across the whole plane, cut it into cells. A cell belongs to the room when
 rays have passed through most of it, and when it can be reached from where the robot stands without passing a stretch
-of line that more rays end on than pass: the lintel above an open door is one, which keeps the next room out.
+of line that more rays end on than pass: the lintel above an open door is one, which keeps the next room out. Openings
+as high as the walls are told by ``portals``.
 """
 
 from __future__ import annotations
@@ -17,14 +18,13 @@ from numpy.typing import NDArray
 
 from majordomo.perception.localization.planar import Pose2
 from majordomo.perception.rooms.facets import Facets
+from majordomo.perception.rooms.portals import STATION_STEP_M, LineProfile, Portal, end_of_wall, find_portals
 from majordomo.perception.rooms.views import View
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
-_EDGE_STEP_M = 0.1
-_RUN = 4  # steps
-_GRAZING = 0.12  # cosine of incidence below which a ray says nothing about passing a line
+_RUN = 4  # stations
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -32,17 +32,21 @@ class ArrangementSettings:
     """Lengths in meters.
 
     ``gate_m``: returns this near to a line support it. ``shortest_wall_m``: least supported length of a line.
-    ``separation_m``: nearer parallel lines are one. ``blocked``: share of rays ending on a stretch that make it a wall.
+    ``separation_m``: nearer parallel lines are one. ``blocked``: share of rays ending at a place on a line that make it
+    wall there; low, as most rays pass below a low lintel. ``wall``: share of a stretch that must be wall to block it.
     ``free``: share of a cell that must have been seen through. ``views``: how many of the views are asked.
+    ``narrowest_m``: what is narrower is no part of the room, but a door's reveal half seen under its lintel.
     """
 
     gate_m: float = 0.06
     shortest_wall_m: float = 0.2
     separation_m: float = 0.09
-    blocked: float = 0.5
+    blocked: float = 0.2
+    wall: float = 0.5
     free: float = 0.5
     free_margin_m: float = 0.06
     views: int = 24
+    narrowest_m: float = 0.4
 
     def for_noise(self, noise_m: float) -> ArrangementSettings:
         """Gates wide enough for ranges with this standard deviation."""
@@ -59,12 +63,13 @@ class ArrangementSettings:
 class Arrangement:
     """Cells between the lines ``xs`` and ``ys`` (sorted, meters, axis-aligned frame).
 
-    ``inside``: (len(xs) - 1, len(ys) - 1), the cells of the room.
+    ``inside``: (len(xs) - 1, len(ys) - 1), the cells of the room. ``portals``: openings without a lintel.
     """
 
     xs: Array
     ys: Array
     inside: Mask
+    portals: tuple[Portal, ...] = ()
 
 
 def wall_offsets(facets: Facets, settings: ArrangementSettings) -> list[float]:
@@ -116,15 +121,40 @@ def arrange(
         return None
     turn = Pose2(0.0, 0.0, direction_rad)
     turned = [view.moved(turn.inverse() @ view.T_frame_base) for view in _spread(views, settings.views)]
+    across_x = LineProfile.of(turned, xs, _stations(ys), 0, settings.gate_m)
+    across_y = LineProfile.of(turned, ys, _stations(xs), 1, settings.gate_m)
+    portals = [
+        portal
+        for profile, facets, crossing in ((across_x, x_facing, y_facing), (across_y, y_facing, x_facing))
+        for portal in find_portals(turned, profile, facets, crossing, blocked=settings.blocked, gate_m=settings.gate_m)
+    ]
     xs, ys = (
-        _with_edges(xs, _opening_edges(turned, ys, xs, y_facing, 1, settings), settings),
-        _with_edges(ys, _opening_edges(turned, xs, ys, x_facing, 0, settings), settings),
+        _with_edges(xs, _edges(across_y, y_facing, portals, settings), settings),
+        _with_edges(ys, _edges(across_x, x_facing, portals, settings), settings),
     )
     free = _free_share(turned, xs, ys, settings.free_margin_m)
-    blocked_x = _ending_share(turned, xs, ys, 0, settings.gate_m) > settings.blocked
-    blocked_y = settings.blocked < _ending_share(turned, ys, xs, 1, settings.gate_m).T
+    blocked_x = _blocked_share(turned, xs, ys, 0, settings) > settings.wall
+    blocked_y = settings.wall < _blocked_share(turned, ys, xs, 1, settings).T
+    blocked_x |= _portal_mask(portals, xs, ys, 0)
+    blocked_y |= _portal_mask(portals, ys, xs, 1).T
     robot = turned[-1].T_frame_base.position_m
-    return Arrangement(xs=xs, ys=ys, inside=_flood(free > settings.free, blocked_x, blocked_y, _cell(xs, ys, robot)))
+    inside = _flood(free > settings.free, blocked_x, blocked_y, _cell(xs, ys, robot))
+    inside = _without_crannies(inside, xs, ys, settings.narrowest_m)
+    return Arrangement(xs=xs, ys=ys, inside=inside, portals=tuple(portals))
+
+
+def _stations(crossing: Array) -> Array:
+    return np.arange(crossing[0] + STATION_STEP_M / 2.0, crossing[-1], STATION_STEP_M)
+
+
+def _portal_mask(portals: Sequence[Portal], lines: Array, crossing: Array, axis: int) -> Mask:
+    """(len(lines), len(crossing) - 1) stretches that lie in a portal."""
+    mask = np.zeros((len(lines), len(crossing) - 1), dtype=bool)
+    for portal in (one for one in portals if one.axis == axis):
+        line = int(np.argmin(np.abs(lines - portal.offset_m)))
+        for stretch, (start, end) in enumerate(_pairs(crossing)):
+            mask[line, stretch] |= portal.covers(start, end)
+    return mask
 
 
 def _pairs(values: Array) -> list[tuple[float, float]]:
@@ -154,57 +184,39 @@ def _free_share(views: Sequence[View], xs: Array, ys: Array, margin_m: float) ->
     return np.asarray(sums / counts)
 
 
-def _ending_share(views: Sequence[View], lines: Array, crossing: Array, axis: int, gate_m: float) -> Array:
-    """(len(lines), len(crossing) - 1) share of rays that end on a stretch of a line among those that end on or pass it.
+def _blocked_share(
+    views: Sequence[View], lines: Array, crossing: Array, axis: int, settings: ArrangementSettings
+) -> Array:
+    """(len(lines), len(crossing) - 1) share of a stretch of a line that is wall, of what was seen of it.
 
     ``lines`` are offsets along ``axis``; ``crossing`` cuts them into stretches.
     """
     stations = _samples(crossing)
-    ending, passing = _endings(views, lines, np.concatenate(stations), axis, gate_m)
+    profile = LineProfile.of(views, lines, np.concatenate(stations), axis, settings.gate_m)
     starts = np.cumsum([0] + [len(part) for part in stations[:-1]])
-    ended = np.add.reduceat(ending, starts, axis=1)
-    passed = np.add.reduceat(passing, starts, axis=1)
-    return np.asarray(ended / np.maximum(ended + passed, 1.0))
+    wall = np.add.reduceat(profile.wall(settings.blocked).astype(np.float64), starts, axis=1)
+    told = np.add.reduceat(profile.told.astype(np.float64), starts, axis=1)
+    return np.asarray(wall / np.maximum(told, 1.0))
 
 
-def _endings(views: Sequence[View], lines: Array, stations: Array, axis: int, gate_m: float) -> tuple[Array, Array]:
-    """(lines, stations) how many views see a ray end on a line at a station, and how many see one pass it."""
-    points = np.empty((len(lines), len(stations), 2))
-    points[..., axis] = lines[:, None]
-    points[..., 1 - axis] = stations[None, :]
-    ending, passing = np.zeros(points.shape[:2]), np.zeros(points.shape[:2])
-    for view in views:
-        beyond, direction, distance = view.beyond(points.reshape(-1, 2))
-        incidence = np.abs(direction[:, axis])
-        tells = (incidence > _GRAZING) & (distance > view.scan.blind_m + gate_m)
-        clearance = np.where(tells, beyond * incidence, np.nan).reshape(ending.shape)
-        with np.errstate(invalid="ignore"):
-            ending += np.abs(clearance) <= gate_m
-            passing += clearance > gate_m
-    return ending, passing
-
-
-def _opening_edges(
-    views: Sequence[View], lines: Array, crossing: Array, facets: Facets, axis: int, settings: ArrangementSettings
+def _edges(
+    profile: LineProfile, facets: Facets, portals: Sequence[Portal], settings: ArrangementSettings
 ) -> list[float]:
-    """Stations at which a wall on one of the ``lines`` ends and a wide opening begins.
+    """Stations at which a wall on one of the profile's lines ends and a wide opening begins.
 
     Another wall goes off there, though nobody may have stood where its face can be seen: the corner of a nook.
     ``facets`` lie along the lines.
     """
-    stations = np.arange(crossing[0] + _EDGE_STEP_M / 2.0, crossing[-1], _EDGE_STEP_M)
-    ending, passing = _endings(views, lines, stations, axis, settings.gate_m)
     edges: list[float] = []
-    for k, line in enumerate(lines):
-        told = ending[k] + passing[k] > 0.0
-        wall = told & (ending[k] > settings.blocked * (ending[k] + passing[k]))
-        on_line = facets.near(float(line), 1.5 * settings.gate_m).station_m
-        for edge, wall_first in _changes(wall, told & ~wall):
-            middle = stations[0] + (edge - 0.5) * _EDGE_STEP_M
-            near = on_line[np.abs(on_line - middle) < 1.5 * _EDGE_STEP_M]
-            if len(near):
-                edges.append(float(near.max() if wall_first else near.min()))
-    return edges
+    wall, told = profile.wall(settings.blocked), profile.told
+    for k, line in enumerate(profile.lines):
+        on_line = facets.near(float(line), 1.5 * settings.gate_m)
+        for index, wall_first in _changes(wall[k], told[k] & ~wall[k]):
+            middle_m = float(profile.stations[index]) - STATION_STEP_M / 2.0
+            edge_m = end_of_wall(on_line, middle_m, wall_first=wall_first)
+            if edge_m is not None:
+                edges.append(edge_m)
+    return edges + [end for one in portals if one.axis == profile.axis for end in (one.low_m, one.high_m)]
 
 
 def _changes(wall: Mask, opened: Mask) -> list[tuple[int, bool]]:
@@ -242,6 +254,26 @@ def _cell(xs: Array, ys: Array, point: Array) -> tuple[int, int]:
     column = int(np.clip(np.searchsorted(xs, point[0]) - 1, 0, len(xs) - 2))
     row = int(np.clip(np.searchsorted(ys, point[1]) - 1, 0, len(ys) - 2))
     return column, row
+
+
+def _without_crannies(inside: Mask, xs: Array, ys: Array, narrowest_m: float) -> Mask:
+    """The room without cells in which it is narrower than ``narrowest_m`` along either axis."""
+    kept = inside
+    while True:
+        wide = _wide_enough(kept, xs, narrowest_m) & _wide_enough(kept.T, ys, narrowest_m).T
+        if not wide.any() or (wide == kept).all():
+            return kept
+        kept = wide
+
+
+def _wide_enough(inside: Mask, offsets: Array, narrowest_m: float) -> Mask:
+    """Cells whose run of inside cells along the first axis is at least ``narrowest_m`` long."""
+    wide = np.zeros_like(inside)
+    for row in range(inside.shape[1]):
+        edges = np.flatnonzero(np.diff(np.concatenate([[False], inside[:, row], [False]]).astype(np.int8)))
+        for first, last in zip(edges[::2], edges[1::2], strict=True):
+            wide[first:last, row] = offsets[last] - offsets[first] >= narrowest_m
+    return wide
 
 
 def _flood(free: Mask, blocked_x: Mask, blocked_y: Mask, start: tuple[int, int]) -> Mask:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from majordomo.perception.localization.planar import Pose2
 from majordomo.perception.rooms.arrangement import Arrangement, ArrangementSettings, arrange
 from majordomo.perception.rooms.facets import Facets, longest_gap, sort_by_axis
+from majordomo.perception.rooms.portals import STATION_STEP_M, Portal
 from majordomo.perception.rooms.views import View, dominant_direction
 
 Array = NDArray[np.float64]
@@ -75,7 +76,7 @@ def find_outline(views: Sequence[View], settings: ArrangementSettings | None = N
     if arrangement is None:
         return None
     polygon = trace(arrangement)
-    walls = _refine(polygon, x_facing, y_facing, settings)
+    walls = _refine(polygon, x_facing, y_facing, arrangement.portals, settings)
     turn = Pose2(0.0, 0.0, direction_rad)
     return Outline(
         polygon=turn.apply(_intersections(polygon, walls)),
@@ -160,16 +161,22 @@ class _MeasuredWall:
     gap_center: tuple[float, float]
 
 
-def _refine(polygon: Array, x_facing: Facets, y_facing: Facets, settings: ArrangementSettings) -> list[_MeasuredWall]:
+def _refine(
+    polygon: Array, x_facing: Facets, y_facing: Facets, portals: Sequence[Portal], settings: ArrangementSettings
+) -> list[_MeasuredWall]:
     """Put each wall at the mean of the returns along it."""
     return [
-        _measure(start, end, (x_facing, y_facing), settings)
+        _measure(start, end, (x_facing, y_facing), portals, settings)
         for start, end in zip(polygon, np.roll(polygon, -1, axis=0), strict=True)
     ]
 
 
 def _measure(
-    start: Array, end: Array, facets_by_axis: tuple[Facets, Facets], settings: ArrangementSettings
+    start: Array,
+    end: Array,
+    facets_by_axis: tuple[Facets, Facets],
+    portals: Sequence[Portal],
+    settings: ArrangementSettings,
 ) -> _MeasuredWall:
     across = 0 if abs(start[0] - end[0]) < abs(start[1] - end[1]) else 1
     nominal = float(start[across])
@@ -178,6 +185,10 @@ def _measure(
     low, high = low + clearance, high - clearance
     facets = facets_by_axis[across].near(nominal, 1.5 * settings.gate_m).between(low, high)
     seen = facets.seen(low, high)
+    for portal in portals:
+        if portal.axis == across and abs(portal.offset_m - nominal) < settings.separation_m:
+            stations = low + (np.arange(len(seen)) + 0.5) * (high - low) / len(seen)
+            seen |= (stations > portal.low_m - STATION_STEP_M) & (stations < portal.high_m + STATION_STEP_M)
     first, count = longest_gap(seen)
     bin_m = (high - low) / len(seen)
     gap_station = low + (first + count / 2.0) * bin_m

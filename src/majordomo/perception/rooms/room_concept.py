@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import logging
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,7 +14,10 @@ from majordomo.perception.lifecycle import LifeCycle, Verdict
 from majordomo.perception.localization.landmarks import room_model
 from majordomo.perception.localization.planar import Pose2
 from majordomo.perception.localization.robot_pose import RobotPose, robot_pose_at
+from majordomo.perception.rooms.fitness import OutlineFitness, Stretch
 from majordomo.perception.rooms.insertion import insert_room, propose_visit, withdraw
+from majordomo.perception.rooms.instance import MeasuredRoom
+from majordomo.perception.rooms.revision import let_stand, missing_walls, revise_room, take_back, taken_back
 from majordomo.perception.rooms.slice import OutlineSlicer
 from majordomo.perception.rooms.survey import Survey, SurveySettings
 from majordomo.perception.sensing import SensorBuffer, scan_points_base
@@ -33,6 +37,8 @@ _ATTEMPTS = 8
 _LOOK_S = 1.5
 _RETURNS = 4
 _WELL_INSIDE_M = 0.35
+_REVISIONS = 2
+_WORTH_WRITING = 0.05
 
 
 class RoomConcept:
@@ -59,6 +65,8 @@ class RoomConcept:
         self._stamp_s = 0.0
         self._arrived_s: dict[float, float] = {}
         self._returns: dict[str, int] = {}
+        self._fitness: dict[str, OutlineFitness] = {}
+        self._revised: dict[str, int] = {}
         self._life = LifeCycle(
             "room",
             explain=self._explain,
@@ -90,8 +98,14 @@ class RoomConcept:
         if model is None or not model.contains(pose.T_parent_base.position_m):
             self._survey.known = model
             self._survey.add(self._slicer.cut(scan), pose)
-        elif self._survey.started and model.depth_m(pose.T_parent_base.position_m) > _WELL_INSIDE_M:
+            return
+        if self._survey.started and model.depth_m(pose.T_parent_base.position_m) > _WELL_INSIDE_M:
             self._abandon(snapshot)
+        if door_being_crossed(snapshot) is None:
+            fitness = self._fitness.get(model.room_id)
+            if fitness is None or not np.array_equal(fitness.polygon, model.polygon):
+                fitness = self._fitness[model.room_id] = OutlineFitness(model.polygon)
+            fitness.add(self._slicer.cut(scan), pose.T_parent_base)
 
     # The four stages of the life cycle.
 
@@ -115,8 +129,28 @@ class RoomConcept:
         return Verdict.BUSY
 
     def _maintain(self) -> Verdict:
-        """A room that stands is kept; what contradicts it is left to the survey of the next visit."""
+        """A room that stands is kept, unless what is seen contradicts it: then it is taken back and measured again."""
+        snapshot = self._memory.snapshot()
+        room_id = snapshot.current_room
+        fitness = self._fitness.get(room_id) if room_id is not None else None
+        if room_id is None or fitness is None or _room_needed(snapshot):
+            return Verdict.DONE
+        if self._revised.get(room_id, 0) < _REVISIONS:
+            against = missing_walls(snapshot, room_id, fitness)
+            if against:
+                self._take_back(room_id, against)
         return Verdict.DONE
+
+    def _take_back(self, room_id: str, against: Sequence[Stretch]) -> None:
+        self._revised[room_id] = self._revised.get(room_id, 0) + 1
+        del self._fitness[room_id]
+        self._survey = Survey(self._settings)
+        with self._memory.edit(self.name, self._stamp_s) as tx:
+            take_back(tx, room_id)
+        length_m = max(stretch.end_m - stretch.start_m for stretch in against)
+        logger.info(
+            "%.1f m of a wall of %s are not there; measuring it again", length_m, room_id, extra={"room": room_id}
+        )
 
     def _affordances(self) -> Verdict:
         """Withdraw a visit to a room that needs no measuring any more."""
@@ -164,27 +198,53 @@ class RoomConcept:
 
     def _conclude(self, snapshot: Snapshot, pose: RobotPose) -> Verdict:
         """The room stands, as permanent when it is closed, else as partial; nothing at all gives the door up."""
-        room = self._survey.measured(pose)
+        room, doubted = self._survey.measured(pose), taken_back(snapshot)
+        if doubted is not None:
+            return self._revise(doubted, room)
         if room is None:
             return self._give_up(snapshot, OUTDOORS if self._survey.outdoors else UNMEASURABLE)
         intention = own_intention(snapshot)
         room_id = intention.target if intention else next_id(snapshot, "room")
-        status = RoomStatus.PERMANENT if self._survey.closed else RoomStatus.PARTIAL
-        height_m = self._slicer.ceiling_m or self._slicer.wall_top_m or 2.5
         with self._memory.edit(self.name, self._stamp_s) as tx:
-            insert_room(tx, room, room_id, status=status, height_m=height_m, stamp_s=self._scan_stamp_s)
+            insert_room(tx, room, room_id, status=self._status, height_m=self._height_m, stamp_s=self._scan_stamp_s)
+        self._say("stands", room_id, room)
+        self._survey = Survey(self._settings)
+        return Verdict.DONE
+
+    def _revise(self, doubted: RoomNode, room: MeasuredRoom | None) -> Verdict:
+        """The room that was taken back stands as it was measured now, or for want of that as it was."""
+        with self._memory.edit(self.name, self._stamp_s) as tx:
+            if room is None:
+                let_stand(tx, doubted)
+            else:
+                revise_room(
+                    tx, room, doubted.id, status=self._status, height_m=self._height_m, stamp_s=self._scan_stamp_s
+                )
+        if room is not None:
+            self._say("is revised", doubted.id, room)
+        self._survey = Survey(self._settings)
+        return Verdict.DONE
+
+    @property
+    def _status(self) -> RoomStatus:
+        return RoomStatus.PERMANENT if self._survey.closed else RoomStatus.PARTIAL
+
+    @property
+    def _height_m(self) -> float:
+        return self._slicer.ceiling_m or self._slicer.wall_top_m or 2.5
+
+    def _say(self, happened: str, room_id: str, room: MeasuredRoom) -> None:
         sides = np.ptp(room.polygon, axis=0)
         logger.info(
-            "%s stands: %.2f m x %.2f m, %d walls, %s",
+            "%s %s: %.2f m x %.2f m, %d walls, %s",
             room_id,
+            happened,
             sides[0],
             sides[1],
             len(room.polygon),
-            status,
+            self._status,
             extra={"room": room_id, "views": len(self._survey.fit.views) if self._survey.fit else 0},
         )
-        self._survey = Survey(self._settings)
-        return Verdict.DONE
 
     def _give_up(self, snapshot: Snapshot, reason: str) -> Verdict:
         door = door_being_crossed(snapshot)
@@ -227,6 +287,6 @@ def _room_needed(snapshot: Snapshot) -> bool:
     if edge is None or is_lost(snapshot):
         return False
     room = snapshot.get(edge.source)
-    if not isinstance(room, RoomNode):
+    if not isinstance(room, RoomNode) or room.status is RoomStatus.TEMPORARY:
         return True
     return door_being_crossed(snapshot) is not None

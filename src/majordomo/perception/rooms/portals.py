@@ -1,0 +1,188 @@
+"""Openings as high as the walls: where one room ends and the next begins without a lintel to tell.
+
+A slice above the doors sees straight through such an opening, and two rooms look like one. What gives it away is that
+the wall is thin: right behind it, to the side of the opening, there is free space again. Behind the corner of an
+L-shaped room there is none.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from majordomo.perception.rooms.facets import Facets
+from majordomo.perception.rooms.views import View
+
+Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+STATION_STEP_M = 0.1
+_GRAZING = 0.12  # cosine of incidence below which a ray says nothing about passing a line
+_BEHIND_M = (0.5, 0.6, 0.7, 0.8)
+_BESIDE_M = (0.06, 0.12, 0.2, 0.3, 0.4)
+_LEAST_SEEN = 2
+_NARROWEST_M = 0.5
+_VAGUE = 4  # stations
+_AGREE = 0.7
+_END_M = 0.3
+_OF_A_DOOR_M = 1.4
+_OF_THE_WALL = 0.8
+
+
+@dataclass(frozen=True, kw_only=True)
+class Portal:
+    """An opening in the wall at ``offset_m`` across ``axis``, from ``low_m`` to ``high_m`` along it."""
+
+    axis: int
+    offset_m: float
+    low_m: float
+    high_m: float
+
+    def covers(self, start_m: float, end_m: float) -> bool:
+        """Whether most of a stretch along the wall lies in the opening."""
+        shared_m = min(self.high_m, end_m) - max(self.low_m, start_m)
+        return shared_m > 0.6 * (end_m - start_m)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class LineProfile:
+    """What rays did along parallel lines across ``axis``.
+
+    ``lines``: (L,) offsets; ``stations``: (S,) along them. ``ending``, ``passing``: (L, S) how many views saw a ray end
+    there, and pass. ``towards``: (L, S) sum of the signs of the ending rays' directions across the line.
+    """
+
+    axis: int
+    lines: Array
+    stations: Array
+    ending: Array
+    passing: Array
+    towards: Array
+
+    @classmethod
+    def of(cls, views: Sequence[View], lines: Array, stations: Array, axis: int, gate_m: float) -> LineProfile:
+        """Ask all views about all stations."""
+        points = np.empty((len(lines), len(stations), 2))
+        points[..., axis] = lines[:, None]
+        points[..., 1 - axis] = stations[None, :]
+        ending, passing, towards = (np.zeros(points.shape[:2]) for _ in range(3))
+        for view in views:
+            beyond, direction, distance = view.beyond(points.reshape(-1, 2))
+            incidence = np.abs(direction[:, axis])
+            tells = (incidence > _GRAZING) & (distance > view.scan.blind_m + gate_m)
+            clearance = np.where(tells, beyond * incidence, np.nan).reshape(ending.shape)
+            with np.errstate(invalid="ignore"):
+                ended = np.abs(clearance) <= gate_m
+                passing += clearance > gate_m
+            ending += ended
+            towards += np.where(ended, np.sign(direction[:, axis]).reshape(ending.shape), 0.0)
+        return cls(axis=axis, lines=lines, stations=stations, ending=ending, passing=passing, towards=towards)
+
+    @property
+    def told(self) -> Mask:
+        """(L, S) where any ray says something."""
+        return np.asarray(self.ending + self.passing > 0.0)
+
+    def faces(self, line: int, stations: slice) -> float:
+        """1 or -1: which way the rays go that end on a stretch of a line; 0 when they do not agree."""
+        towards, ended = float(self.towards[line, stations].sum()), float(self.ending[line, stations].sum())
+        return float(np.sign(towards)) if abs(towards) > _AGREE * ended else 0.0
+
+    def wall(self, blocked: float) -> Mask:
+        """(L, S) where more than ``blocked`` of the rays end."""
+        return np.asarray(self.told & (self.ending > blocked * (self.ending + self.passing)))
+
+
+def find_portals(
+    views: Sequence[View], profile: LineProfile, facets: Facets, crossing: Facets, *, blocked: float, gate_m: float
+) -> list[Portal]:
+    """Gaps in walls behind which, beside the gap, free space was seen.
+
+    ``facets`` face along the profile's axis, ``crossing`` the other.
+    """
+    told, ends = profile.told, profile.wall(blocked)
+    portals: list[Portal] = []
+    for k, offset in enumerate(profile.lines):
+        on_line = facets.near(float(offset), gate_m)
+        across = crossing.between(float(offset) - gate_m, float(offset) + gate_m)
+        wall = ends[k] & (_returns(on_line.station_m, profile.stations) > _returns(across.offset_m, profile.stations))
+        for first, last in _runs(told[k] & ~ends[k]):
+            low_m, high_m = profile.stations[[first, last - 1]] + np.array([-0.5, 0.5]) * STATION_STEP_M
+            portal = Portal(
+                axis=profile.axis,
+                offset_m=float(offset),
+                low_m=end_of_wall(on_line, float(low_m), wall_first=True) or float(low_m),
+                high_m=end_of_wall(on_line, float(high_m), wall_first=False) or float(high_m),
+            )
+            stubs = _stub(wall[:first][::-1]), _stub(wall[last:])
+            if not _narrow(wall, first, last, both=min(stubs) > 0):
+                continue
+            before, after = slice(first - stubs[0], first), slice(last, last + stubs[1])
+            if any(
+                _thin(views, portal, side, stub * STATION_STEP_M, profile.faces(k, stations), gate_m)
+                for stub, stations, side in zip(stubs, (before, after), (-1.0, 1.0), strict=True)
+            ):
+                portals.append(portal)
+    return portals
+
+
+def end_of_wall(on_line: Facets, about_m: float, *, wall_first: bool) -> float | None:
+    """Station of the last return on a wall that ends at about ``about_m``, or the first on one that begins there."""
+    near = on_line.station_m[np.abs(on_line.station_m - about_m) < _END_M]
+    if len(near) == 0:
+        return None
+    return float(near.max() if wall_first else near.min())
+
+
+def _returns(at_m: Array, stations: Array) -> Array:
+    """(S,) how many returns lie at each station."""
+    edges = np.append(stations - STATION_STEP_M / 2.0, stations[-1] + STATION_STEP_M / 2.0)
+    return np.histogram(at_m, edges)[0]
+
+
+def _stub(away: Mask) -> int:
+    """Stations of wall beside a gap; ``away`` begins at the gap, where normals are vague."""
+    begins = np.flatnonzero(away[:_VAGUE])
+    if len(begins) == 0:
+        return 0
+    rest = away[begins[0] :]
+    return int(begins[0] + (len(rest) if rest.all() else np.argmin(rest)))
+
+
+def _narrow(wall: Mask, first: int, last: int, *, both: bool) -> bool:
+    """Whether a gap is no wider than a door, or has wall on both sides and leaves enough of it."""
+    width_m = (last - first) * STATION_STEP_M
+    if width_m < _NARROWEST_M:
+        return False
+    if width_m <= _OF_A_DOOR_M:
+        return True
+    beside_m = (wall[:first].sum() + wall[last:].sum()) * STATION_STEP_M
+    return bool(both and width_m <= _OF_THE_WALL * (width_m + beside_m))
+
+
+def _thin(views: Sequence[View], portal: Portal, side: float, stub_m: float, towards: float, margin_m: float) -> bool:
+    """Whether the wall of ``stub_m`` at one end of a gap is so thin that free space was seen right behind it."""
+    if towards == 0.0:
+        return False
+    edge = portal.low_m if side < 0.0 else portal.high_m
+    beside_m = [one for one in _BESIDE_M if one < stub_m - STATION_STEP_M / 2.0]
+    if not beside_m:
+        return False
+    behind, beside = (grid.ravel() for grid in np.meshgrid(_BEHIND_M, beside_m, indexing="ij"))
+    points = np.empty((len(behind), 2))
+    points[:, portal.axis] = portal.offset_m + towards * behind
+    points[:, 1 - portal.axis] = edge + side * beside
+    seen = np.zeros(len(points))
+    for view in views:
+        with np.errstate(invalid="ignore"):
+            seen += view.beyond(points)[0] > margin_m
+    return bool((seen > 0).sum() >= _LEAST_SEEN)
+
+
+def _runs(mask: Mask) -> list[tuple[int, int]]:
+    """First index, and one past the last, of each run of true."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], mask, [False]]).astype(np.int8)))
+    return [(int(a), int(b)) for a, b in zip(edges[::2], edges[1::2], strict=True)]

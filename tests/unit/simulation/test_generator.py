@@ -6,6 +6,7 @@ import math
 
 import igraph
 import numpy as np
+import pybullet
 import pytest
 from scipy.ndimage import distance_transform_edt, label
 
@@ -14,10 +15,11 @@ from majordomo.simulation.errors import HouseError
 from majordomo.simulation.generator import generate_house
 from majordomo.simulation.house import OUTSIDE, parse_house
 from majordomo.simulation.polygons import contains
+from majordomo.simulation.world import World
 
 ROBOT_M = 0.30
 CELL_M = 0.05
-SEEDS = range(12)
+SEEDS = range(13)
 
 
 def kinds(seed):
@@ -139,3 +141,12 @@ def test_what_cannot_be_is_refused():
         generate_house(rooms=0, seed=0)
     with pytest.raises(HouseError, match="no loop"):
         generate_house(rooms=1, seed=0, loops=True)
+
+
+def test_everything_on_the_furniture_has_room_there(houses):
+    for house in houses:
+        client = pybullet.connect(pybullet.DIRECT)
+        try:
+            World(house, client=client, rng=np.random.default_rng(0))
+        finally:
+            pybullet.disconnect(client)

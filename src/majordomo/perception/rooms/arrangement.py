@@ -35,7 +35,8 @@ class ArrangementSettings:
     ``separation_m``: nearer parallel lines are one. ``blocked``: share of rays ending at a place on a line that make it
     wall there; low, as most rays pass below a low lintel. ``wall``: share of a stretch that must be wall to block it.
     ``free``: share of a cell that must have been seen through. ``views``: how many of the views are asked.
-    ``narrowest_m``: what is narrower is no part of the room, but a door's reveal half seen under its lintel.
+    ``narrowest_m``: what is narrower is no part of the room, but a door's reveal or the room
+    behind it, half seen under its lintel.
     """
 
     gate_m: float = 0.06
@@ -138,7 +139,10 @@ def arrange(
     blocked_x |= _portal_mask(portals, xs, ys, 0)
     blocked_y |= _portal_mask(portals, ys, xs, 1).T
     robot = turned[-1].T_frame_base.position_m
-    inside = _flood(free > settings.free, blocked_x, blocked_y, _cell(xs, ys, robot))
+    seen = free > settings.free
+    blocked_x |= _slits(seen, blocked_x, ys, settings.narrowest_m)
+    blocked_y |= _slits(seen.T, blocked_y.T, xs, settings.narrowest_m).T
+    inside = _flood(seen, blocked_x, blocked_y, _cell(xs, ys, robot))
     inside = _without_crannies(inside, xs, ys, settings.narrowest_m)
     return Arrangement(xs=xs, ys=ys, inside=inside, portals=tuple(portals))
 
@@ -254,6 +258,13 @@ def _cell(xs: Array, ys: Array, point: Array) -> tuple[int, int]:
     column = int(np.clip(np.searchsorted(xs, point[0]) - 1, 0, len(xs) - 2))
     row = int(np.clip(np.searchsorted(ys, point[1]) - 1, 0, len(ys) - 2))
     return column, row
+
+
+def _slits(seen: Mask, blocked: Mask, crossing: Array, narrowest_m: float) -> Mask:
+    """(lines, stretches) stretches of lines across the first axis that let through, but are too narrow together."""
+    columns = np.pad(seen, ((1, 1), (0, 0)))
+    passable = ~blocked & columns[:-1] & columns[1:]
+    return passable & ~_wide_enough(passable.T, crossing, narrowest_m).T
 
 
 def _without_crannies(inside: Mask, xs: Array, ys: Array, narrowest_m: float) -> Mask:

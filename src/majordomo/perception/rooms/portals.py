@@ -28,6 +28,9 @@ _NARROWEST_M = 0.5
 _VAGUE = 4  # stations
 _AGREE = 0.7
 _END_M = 0.3
+_CORNER_M = 0.15
+_CLEAR_M = 0.1
+_RETURNS_OF_WALL = 5
 _OF_A_DOOR_M = 1.4
 _OF_THE_WALL = 0.8
 
@@ -122,11 +125,24 @@ def find_portals(
                 continue
             before, after = slice(first - stubs[0], first), slice(last, last + stubs[1])
             if any(
-                _thin(views, portal, side, stub * STATION_STEP_M, profile.faces(k, stations), gate_m)
-                for stub, stations, side in zip(stubs, (before, after), (-1.0, 1.0), strict=True)
+                _thin(views, portal, side, stub * STATION_STEP_M, towards, gate_m)
+                for stub, towards, side in zip(
+                    stubs, (profile.faces(k, before), profile.faces(k, after)), (-1.0, 1.0), strict=True
+                )
+                if not _at_corner(crossing, portal, side, towards)
             ):
                 portals.append(portal)
     return portals
+
+
+def _at_corner(crossing: Facets, portal: Portal, side: float, towards: float) -> bool:
+    """Whether another wall comes up to the gap's end from where the gap is seen: then it is a corner, and what goes on
+    behind it another room's wall.
+    """
+    edge_m = portal.low_m if side < 0.0 else portal.high_m
+    before_m = (crossing.station_m - portal.offset_m) * towards
+    near = (np.abs(crossing.offset_m - edge_m) < _CORNER_M) & (before_m > -_END_M) & (before_m < -_CLEAR_M)
+    return bool(near.sum() >= _RETURNS_OF_WALL)
 
 
 def end_of_wall(on_line: Facets, about_m: float, *, wall_first: bool) -> float | None:

@@ -16,6 +16,7 @@ from majordomo.simulation.generation.tiles import Outline, sides
 
 _GAPS_M = (0.02, 0.06)
 _TRIES = 12
+_AREA_OF_A_THING_M2 = 0.1
 _MOST_THINGS = 2
 
 _FURNITURE: Mapping[str, Sequence[str]] = MappingProxyType(
@@ -134,10 +135,11 @@ def _things(generator: np.random.Generator, pieces: Sequence[Piece]) -> list[Sma
         category = category_named(piece.category, piece.size_m, static=True)
         if not category.support or piece.category in {"chair", "stool", "sofa", "bed", "bench", "stove"}:
             continue
-        things += [
+        wanted = [
             SmallThing(category=str(generator.choice(_THINGS)), color=str(generator.choice(_COLORS)), on=index)
             for _ in range(int(generator.integers(_MOST_THINGS + 1)))
         ]
+        things += wanted[: int(piece.size_m[0] * piece.size_m[1] / _AREA_OF_A_THING_M2)]
     return things
 
 

@@ -18,11 +18,15 @@ from majordomo.perception.localization.planar import Pose2
 from majordomo.perception.rooms.slice import OutlineScan
 
 Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
 
 _WINDOW_RAD = 0.012
 _BLIND_MARGIN_M = 0.15
 _POST_M = 0.1
 _FEWEST_RETURNS = 60
+_WIDEST_DOOR_M = 1.3
+_NEW_DOORS = 2
+_BESIDE = 4
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -66,15 +70,36 @@ def fit_of(scan: OutlineScan, room: RoomModel, T_room_base: Pose2, settings: Fit
     off = (measured - np.clip(measured, nearest, farthest)) * incidence[tells]
     deviation = np.maximum(np.abs(off) - settings.slack_m, 0.0) / max(settings.least_std_m, scan.noise_m)
     passed = off > settings.through_m
+    explained = deviation <= settings.gate
+    directions = np.stack([np.cos(azimuths_rad[tells]), np.sin(azimuths_rad[tells])], axis=1)
+    unknown = _unknown_doorways(passed, explained, origin + directions * nearest[:, None])
+    passed, explained, deviation = passed[~unknown], explained[~unknown], deviation[~unknown]
     cost = np.minimum(deviation**2, settings.gate**2) / 2.0 * np.where(passed, 2.0, 1.0)
     return ScanFit(
-        explained=float((deviation <= settings.gate).mean()),
+        explained=float(explained.mean()),
         passed=float(passed.mean()),
         cost=float(cost.mean()),
     )
 
 
-def _at_openings(openings: Array, origin: Array, azimuths_rad: Array, ranges_m: Array) -> NDArray[np.bool_]:
+def _unknown_doorways(passed: Mask, explained: Mask, hits: Array) -> Mask:
+    """(N,) rays that pass a wall together where a door may be that nobody has noticed yet.
+
+    It is no wider than a door, and rays end as expected on both sides of it; few of them can be new at once.
+    """
+    doubtful = np.zeros(len(passed), dtype=bool)
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], passed, [False]]).astype(np.int8)))
+    found = 0
+    for first, last in zip(edges[::2], edges[1::2], strict=True):
+        width_m = float(np.linalg.norm(hits[last - 1] - hits[first]))
+        beside = explained[max(0, first - _BESIDE) : first].any() and explained[last : last + _BESIDE].any()
+        if width_m < _WIDEST_DOOR_M and beside and found < _NEW_DOORS:
+            doubtful[first:last] = True
+            found += 1
+    return doubtful
+
+
+def _at_openings(openings: Array, origin: Array, azimuths_rad: Array, ranges_m: Array) -> Mask:
     """(N,) rays that meet the outline where a door is."""
     met = np.isfinite(ranges_m)
     directions = np.stack([np.cos(azimuths_rad), np.sin(azimuths_rad)], axis=1)

@@ -37,6 +37,7 @@ logger = logging.getLogger(__name__)
 
 _WORTH_NAMING = 0.01
 _WORTH_WRITING = 0.05
+_SURELY_INSIDE_M = 0.3
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -164,7 +165,9 @@ class Relocalization:
             return False
         T_room_base = Pose2.from_se3(snapshot.transform(room.id, ROBOT_ID))
         fits = any(one.same_as(replace(one, room_id=room.id, T_room_base=T_room_base)) for one in self.found)
-        if not fits and (self.found or room.id in self._blamed):
+        model = room_model(snapshot, room.id)
+        inside = model is not None and model.depth_m(T_room_base.position_m) > _SURELY_INSIDE_M
+        if not fits and (self.found or not inside or room.id in self._blamed):
             return False
         with self._memory.edit(self.name, stamp_s) as tx:
             find_robot(tx, room.id, T_room_base, sight.scan.stamp_s)

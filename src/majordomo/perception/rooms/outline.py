@@ -18,6 +18,9 @@ Array = NDArray[np.float64]
 
 _CORNER_CLEARANCE_M = 0.10
 _HARMLESS_GAP_M = 0.4
+_DEEPEST_REVEAL_M = 0.45
+_LEVEL_M = 0.1
+_VAGUE_BACK = 0.5
 RECTILINEAR = 0.9
 
 
@@ -75,8 +78,12 @@ def find_outline(views: Sequence[View], settings: ArrangementSettings | None = N
     arrangement = arrange(views, x_facing, y_facing, direction_rad, settings)
     if arrangement is None:
         return None
-    polygon = trace(arrangement)
-    walls = _refine(polygon, x_facing, y_facing, arrangement.portals, settings)
+    polygon, portals = trace(arrangement), list(arrangement.portals)
+    walls = _refine(polygon, x_facing, y_facing, portals, settings)
+    while (reveal := _reveal(polygon, walls)) is not None:
+        polygon, portal = _cut(polygon, reveal)
+        portals.append(portal)
+        walls = _refine(polygon, x_facing, y_facing, portals, settings)
     turn = Pose2(0.0, 0.0, direction_rad)
     return Outline(
         polygon=turn.apply(_intersections(polygon, walls)),
@@ -211,6 +218,38 @@ def _intersections(polygon: Array, walls: list[_MeasuredWall]) -> Array:
         refined[k, wall.across] = wall.offset_m
         refined[(k + 1) % len(polygon), wall.across] = wall.offset_m
     return refined
+
+
+def _reveal(polygon: Array, walls: Sequence[_MeasuredWall]) -> int | None:
+    """Index of the first of four corners that are a shallow recess whose back hardly returns rays: no part of the room,
+    but the reveal of an opening in a straight wall.
+    """
+    count = len(polygon)
+    if count < 8:
+        return None
+    steps = np.roll(polygon, -1, axis=0) - polygon
+    turns = np.sign(steps[:, 0] * np.roll(steps, -1, axis=0)[:, 1] - steps[:, 1] * np.roll(steps, -1, axis=0)[:, 0])
+    lengths = wall_lengths(polygon)
+    for k in range(count):
+        before, out, back, home = k - 1, k, (k + 1) % count, (k + 2) % count
+        recess = (turns[before], turns[out], turns[back], turns[home]) == (-1.0, 1.0, 1.0, -1.0)
+        shallow = max(lengths[out], lengths[home]) < _DEEPEST_REVEAL_M
+        level = abs(lengths[out] - lengths[home]) < _LEVEL_M
+        vague = walls[back].support < _VAGUE_BACK or walls[back].gap_m > _VAGUE_BACK * lengths[back]
+        if recess and shallow and level and vague:
+            return k
+    return None
+
+
+def _cut(polygon: Array, first: int) -> tuple[Array, Portal]:
+    """The outline without the recess that begins at corner ``first``, and the opening that it was."""
+    rolled = np.roll(polygon, -first, axis=0)
+    start, end, kept = rolled[0], rolled[3], rolled[4:]
+    axis = 0 if abs(rolled[1][0] - rolled[2][0]) < abs(rolled[1][1] - rolled[2][1]) else 1
+    low_m, high_m = sorted((float(start[1 - axis]), float(end[1 - axis])))
+    straight = kept.copy()
+    straight[0][axis] = straight[-1][axis]
+    return straight, Portal(axis=axis, offset_m=float(straight[-1][axis]), low_m=low_m, high_m=high_m)
 
 
 def _center(offsets: Array, nominal: float, gate_m: float) -> tuple[float, float]:

@@ -6,7 +6,7 @@ from collections.abc import Collection, Sequence
 
 import numpy as np
 
-from majordomo.scene_graph.nodes import ObjectNode, ObjectState, PersonNode, RoomNode
+from majordomo.scene_graph.nodes import ObjectNode, ObjectState, PersonNode, RoomNode, RoomStatus
 from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.skills.geometry import Box2, Point2, Points, Pose2, inside_polygon
 from majordomo.skills.navigation.grid import Canvas, Grid
@@ -33,8 +33,8 @@ def draw_map(
 ) -> Grid:
     """The grid in ``frame`` that holds all ``spots`` (the robot first, then goals).
 
-    The walls of a room count when all spots lie within it; else only ``obstacles``, (N, 2), do. ``ignore``: nodes whose
-    footprint is left out.
+    The walls of a room count when it was seen all around and all spots lie within it; else only ``obstacles``, (N, 2),
+    do. ``ignore``: nodes whose footprint is left out.
     """
     polygon = _walls_around(snapshot, frame, spots)
     outline = np.array(polygon or spots)
@@ -69,7 +69,7 @@ def footprint(snapshot: Snapshot, node: ObjectNode, frame: str) -> Box2:
 
 def _walls_around(snapshot: Snapshot, frame: str, spots: Sequence[Point2]) -> tuple[Point2, ...]:
     room = snapshot.get(frame)
-    if not isinstance(room, RoomNode) or len(room.polygon_m) < MIN_CORNERS:
+    if not isinstance(room, RoomNode) or room.status is not RoomStatus.PERMANENT or len(room.polygon_m) < MIN_CORNERS:
         return ()
     points = np.array(spots)
     within = inside_polygon(room.polygon_m, points)

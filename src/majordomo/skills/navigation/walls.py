@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial import cKDTree
 
-from majordomo.scene_graph.nodes import DoorNode, DoorState, RoomNode
+from majordomo.scene_graph.nodes import DoorNode, DoorState, RoomNode, RoomStatus
 from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.skills.geometry import Box2, Points, Pose2
 
@@ -27,9 +27,10 @@ class Walls:
 
     @classmethod
     def of(cls, snapshot: Snapshot, frame: str) -> Walls:
-        """The walls of the room ``frame``, in its frame."""
+        """The walls of the room ``frame``, in its frame; none where a part of them was guessed."""
         room = snapshot.get(frame)
-        if not isinstance(room, RoomNode) or len(room.polygon_m) < MIN_CORNERS:
+        whole = isinstance(room, RoomNode) and room.status is RoomStatus.PERMANENT
+        if not isinstance(room, RoomNode) or not whole or len(room.polygon_m) < MIN_CORNERS:
             return cls(points=np.zeros((0, 2)), tree=None)
         corners = np.array(room.polygon_m)
         sides = zip(corners, np.roll(corners, -1, axis=0), strict=True)

@@ -116,6 +116,18 @@ def test_a_scan_fits_where_it_was_taken_and_not_half_a_meter_beside(sigma_m: flo
             assert fit_of(seen.outline, model, beside).explained < 0.7
 
 
+@pytest.mark.parametrize(("width_m", "alarming"), [(0.9, False), (2.4, True)], ids=["a doorway", "half a wall"])
+def test_a_doorway_without_lintel_that_nobody_has_noticed_yet_is_no_alarm(width_m: float, alarming: bool) -> None:
+    rooms = {"a": rectangle(5.0, 4.0), "b": rectangle(5.0, 4.0, x=5.2)}
+    house = House(rooms=rooms, doors=[Door(rooms=("a", "b"), center=(5.1, 2.0), width=width_m, height=2.5)])
+    model = room_model(known_house(House(rooms=rooms)).snapshot(), "room_1")
+    assert model is not None
+    pose = Pose2(2.5, 1.8, 0.2)
+    seen = sight(house, pose, np.random.default_rng(0), 0.02)
+    fit = fit_of(seen.outline, model, frame_of(rooms["a"], 1).inverse() @ pose)
+    assert (fit.passed > 0.03) is alarming
+
+
 def test_a_door_is_seen_open_and_its_mirror_image_is_strange() -> None:
     house, rng = offices(), np.random.default_rng(0)
     snapshot = known_house(house).snapshot()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import pairwise
 from math import cos, hypot, pi, sin
 
@@ -10,9 +11,11 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
+from majordomo.scene_graph.nodes import RoomStatus
 from majordomo.scene_graph.se3 import SE3
 from majordomo.skills.geometry import Box2, Pose2, inside_polygon
 from majordomo.skills.navigation.grid import Canvas
+from majordomo.skills.navigation.local_map import draw_map
 from majordomo.skills.navigation.pursuit import point_ahead
 from majordomo.skills.navigation.route import find_routes, path_length_m, sampled
 from majordomo.skills.navigation.safety import admissible
@@ -184,3 +187,15 @@ def test_a_door_gap_is_no_wall(flat):
     walls = Walls.of(flat().memory.snapshot(), "room_1").points
     assert not ((np.abs(walls[:, 1]) < 0.4) & (walls[:, 0] > 2.9)).any()
     assert ((np.abs(walls[:, 1]) > 0.5) & (walls[:, 0] > 2.9)).any()
+
+
+@pytest.mark.parametrize(("status", "free"), [(RoomStatus.PERMANENT, False), (RoomStatus.PARTIAL, True)])
+def test_a_wall_that_was_only_guessed_is_not_in_the_way(flat, status, free):
+    memory = flat().memory
+    with memory.edit("test", 0.0) as tx:
+        tx.put(replace(tx.snapshot.room("room_1"), status=status))
+    snapshot, spots = memory.snapshot(), [(0.0, 0.0), (2.0, 0.0)]
+    walls = Walls.of(snapshot, "room_1")
+    grid = draw_map(snapshot, "room_1", np.zeros((0, 2)), spots, walls=walls, stamp_s=0.0, believe_furniture=False)
+    beyond = [max(x for x, _ in snapshot.room("room_1").polygon_m) + 0.3, -1.0]
+    assert bool(grid.clearance_at(np.array([beyond]))[0] > 0.15) is free

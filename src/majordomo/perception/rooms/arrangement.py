@@ -34,7 +34,8 @@ class ArrangementSettings:
     ``gate_m``: returns this near to a line support it. ``shortest_wall_m``: least supported length of a line.
     ``separation_m``: nearer parallel lines are one. ``blocked``: share of rays ending at a place on a line that make it
     wall there; low, as most rays pass below a low lintel. ``wall``: share of a stretch that must be wall to block it.
-    ``free``: share of a cell that must have been seen through. ``views``: how many of the views are asked.
+    ``free``: share of a cell that must have been seen through, ``free_thin`` if it is thinner than ``thin_m``, as tall
+    furniture then hides most of it. ``views``: how many of the views are asked.
     ``narrowest_m``: what is narrower is no part of the room, but a door's reveal or the room
     behind it, half seen under its lintel.
     """
@@ -45,6 +46,8 @@ class ArrangementSettings:
     blocked: float = 0.2
     wall: float = 0.5
     free: float = 0.5
+    free_thin: float = 0.2
+    thin_m: float = 1.0
     free_margin_m: float = 0.06
     views: int = 24
     narrowest_m: float = 0.4
@@ -139,7 +142,7 @@ def arrange(
     blocked_x |= _portal_mask(portals, xs, ys, 0)
     blocked_y |= _portal_mask(portals, ys, xs, 1).T
     robot = turned[-1].T_frame_base.position_m
-    seen = free > settings.free
+    seen = free > np.where(_thin(xs, ys, settings.thin_m), settings.free_thin, settings.free)
     blocked_x |= _slits(seen, blocked_x, ys, settings.narrowest_m)
     blocked_y |= _slits(seen.T, blocked_y.T, xs, settings.narrowest_m).T
     inside = _flood(seen, blocked_x, blocked_y, _cell(xs, ys, robot))
@@ -258,6 +261,11 @@ def _cell(xs: Array, ys: Array, point: Array) -> tuple[int, int]:
     column = int(np.clip(np.searchsorted(xs, point[0]) - 1, 0, len(xs) - 2))
     row = int(np.clip(np.searchsorted(ys, point[1]) - 1, 0, len(ys) - 2))
     return column, row
+
+
+def _thin(xs: Array, ys: Array, thin_m: float) -> Mask:
+    """Cells that are thinner than ``thin_m`` along one of the axes."""
+    return np.minimum(np.diff(xs)[:, None], np.diff(ys)[None, :]) < thin_m
 
 
 def _slits(seen: Mask, blocked: Mask, crossing: Array, narrowest_m: float) -> Mask:

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from majordomo.perception.localization.landmarks import RoomModel, inside
 from majordomo.perception.localization.planar import Pose2
 from majordomo.perception.localization.robot_pose import RobotPose
+from majordomo.perception.rooms.hypotheses import OutlineHypotheses
 from majordomo.perception.rooms.instance import MeasuredRoom, measured_room
 from majordomo.perception.rooms.measurement import Fit, RoomMeasurement
 from majordomo.perception.rooms.slice import OutlineScan
@@ -46,6 +47,7 @@ class Survey:
 
     Attributes:
         fit: newest fit that is plausible, in the frame of the first view.
+        hypotheses: what the room may look like, with weights.
         places: vantage points proposed so far, same frame.
         known: the room that the robot came from, in its parent frame.
     """
@@ -55,6 +57,7 @@ class Survey:
         self.fit: Fit | None = None
         self.known: RoomModel | None = None
         self.places: list[Array] = []
+        self.hypotheses = OutlineHypotheses()
         self._previous: Fit | None = None
         self._measurement = RoomMeasurement()
         self._first: RobotPose | None = None
@@ -91,6 +94,7 @@ class Survey:
         fit = self._measurement.solve()
         self._previous = self.fit
         self.fit = fit if fit is not None and self._plausible(fit) else None
+        self.hypotheses.update(self.fit, self._measurement.views)
 
     def _plausible(self, fit: Fit) -> bool:
         """Whether the outline has the size of a room and the robot is in it, not in front of it."""
@@ -115,8 +119,10 @@ class Survey:
 
     @property
     def closed(self) -> bool:
-        """Whether the newest fit has walls all around."""
-        return self.fit is not None and self.fit.outline.closed and self._added >= self.settings.views
+        """Whether the newest fit has walls all around, and no other outline is nearly as likely."""
+        if self.fit is None or self._added < self.settings.views:
+            return False
+        return self.fit.outline.closed and self.hypotheses.decided(self.fit)
 
     @property
     def sufficient(self) -> bool:
@@ -159,11 +165,12 @@ class Survey:
         return Pose2(float(place[0]), float(place[1]), 0.0)
 
     def measured(self, pose: RobotPose) -> MeasuredRoom | None:
-        """The room in its own frame, with the robot at ``pose`` in it."""
-        if self.fit is None or self._first is None:
+        """The most likely room in its own frame, with the robot at ``pose`` in it."""
+        fit = self.fit if self.closed else self.hypotheses.best
+        if fit is None or self._first is None:
             return None
-        T_view_base = self.fit.views[-1].T_odom_base.inverse() @ pose.T_odom_base
-        return measured_room(self.fit, self._first.covariance, T_view_base, least_matched=self.settings.least_matched)
+        T_view_base = fit.views[-1].T_odom_base.inverse() @ pose.T_odom_base
+        return measured_room(fit, self._first.covariance, T_view_base, least_matched=self.settings.least_matched)
 
     @staticmethod
     def _now(fit: Fit, pose: RobotPose) -> Pose2:

@@ -1,0 +1,100 @@
+"""What the room may look like, as weighted particles, until what is seen decides.
+
+Each solution of the measurement that is like none before becomes a particle. All are judged by the same views, taken
+from places spread over the whole survey: an outline from an unlucky moment, half in the doorway, does not last.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from majordomo.perception.localization.alignment import Walls, align, odometry_covariance
+from majordomo.perception.rooms.measurement import Fit
+from majordomo.perception.rooms.views import View
+
+_SLACK = np.diag([0.03, 0.03, 0.02]) ** 2
+
+
+@dataclass(frozen=True, kw_only=True)
+class HypothesesSettings:
+    """``judges``: views that every hypothesis must explain. ``sharpness``: of the weights, per view fully explained.
+    ``closed``: head start of an outline with walls all around, as a share of one view. ``alike_m``: outlines whose
+    corners are nearer are one. ``kept``: particles at most; those of less than ``least`` weight are dropped.
+    """
+
+    judges: int = 6
+    sharpness: float = 4.0
+    closed: float = 0.1
+    alike_m: float = 0.15
+    kept: int = 6
+    least: float = 0.005
+    decided: float = 0.8
+
+
+@dataclass(kw_only=True)
+class Particle:
+    """One outline with the poses that belong to it, and its weight among all."""
+
+    fit: Fit
+    weight: float = 1.0
+
+
+@dataclass(kw_only=True)
+class OutlineHypotheses:
+    """The particles, most likely first."""
+
+    settings: HypothesesSettings = field(default_factory=HypothesesSettings)
+    particles: list[Particle] = field(default_factory=list)
+
+    @property
+    def best(self) -> Fit | None:
+        """The most likely outline so far."""
+        return self.particles[0].fit if self.particles else None
+
+    def decided(self, fit: Fit) -> bool:
+        """Whether the evidence is for ``fit``, and no other outline comes near."""
+        return bool(
+            self.particles
+            and self._alike(self.particles[0].fit, fit)
+            and self.particles[0].weight > self.settings.decided
+        )
+
+    def update(self, fit: Fit | None, views: Sequence[View]) -> None:
+        """Take in a new solution, if there is one, and weigh all by the views so far."""
+        if fit is not None:
+            known = next((one for one in self.particles if self._alike(one.fit, fit)), None)
+            if known is None:
+                self.particles.append(Particle(fit=fit))
+            else:
+                known.fit = fit
+        if not self.particles:
+            return
+        settings = self.settings
+        judges = [views[int(i)] for i in np.unique(np.linspace(0, len(views) - 1, settings.judges).astype(np.int64))]
+        scores = np.array([self._score(one.fit, judges) for one in self.particles]) * settings.sharpness
+        weights = np.exp(scores - scores.max())
+        for one, weight in zip(self.particles, weights / weights.sum(), strict=True):
+            one.weight = float(weight)
+        self.particles.sort(key=lambda one: -one.weight)
+        self.particles = [one for one in self.particles[: settings.kept] if one.weight > settings.least]
+
+    def _score(self, fit: Fit, judges: Sequence[View]) -> float:
+        """How many of the views the outline explains, each by its share of returns on walls."""
+        walls, last = Walls.of_polygon(fit.outline.polygon), fit.views[-1]
+        total = self.settings.closed if fit.outline.closed else 0.0
+        for view in judges:
+            moved = last.T_odom_base.inverse() @ view.T_odom_base
+            guess = last.T_frame_base @ moved
+            found = align(view.scan.points_base, walls, guess, odometry_covariance(moved) + _SLACK)
+            total += found.matched if found is not None else 0.0
+        return total
+
+    def _alike(self, one: Fit, other: Fit) -> bool:
+        first, second = one.outline.polygon, other.outline.polygon
+        if first.shape != second.shape:
+            return False
+        apart = np.linalg.norm(first[:, None] - second[None], axis=2).min(axis=1)
+        return bool(apart.max() < self.settings.alike_m)

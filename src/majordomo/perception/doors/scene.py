@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from majordomo.perception.doors.evidence import Gap
+from majordomo.perception.doors.hanging import doors_in
 from majordomo.perception.doors.insertion import wall_id_of
 from majordomo.perception.doors.room_watch import RoomWatch, Span
 from majordomo.perception.localization.landmarks import RoomModel
@@ -36,13 +37,9 @@ class Scene:
         found: list[tuple[DoorNode, int, Span]] = []
         for wall in range(len(self.room.polygon)):
             wall_id = wall_id_of(self.room.room_id, wall)
-            if wall_id not in self.snapshot:
-                continue
-            for child in self.snapshot.children(wall_id):
-                door, edge = self.snapshot.get(child), self.snapshot.parent(child)
-                if isinstance(door, DoorNode) and edge is not None:
-                    center_m = edge.T_source_target.x_m + self.wall_length_m(wall) / 2.0
-                    found.append((door, wall, Span(center_m=center_m, width_m=door.width_m)))
+            for door, station_m in doors_in(self.snapshot, wall_id):
+                center_m = station_m + self.wall_length_m(wall) / 2.0
+                found.append((door, wall, Span(center_m=center_m, width_m=door.width_m)))
         return found
 
     def unexplained(self) -> list[tuple[int, Gap]]:

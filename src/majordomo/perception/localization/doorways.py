@@ -11,12 +11,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from majordomo.perception.doors.hanging import doors_in
 from majordomo.perception.doors.wall_rays import WallRays, rays_by_wall
 from majordomo.perception.localization.alignment import Walls
 from majordomo.perception.localization.landmarks import RoomModel
 from majordomo.perception.localization.planar import Pose2
 from majordomo.perception.ports import LidarScan
-from majordomo.scene_graph.nodes import DoorNode, DoorState
+from majordomo.scene_graph.nodes import DoorState
 from majordomo.scene_graph.snapshot import Snapshot
 
 Array = NDArray[np.float64]
@@ -66,11 +67,9 @@ def doorway_model(snapshot: Snapshot, room: RoomModel) -> DoorwayModel:
     wall_ids = [f"wall_{number}_{k}" for k in range(len(room.polygon))]
     found: list[Doorway] = []
     for k, wall_id in enumerate(wall_ids):
-        for child in snapshot.children(wall_id) if wall_id in snapshot else ():
-            door, edge = snapshot.get(child), snapshot.parent(child)
-            if isinstance(door, DoorNode) and edge is not None:
-                center_m = float(edge.T_source_target.x_m + walls.length_m[k] / 2.0)
-                found.append(Doorway(wall=k, center_m=center_m, width_m=door.width_m, state=door.state))
+        for door, station_m in doors_in(snapshot, wall_id):
+            center_m = float(station_m + walls.length_m[k] / 2.0)
+            found.append(Doorway(wall=k, center_m=center_m, width_m=door.width_m, state=door.state))
     return DoorwayModel(walls=walls, known=tuple(w in snapshot for w in wall_ids), doorways=tuple(found))
 
 

@@ -8,11 +8,12 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from majordomo.perception.doors.hanging import doors_in
 from majordomo.perception.localization.alignment import Walls
 from majordomo.perception.localization.planar import Pose2
 from majordomo.perception.localization.window import LandmarkSighting
 from majordomo.perception.rooms.corners import CornerSighting
-from majordomo.scene_graph.nodes import DoorNode, RoomNode, RoomStatus
+from majordomo.scene_graph.nodes import RoomNode, RoomStatus
 from majordomo.scene_graph.snapshot import Snapshot
 
 Array = NDArray[np.float64]
@@ -65,14 +66,10 @@ def room_model(snapshot: Snapshot, room_id: str | None) -> RoomModel | None:
 def _openings(snapshot: Snapshot, number: str, polygon: Array) -> Array:
     found: list[Array] = []
     for k, (start, end) in enumerate(zip(polygon, np.roll(polygon, -1, axis=0), strict=True)):
-        if f"wall_{number}_{k}" not in snapshot:
-            continue
-        for child in snapshot.children(f"wall_{number}_{k}"):
-            door, edge = snapshot.get(child), snapshot.parent(child)
-            if isinstance(door, DoorNode) and edge is not None:
-                along = (end - start) / np.linalg.norm(end - start)
-                center = (start + end) / 2.0 + edge.T_source_target.x_m * along
-                found.append(center + np.array([[-0.5], [0.5]]) * door.width_m * along)
+        for door, station_m in doors_in(snapshot, f"wall_{number}_{k}"):
+            along = (end - start) / np.linalg.norm(end - start)
+            center = (start + end) / 2.0 + station_m * along
+            found.append(center + np.array([[-0.5], [0.5]]) * door.width_m * along)
     return np.array(found).reshape(-1, 2, 2)
 
 

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from majordomo.perception.crossing import cross_affordance, match_of, move_robot
+from majordomo.perception.doors.hanging import doors_in
 from majordomo.perception.doors.insertion import WIDEST_DOOR_M
 from majordomo.perception.localization.planar import Pose2, diagonal_covariance, spatial_covariance
 from majordomo.perception.rooms.fitness import OutlineFitness, Stretch
@@ -64,13 +65,11 @@ def missing_walls(snapshot: Snapshot, room_id: str, fitness: OutlineFitness) -> 
 
 def _door_spans(snapshot: Snapshot, wall_id: str, length_m: float) -> list[tuple[float, float]]:
     """Where doors begin and end along a wall, in meters from its start."""
-    spans: list[tuple[float, float]] = []
-    for child in snapshot.children(wall_id):
-        door, edge = snapshot.get(child), snapshot.parent(child)
-        if isinstance(door, DoorNode) and edge is not None:
-            center_m = edge.T_source_target.x_m + length_m / 2.0
-            spans.append((center_m - door.width_m / 2.0, center_m + door.width_m / 2.0))
-    return spans
+    middle_m = length_m / 2.0
+    return [
+        (middle_m + station_m - door.width_m / 2.0, middle_m + station_m + door.width_m / 2.0)
+        for door, station_m in doors_in(snapshot, wall_id)
+    ]
 
 
 def take_back(tx: Transaction, room_id: str) -> None:
@@ -99,8 +98,7 @@ def revise_room(
     doors = [
         (door, Pose2.from_se3(snapshot.transform(room_id, door.id)))
         for wall_id in walls
-        for door in map(snapshot.get, snapshot.children(wall_id))
-        if isinstance(door, DoorNode)
+        for door, _ in doors_in(snapshot, wall_id)
     ]
     tx.put(*(_like(before, element) if isinstance(element, RoomNode) else element for element in elements))
     for door, T_room_door in doors:

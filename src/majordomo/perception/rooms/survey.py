@@ -119,10 +119,8 @@ class Survey:
 
     @property
     def closed(self) -> bool:
-        """Whether the newest fit has walls all around, and no other outline is nearly as likely."""
-        if self.fit is None or self._added < self.settings.views:
-            return False
-        return self.fit.outline.closed and self.hypotheses.decided(self.fit)
+        """Whether the newest fit has walls all around."""
+        return self.fit is not None and self.fit.outline.closed and self._added >= self.settings.views
 
     @property
     def sufficient(self) -> bool:
@@ -166,7 +164,7 @@ class Survey:
 
     def measured(self, pose: RobotPose) -> MeasuredRoom | None:
         """The most likely room in its own frame, with the robot at ``pose`` in it."""
-        fit = self.fit if self.closed else self.hypotheses.best
+        fit = self.fit or self.hypotheses.best
         if fit is None or self._first is None:
             return None
         T_view_base = fit.views[-1].T_odom_base.inverse() @ pose.T_odom_base

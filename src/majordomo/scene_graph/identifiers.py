@@ -30,6 +30,21 @@ def slug(label: str) -> str:
     return _NOT_WORD.sub("_", label.lower()).strip("_") or "object"
 
 
+def room_number(room_id: str) -> str:
+    """What the identifiers of a room's walls, corners and doors begin with after their kind: ``2`` of ``room_2``."""
+    return room_id.rsplit("_", 1)[-1]
+
+
+def wall_id_of(room_id: str, wall: int) -> str:
+    """Identifier of a room's wall: ``wall_2_0`` is the first of ``room_2``."""
+    return f"wall_{room_number(room_id)}_{wall}"
+
+
+def corner_id_of(room_id: str, wall: int) -> str:
+    """Identifier of the corner where a room's wall begins."""
+    return f"corner_{room_number(room_id)}_{wall}"
+
+
 @runtime_checkable
 class PartOfAll(Protocol):
     """A part of what is known, such as a snapshot of working memory; ``elsewhere`` holds the other identifiers."""

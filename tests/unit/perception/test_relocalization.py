@@ -105,15 +105,16 @@ def test_a_scan_fits_where_it_was_taken_and_not_half_a_meter_beside(sigma_m: flo
     for number, name in enumerate(house.rooms, start=1):
         model = room_model(snapshot, f"room_{number}")
         assert model is not None
+        openings = doorway_model(snapshot, model).openings
         for pose in places(house, name, rng, 4):
             if distance_to_outline(house.rooms[name], pose.position_m) < 0.6:
                 continue
             seen = sight(house, pose, rng, sigma_m)
             here = frame_of(house.rooms[name], number).inverse() @ pose
-            assert fit_of(seen.outline, model, here).explained > 0.9
-            assert fit_of(seen.outline, model, here).passed < 0.01
+            assert fit_of(seen.outline, model.walls, openings, here).explained > 0.9
+            assert fit_of(seen.outline, model.walls, openings, here).passed < 0.01
             beside = here @ Pose2(0.35, 0.35, 0.0)
-            assert fit_of(seen.outline, model, beside).explained < 0.7
+            assert fit_of(seen.outline, model.walls, openings, beside).explained < 0.7
 
 
 @pytest.mark.parametrize(("width_m", "alarming"), [(0.9, False), (2.4, True)], ids=["a doorway", "half a wall"])
@@ -124,7 +125,7 @@ def test_a_doorway_without_lintel_that_nobody_has_noticed_yet_is_no_alarm(width_
     assert model is not None
     pose = Pose2(2.5, 1.8, 0.2)
     seen = sight(house, pose, np.random.default_rng(0), 0.02)
-    fit = fit_of(seen.outline, model, frame_of(rooms["a"], 1).inverse() @ pose)
+    fit = fit_of(seen.outline, model.walls, np.empty((0, 2, 2)), frame_of(rooms["a"], 1).inverse() @ pose)
     assert (fit.passed > 0.03) is alarming
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from majordomo.perception.localization.planar import Pose2
-from majordomo.perception.rooms.fitness import OutlineFitness
+from majordomo.perception.rooms.outline_fitness import OutlineFitness
 from majordomo.perception.rooms.slice import OutlineSlicer
 from majordomo.scene_graph.memory import WorkingMemory
 from majordomo.scene_graph.nodes import ROBOT_ID, ROOT_ID, DoorNode, RoomNode, RoomStatus, WallNode

@@ -14,7 +14,6 @@ from majordomo.perception.doors.insertion import (
     is_suspicion,
     put_provisional,
     put_suspected,
-    wall_id_of,
 )
 from majordomo.perception.doors.room_watch import RoomWatch
 from majordomo.perception.doors.scene import NARROWEST_DOOR_M, Scene
@@ -23,6 +22,7 @@ from majordomo.perception.lifecycle import LifeCycle, Verdict
 from majordomo.perception.localization.landmarks import room_model
 from majordomo.perception.localization.robot_pose import robot_pose_at
 from majordomo.perception.sensing import SensorBuffer
+from majordomo.scene_graph.identifiers import wall_id_of
 from majordomo.scene_graph.memory import WorkingMemory
 from majordomo.scene_graph.nodes import DoorNode
 from majordomo.scene_graph.snapshot import Snapshot

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from scipy.ndimage import binary_dilation
 
 from majordomo.perception.doors.wall_rays import WallRays
+from majordomo.perception.runs import runs
 
 Array = NDArray[np.float64]
 
@@ -110,7 +111,7 @@ class WallEvidence:
         settings = settings or GapSettings()
         state = self._states(settings)
         found: list[Gap] = []
-        for start, end in _runs(state == 1):
+        for start, end in runs(state == 1):
             gap = Gap(
                 start_m=start * _BIN_M,
                 end_m=min(end * _BIN_M, self.length_m),
@@ -138,7 +139,7 @@ class WallEvidence:
             first, last = round((start_m - _FRAME_M) / _BIN_M), round((end_m + _FRAME_M) / _BIN_M)
             hidden[max(first, 0) : max(last, 0)] = False
         found: list[Gap] = []
-        for start, end in _runs(hidden):
+        for start, end in runs(hidden):
             gap = Gap(start_m=start * _BIN_M, end_m=min(end * _BIN_M, self.length_m))
             in_the_dark_m = float(dark[start:end].sum()) * _BIN_M
             if gap.width_m > settings.hiding_m and in_the_dark_m > settings.dark_m:
@@ -188,9 +189,3 @@ class WallEvidence:
             low_hit=np.concatenate([rays.low_hit[near] for rays, near in parts]),
             blocked_m=np.empty(0),
         )
-
-
-def _runs(mask: NDArray[np.bool_]) -> list[tuple[int, int]]:
-    """Start and end (exclusive) of the runs of true."""
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], mask, [False]]).astype(np.int8)))
-    return [(int(start), int(end)) for start, end in zip(edges[::2], edges[1::2], strict=True)]

@@ -18,6 +18,7 @@ from majordomo.scene_graph.edges import (
     Priority,
     RtEdge,
 )
+from majordomo.scene_graph.identifiers import room_number, wall_id_of
 from majordomo.scene_graph.memory import Transaction
 from majordomo.scene_graph.nodes import ROBOT_ID, AffordanceKind, AffordanceNode, DoorNode, DoorState
 from majordomo.scene_graph.se3 import SE3
@@ -31,16 +32,11 @@ _SUFFIX = "_pre"
 
 def free_door_id(snapshot: Snapshot, room_id: str, wall: int) -> str:
     """``door_<room>_<wall>_<k>`` with the first number that neither a provisional nor a permanent door has."""
-    stem = f"door_{room_id.rsplit('_', 1)[-1]}_{wall}_"
+    stem = f"door_{room_number(room_id)}_{wall}_"
     number = 0
     while f"{stem}{number}" in snapshot or f"{stem}{number}{_SUFFIX}" in snapshot:
         number += 1
     return f"{stem}{number}"
-
-
-def wall_id_of(room_id: str, wall: int) -> str:
-    """Identifier of a room's wall."""
-    return f"wall_{room_id.rsplit('_', 1)[-1]}_{wall}"
 
 
 def hang(door_id: str, wall_id: str, wall_length_m: float, gap: MeasuredGap, stamp_s: float) -> RtEdge:

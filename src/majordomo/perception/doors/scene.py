@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 from majordomo.perception.doors.evidence import Gap
 from majordomo.perception.doors.hanging import doors_in
-from majordomo.perception.doors.insertion import wall_id_of
 from majordomo.perception.doors.room_watch import RoomWatch, Span
 from majordomo.perception.localization.landmarks import RoomModel
+from majordomo.scene_graph.identifiers import wall_id_of
 from majordomo.scene_graph.nodes import DoorNode
 from majordomo.scene_graph.snapshot import Snapshot
 

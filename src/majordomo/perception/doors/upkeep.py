@@ -6,10 +6,11 @@ import logging
 from dataclasses import dataclass, replace
 
 from majordomo.perception.crossing import DOOR_AGENT, given_up, match_of, uncrossed
-from majordomo.perception.doors.insertion import door_label, hang, is_suspicion, measured_confidence, wall_id_of
+from majordomo.perception.doors.insertion import door_label, hang, is_suspicion, measured_confidence
 from majordomo.perception.doors.posts import MeasuredGap
 from majordomo.perception.doors.room_watch import Span
 from majordomo.perception.doors.scene import NARROWEST_DOOR_M, Scene
+from majordomo.scene_graph.identifiers import wall_id_of
 from majordomo.scene_graph.memory import WorkingMemory
 from majordomo.scene_graph.nodes import CrossingStatus, DoorNode, DoorState
 from majordomo.scene_graph.snapshot import Snapshot

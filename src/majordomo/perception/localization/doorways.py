@@ -7,6 +7,7 @@ a pose; wall where it has a door speaks weakly, since doors get closed.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +18,7 @@ from majordomo.perception.localization.alignment import Walls
 from majordomo.perception.localization.landmarks import RoomModel
 from majordomo.perception.localization.planar import Pose2
 from majordomo.perception.ports import LidarScan
+from majordomo.scene_graph.identifiers import wall_id_of
 from majordomo.scene_graph.nodes import DoorState
 from majordomo.scene_graph.snapshot import Snapshot
 
@@ -48,6 +50,17 @@ class DoorwayModel:
     known: tuple[bool, ...]
     doorways: tuple[Doorway, ...]
 
+    @cached_property
+    def openings(self) -> Array:
+        """(D, 2, 2) ends of the gaps where doors are known or presumed, room frame; some are as high as the walls."""
+        ends = np.array([[-0.5], [0.5]])
+        return np.array(
+            [
+                self.walls.start[door.wall] + (door.center_m + ends * door.width_m) * self.walls.along[door.wall]
+                for door in self.doorways
+            ]
+        ).reshape(-1, 2, 2)
+
 
 @dataclass(frozen=True, kw_only=True)
 class DoorwayFit:
@@ -63,8 +76,7 @@ class DoorwayFit:
 def doorway_model(snapshot: Snapshot, room: RoomModel) -> DoorwayModel:
     """The doors of a room as the graph has them, provisional ones included."""
     walls = Walls.of_polygon(room.polygon)
-    number = room.room_id.rsplit("_", 1)[-1]
-    wall_ids = [f"wall_{number}_{k}" for k in range(len(room.polygon))]
+    wall_ids = [wall_id_of(room.room_id, k) for k in range(len(room.polygon))]
     found: list[Doorway] = []
     for k, wall_id in enumerate(wall_ids):
         for door, station_m in doors_in(snapshot, wall_id):

@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from majordomo.perception.localization.alignment import Walls
-from majordomo.perception.localization.landmarks import RoomModel
 from majordomo.perception.localization.planar import Pose2
 from majordomo.perception.rooms.slice import OutlineScan
+from majordomo.perception.runs import runs
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -54,14 +54,19 @@ class FitSettings:
     gate: float = 3.0
 
 
-def fit_of(scan: OutlineScan, room: RoomModel, T_room_base: Pose2, settings: FitSettings | None = None) -> ScanFit:
-    """How well ``scan``, taken at ``T_room_base``, agrees with ``room``; nothing explained when too little returned."""
+def fit_of(
+    scan: OutlineScan, walls: Walls, openings: Array, T_room_base: Pose2, settings: FitSettings | None = None
+) -> ScanFit:
+    """How well ``scan``, taken at ``T_room_base``, agrees with a room; nothing explained when too little returned.
+
+    ``openings``: (D, 2, 2) ends of the gaps in its ``walls``.
+    """
     settings = settings or FitSettings()
     origin = T_room_base.apply(scan.origin_base)
     azimuths_rad = scan.azimuths_rad + T_room_base.yaw_rad
-    nearest, farthest, incidence = expected_ranges(room.walls, origin, azimuths_rad)
+    nearest, farthest, incidence = expected_ranges(walls, origin, azimuths_rad)
     measured = scan.ranges_m
-    may_pass = (nearest <= scan.blind_m + _BLIND_MARGIN_M) | _at_openings(room.openings, origin, azimuths_rad, nearest)
+    may_pass = (nearest <= scan.blind_m + _BLIND_MARGIN_M) | _at_openings(openings, origin, azimuths_rad, nearest)
     below_lintel = may_pass & (measured > farthest + settings.through_m)
     tells = np.isfinite(measured) & np.isfinite(farthest) & ~below_lintel
     if tells.sum() < _FEWEST_RETURNS:
@@ -88,9 +93,8 @@ def _unknown_doorways(passed: Mask, explained: Mask, hits: Array) -> Mask:
     It is no wider than a door, and rays end as expected on both sides of it; few of them can be new at once.
     """
     doubtful = np.zeros(len(passed), dtype=bool)
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], passed, [False]]).astype(np.int8)))
     found = 0
-    for first, last in zip(edges[::2], edges[1::2], strict=True):
+    for first, last in runs(passed):
         width_m = float(np.linalg.norm(hits[last - 1] - hits[first]))
         beside = explained[max(0, first - _BESIDE) : first].any() and explained[last : last + _BESIDE].any()
         if width_m < _WIDEST_DOOR_M and beside and found < _NEW_DOORS:

@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
-from majordomo.perception.doors.hanging import doors_in
 from majordomo.perception.localization.alignment import Walls
 from majordomo.perception.localization.planar import Pose2
 from majordomo.perception.localization.window import LandmarkSighting
 from majordomo.perception.rooms.corners import CornerSighting
-from majordomo.scene_graph.nodes import RoomNode, RoomStatus
+from majordomo.scene_graph.identifiers import wall_id_of
+from majordomo.scene_graph.nodes import Point2, RoomNode, RoomStatus
 from majordomo.scene_graph.snapshot import Snapshot
 
 Array = NDArray[np.float64]
@@ -24,15 +25,11 @@ _SIGHTING_FLOOR_M = 0.008
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class RoomModel:
-    """What the scan should show in a room: its wall faces and corners, room frame.
-
-    ``openings``: (D, 2, 2) ends of the gaps where doors are known or presumed; some are as high as the walls.
-    """
+    """What the scan should show in a room: its wall faces and corners, room frame."""
 
     room_id: str
     polygon: Array
     walls: Walls
-    openings: Array = field(default_factory=lambda: np.empty((0, 2, 2)))
 
     def contains(self, point: Array) -> bool:
         """Whether (2,) ``point`` lies inside the outline."""
@@ -52,25 +49,15 @@ def room_model(snapshot: Snapshot, room_id: str | None) -> RoomModel | None:
     room = snapshot.get(room_id) if room_id is not None else None
     if not isinstance(room, RoomNode) or room.status is RoomStatus.TEMPORARY or len(room.polygon_m) < 3:
         return None
-    polygon = np.array(room.polygon_m)
-    number = room.id.rsplit("_", 1)[-1]
-    known = np.array([f"wall_{number}_{k}" in snapshot for k in range(len(polygon))])
-    return RoomModel(
-        room_id=room.id,
-        polygon=polygon,
-        walls=Walls.of_polygon(polygon, known),
-        openings=_openings(snapshot, number, polygon),
-    )
+    known = tuple(wall_id_of(room.id, k) in snapshot for k in range(len(room.polygon_m)))
+    return _model_of(room.id, room.polygon_m, known)
 
 
-def _openings(snapshot: Snapshot, number: str, polygon: Array) -> Array:
-    found: list[Array] = []
-    for k, (start, end) in enumerate(zip(polygon, np.roll(polygon, -1, axis=0), strict=True)):
-        for door, station_m in doors_in(snapshot, f"wall_{number}_{k}"):
-            along = (end - start) / np.linalg.norm(end - start)
-            center = (start + end) / 2.0 + station_m * along
-            found.append(center + np.array([[-0.5], [0.5]]) * door.width_m * along)
-    return np.array(found).reshape(-1, 2, 2)
+@lru_cache(maxsize=256)
+def _model_of(room_id: str, polygon_m: tuple[Point2, ...], known: tuple[bool, ...]) -> RoomModel:
+    polygon = np.array(polygon_m)
+    polygon.setflags(write=False)
+    return RoomModel(room_id=room_id, polygon=polygon, walls=Walls.of_polygon(polygon, np.array(known)))
 
 
 def match_corners(

@@ -122,8 +122,9 @@ class Relocalization:
         if pose is None or room is None or depth_m < 0.0 or door_being_crossed(snapshot) is not None:
             self._monitor.rest(stamp_scan_s)
         else:
-            fit = fit_of(sight.outline, room, pose.T_parent_base)
-            doorways = doorway_fit(sight.scan, doorway_model(snapshot, room), pose.T_parent_base)
+            doors = doorway_model(snapshot, room)
+            fit = fit_of(sight.outline, room.walls, doors.openings, pose.T_parent_base)
+            doorways = doorway_fit(sight.scan, doors, pose.T_parent_base)
             self._monitor.add(room.room_id, depth_m, fit, doorways, stamp_scan_s)
         carried = self._view.changed(sight, self._settings)
         if self._view.broken:

@@ -156,7 +156,7 @@ def _judged(
         way_m = float(np.hypot(moved.x_m, moved.y_m))
         fit_settings = FitSettings(slack_m=FitSettings().slack_m + _DRIFT_PER_M * way_m)
         T_room_base = aligned.pose @ moved
-        fits.append(fit_of(sight.outline, known.room, T_room_base, fit_settings))
+        fits.append(fit_of(sight.outline, known.room.walls, known.doors.openings, T_room_base, fit_settings))
         if fits[-1].explained < settings.plausible:
             return None
         doorways.append(doorway_fit(sight.scan, known.doors, T_room_base))

@@ -7,11 +7,12 @@ from dataclasses import replace
 import numpy as np
 
 from majordomo.perception.crossing import cross_affordance, match_key
-from majordomo.perception.doors.insertion import door_label, free_door_id, hang, wall_id_of
+from majordomo.perception.doors.insertion import door_label, free_door_id, hang
 from majordomo.perception.doors.posts import MeasuredGap
 from majordomo.perception.localization.landmarks import RoomModel
 from majordomo.perception.memory.dual import SeenFrom
 from majordomo.scene_graph.edges import ConnectsEdge, EdgeType, HasEdge, MatchEdge
+from majordomo.scene_graph.identifiers import wall_id_of
 from majordomo.scene_graph.memory import Transaction
 from majordomo.scene_graph.nodes import AffordanceKind, AffordanceNode, CrossingStatus, DoorNode
 from majordomo.scene_graph.snapshot import Snapshot

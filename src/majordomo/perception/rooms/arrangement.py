@@ -18,8 +18,10 @@ from numpy.typing import NDArray
 
 from majordomo.perception.localization.planar import Pose2
 from majordomo.perception.rooms.facets import Facets
-from majordomo.perception.rooms.portals import STATION_STEP_M, LineProfile, Portal, end_of_wall, find_portals
+from majordomo.perception.rooms.line_profile import STATION_STEP_M, LineProfile, end_of_wall
+from majordomo.perception.rooms.portals import Portal, find_portals
 from majordomo.perception.rooms.views import View
+from majordomo.perception.runs import runs
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -289,8 +291,7 @@ def _wide_enough(inside: Mask, offsets: Array, narrowest_m: float) -> Mask:
     """Cells whose run of inside cells along the first axis is at least ``narrowest_m`` long."""
     wide = np.zeros_like(inside)
     for row in range(inside.shape[1]):
-        edges = np.flatnonzero(np.diff(np.concatenate([[False], inside[:, row], [False]]).astype(np.int8)))
-        for first, last in zip(edges[::2], edges[1::2], strict=True):
+        for first, last in runs(inside[:, row]):
             wide[first:last, row] = offsets[last] - offsets[first] >= narrowest_m
     return wide
 

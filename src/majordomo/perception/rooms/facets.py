@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from majordomo.perception.localization.planar import Pose2
 from majordomo.perception.rooms.views import View
+from majordomo.perception.runs import runs
 
 Array = NDArray[np.float64]
 
@@ -57,12 +58,8 @@ class Facets:
 
 def longest_gap(seen: NDArray[np.bool_]) -> tuple[int, int]:
     """First bin and number of bins of the longest unseen run."""
-    edges = np.flatnonzero(np.diff(np.concatenate([[True], seen, [True]]).astype(np.int8)))
-    starts, ends = edges[::2], edges[1::2]
-    if len(starts) == 0:
-        return 0, 0
-    longest = int(np.argmax(ends - starts))
-    return int(starts[longest]), int(ends[longest] - starts[longest])
+    first, last = max(runs(~seen), key=lambda run: run[1] - run[0], default=(0, 0))
+    return first, last - first
 
 
 def sort_by_axis(views: Sequence[View], direction_rad: float) -> tuple[Facets, Facets]:

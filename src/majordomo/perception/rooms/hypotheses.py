@@ -31,7 +31,6 @@ class HypothesesSettings:
     alike_m: float = 0.15
     kept: int = 6
     least: float = 0.005
-    decided: float = 0.8
 
 
 @dataclass(kw_only=True)
@@ -51,25 +50,24 @@ class OutlineHypotheses:
 
     @property
     def best(self) -> Fit | None:
-        """The most likely outline so far."""
+        """The most likely outline when they were last weighed."""
         return self.particles[0].fit if self.particles else None
 
-    def decided(self, fit: Fit) -> bool:
-        """Whether the evidence is for ``fit``, and no other outline comes near."""
-        return bool(
-            self.particles
-            and self._alike(self.particles[0].fit, fit)
-            and self.particles[0].weight > self.settings.decided
-        )
+    @property
+    def crowded(self) -> bool:
+        """Whether there are more particles than are kept, so that it is time to weigh them."""
+        return len(self.particles) > self.settings.kept
 
-    def update(self, fit: Fit | None, views: Sequence[View]) -> None:
-        """Take in a new solution, if there is one, and weigh all by the views so far."""
-        if fit is not None:
-            known = next((one for one in self.particles if self._alike(one.fit, fit)), None)
-            if known is None:
-                self.particles.append(Particle(fit=fit))
-            else:
-                known.fit = fit
+    def add(self, fit: Fit) -> None:
+        """Take in a new solution: it renews the particle that it is like, or is one more."""
+        known = next((one for one in self.particles if self._alike(one.fit, fit)), None)
+        if known is None:
+            self.particles.append(Particle(fit=fit))
+        else:
+            known.fit = fit
+
+    def weigh(self, views: Sequence[View]) -> None:
+        """Weigh all by the views so far, most likely first; those that explain them too poorly are dropped."""
         if not self.particles:
             return
         settings = self.settings

@@ -14,6 +14,7 @@ from majordomo.perception.localization.planar import Pose2, spatial_covariance
 from majordomo.perception.rooms.measurement import Fit
 from majordomo.perception.rooms.outline import Outline, wall_lengths
 from majordomo.scene_graph.edges import RtEdge
+from majordomo.scene_graph.identifiers import corner_id_of, wall_id_of
 from majordomo.scene_graph.nodes import CornerNode, RoomNode, RoomStatus, WallNode
 from majordomo.scene_graph.se3 import SE3
 
@@ -111,7 +112,6 @@ def room_elements(
     room: MeasuredRoom, room_id: str, *, status: RoomStatus, height_m: float, stamp_s: float
 ) -> list[RoomNode | WallNode | CornerNode | RtEdge]:
     """Room, walls and corners with the edges that hang them, without the room's own ``rt`` edge."""
-    number = room_id.rsplit("_", 1)[-1]
     polygon = room.polygon
     elements: list[RoomNode | WallNode | CornerNode | RtEdge] = [
         RoomNode(
@@ -124,12 +124,12 @@ def room_elements(
     ]
     for k in range(len(polygon)):
         if status is RoomStatus.PERMANENT or room.wall_seen[k] > _SEEN_WALL:
-            elements += _wall_elements(room, room_id, number, k, stamp_s)
+            elements += _wall_elements(room, room_id, k, stamp_s)
     return elements
 
 
 def _wall_elements(
-    room: MeasuredRoom, room_id: str, number: str, k: int, stamp_s: float
+    room: MeasuredRoom, room_id: str, k: int, stamp_s: float
 ) -> list[RoomNode | WallNode | CornerNode | RtEdge]:
     start, end = room.polygon[k], room.polygon[(k + 1) % len(room.polygon)]
     along = end - start
@@ -138,7 +138,7 @@ def _wall_elements(
     middle = (start + end) / 2.0
     std = float(room.wall_std_m[k]) + 0.001
     covariance = spatial_covariance(np.diag([std, std, 2.0 * std / max(length_m, 0.2)]) ** 2)
-    wall_id, corner_id = f"wall_{number}_{k}", f"corner_{number}_{k}"
+    wall_id, corner_id = wall_id_of(room_id, k), corner_id_of(room_id, k)
     return [
         WallNode(
             id=wall_id,

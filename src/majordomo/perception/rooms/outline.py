@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from majordomo.perception.localization.planar import Pose2
 from majordomo.perception.rooms.arrangement import Arrangement, ArrangementSettings, arrange
 from majordomo.perception.rooms.facets import Facets, longest_gap, sort_by_axis
-from majordomo.perception.rooms.portals import STATION_STEP_M, Portal
+from majordomo.perception.rooms.line_profile import STATION_STEP_M
+from majordomo.perception.rooms.portals import Portal
 from majordomo.perception.rooms.views import View, dominant_direction
 
 Array = NDArray[np.float64]

@@ -14,20 +14,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from majordomo.perception.rooms.facets import Facets
+from majordomo.perception.rooms.line_profile import END_M, STATION_STEP_M, LineProfile, end_of_wall
 from majordomo.perception.rooms.views import View
+from majordomo.perception.runs import runs
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
-STATION_STEP_M = 0.1
-_GRAZING = 0.12  # cosine of incidence below which a ray says nothing about passing a line
 _BEHIND_M = (0.5, 0.6, 0.7, 0.8)
 _BESIDE_M = (0.06, 0.12, 0.2, 0.3, 0.4)
 _LEAST_SEEN = 2
 _NARROWEST_M = 0.5
 _VAGUE = 4  # stations
-_AGREE = 0.7
-_END_M = 0.3
 _CORNER_M = 0.15
 _CLEAR_M = 0.1
 _RETURNS_OF_WALL = 5
@@ -50,55 +48,6 @@ class Portal:
         return shared_m > 0.6 * (end_m - start_m)
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
-class LineProfile:
-    """What rays did along parallel lines across ``axis``.
-
-    ``lines``: (L,) offsets; ``stations``: (S,) along them. ``ending``, ``passing``: (L, S) how many views saw a ray end
-    there, and pass. ``towards``: (L, S) sum of the signs of the ending rays' directions across the line.
-    """
-
-    axis: int
-    lines: Array
-    stations: Array
-    ending: Array
-    passing: Array
-    towards: Array
-
-    @classmethod
-    def of(cls, views: Sequence[View], lines: Array, stations: Array, axis: int, gate_m: float) -> LineProfile:
-        """Ask all views about all stations."""
-        points = np.empty((len(lines), len(stations), 2))
-        points[..., axis] = lines[:, None]
-        points[..., 1 - axis] = stations[None, :]
-        ending, passing, towards = (np.zeros(points.shape[:2]) for _ in range(3))
-        for view in views:
-            beyond, direction, distance = view.beyond(points.reshape(-1, 2))
-            incidence = np.abs(direction[:, axis])
-            tells = (incidence > _GRAZING) & (distance > view.scan.blind_m + gate_m)
-            clearance = np.where(tells, beyond * incidence, np.nan).reshape(ending.shape)
-            with np.errstate(invalid="ignore"):
-                ended = np.abs(clearance) <= gate_m
-                passing += clearance > gate_m
-            ending += ended
-            towards += np.where(ended, np.sign(direction[:, axis]).reshape(ending.shape), 0.0)
-        return cls(axis=axis, lines=lines, stations=stations, ending=ending, passing=passing, towards=towards)
-
-    @property
-    def told(self) -> Mask:
-        """(L, S) where any ray says something."""
-        return np.asarray(self.ending + self.passing > 0.0)
-
-    def faces(self, line: int, stations: slice) -> float:
-        """1 or -1: which way the rays go that end on a stretch of a line; 0 when they do not agree."""
-        towards, ended = float(self.towards[line, stations].sum()), float(self.ending[line, stations].sum())
-        return float(np.sign(towards)) if abs(towards) > _AGREE * ended else 0.0
-
-    def wall(self, blocked: float) -> Mask:
-        """(L, S) where more than ``blocked`` of the rays end."""
-        return np.asarray(self.told & (self.ending > blocked * (self.ending + self.passing)))
-
-
 def find_portals(
     views: Sequence[View], profile: LineProfile, facets: Facets, crossing: Facets, *, blocked: float, gate_m: float
 ) -> list[Portal]:
@@ -112,13 +61,13 @@ def find_portals(
         on_line = facets.near(float(offset), gate_m)
         across = crossing.between(float(offset) - gate_m, float(offset) + gate_m)
         wall = ends[k] & (_returns(on_line.station_m, profile.stations) > _returns(across.offset_m, profile.stations))
-        for first, last in _runs(told[k] & ~ends[k]):
+        for first, last in runs(told[k] & ~ends[k]):
             low_m, high_m = profile.stations[[first, last - 1]] + np.array([-0.5, 0.5]) * STATION_STEP_M
             portal = Portal(
                 axis=profile.axis,
                 offset_m=float(offset),
-                low_m=end_of_wall(on_line, float(low_m), wall_first=True) or float(low_m),
-                high_m=end_of_wall(on_line, float(high_m), wall_first=False) or float(high_m),
+                low_m=_end(on_line, float(low_m), wall_first=True),
+                high_m=_end(on_line, float(high_m), wall_first=False),
             )
             stubs = _stub(wall[:first][::-1]), _stub(wall[last:])
             if not _narrow(wall, first, last, both=min(stubs) > 0):
@@ -141,16 +90,14 @@ def _at_corner(crossing: Facets, portal: Portal, side: float, towards: float) ->
     """
     edge_m = portal.low_m if side < 0.0 else portal.high_m
     before_m = (crossing.station_m - portal.offset_m) * towards
-    near = (np.abs(crossing.offset_m - edge_m) < _CORNER_M) & (before_m > -_END_M) & (before_m < -_CLEAR_M)
+    near = (np.abs(crossing.offset_m - edge_m) < _CORNER_M) & (before_m > -END_M) & (before_m < -_CLEAR_M)
     return bool(near.sum() >= _RETURNS_OF_WALL)
 
 
-def end_of_wall(on_line: Facets, about_m: float, *, wall_first: bool) -> float | None:
-    """Station of the last return on a wall that ends at about ``about_m``, or the first on one that begins there."""
-    near = on_line.station_m[np.abs(on_line.station_m - about_m) < _END_M]
-    if len(near) == 0:
-        return None
-    return float(near.max() if wall_first else near.min())
+def _end(on_line: Facets, about_m: float, *, wall_first: bool) -> float:
+    """Where the wall beside a gap ends: at its last return, else at the gap."""
+    end_m = end_of_wall(on_line, about_m, wall_first=wall_first)
+    return about_m if end_m is None else end_m
 
 
 def _returns(at_m: Array, stations: Array) -> Array:
@@ -196,9 +143,3 @@ def _thin(views: Sequence[View], portal: Portal, side: float, stub_m: float, tow
         with np.errstate(invalid="ignore"):
             seen += view.beyond(points)[0] > margin_m
     return bool((seen > 0).sum() >= _LEAST_SEEN)
-
-
-def _runs(mask: Mask) -> list[tuple[int, int]]:
-    """First index, and one past the last, of each run of true."""
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], mask, [False]]).astype(np.int8)))
-    return [(int(a), int(b)) for a, b in zip(edges[::2], edges[1::2], strict=True)]

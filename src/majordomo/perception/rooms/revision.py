@@ -15,11 +15,12 @@ from majordomo.perception.crossing import cross_affordance, match_of, move_robot
 from majordomo.perception.doors.hanging import doors_in
 from majordomo.perception.doors.insertion import WIDEST_DOOR_M
 from majordomo.perception.localization.planar import Pose2, diagonal_covariance, spatial_covariance
-from majordomo.perception.rooms.fitness import OutlineFitness, Stretch
 from majordomo.perception.rooms.insertion import withdraw
 from majordomo.perception.rooms.instance import MeasuredRoom, room_elements
 from majordomo.perception.rooms.outline import wall_lengths
+from majordomo.perception.rooms.outline_fitness import OutlineFitness, Stretch
 from majordomo.scene_graph.edges import RtEdge
+from majordomo.scene_graph.identifiers import wall_id_of
 from majordomo.scene_graph.memory import Transaction
 from majordomo.scene_graph.nodes import ROBOT_ID, DoorNode, RoomNode, RoomStatus, WallNode
 from majordomo.scene_graph.se3 import SE3
@@ -46,11 +47,10 @@ def missing_walls(snapshot: Snapshot, room_id: str, fitness: OutlineFitness) -> 
 
     An opening wider than a door that goes on to a corner is no door: a part of the room is behind it.
     """
-    number = room_id.rsplit("_", 1)[-1]
     lengths = wall_lengths(fitness.polygon)
     found: list[Stretch] = []
     for stretch in fitness.contradicted():
-        wall_id, length_m = f"wall_{number}_{stretch.wall}", float(lengths[stretch.wall])
+        wall_id, length_m = wall_id_of(room_id, stretch.wall), float(lengths[stretch.wall])
         if wall_id not in snapshot:
             continue
         to_corner = stretch.start_m < _CORNER_M or stretch.end_m > length_m - _CORNER_M
@@ -139,8 +139,7 @@ def _rehang(
     station = np.clip((offset * along).sum(axis=1), 0.0, lengths)
     away = np.linalg.norm(offset - station[:, None] * along, axis=1)
     heading = np.array([np.cos(T_room_door.yaw_rad), np.sin(T_room_door.yaw_rad)])
-    number = room_id.rsplit("_", 1)[-1]
-    exists = np.array([f"wall_{number}_{k}" in written for k in range(len(polygon))])
+    exists = np.array([wall_id_of(room_id, k) in written for k in range(len(polygon))])
     away = np.where((along @ heading > _PARALLEL) & exists, away, np.inf)
     wall = int(np.argmin(away))
     leads_somewhere = match_of(tx.snapshot, door.id) is not None
@@ -149,12 +148,12 @@ def _rehang(
             if gone in tx.snapshot:
                 tx.remove(gone)
         return
-    old = tx.snapshot.parent(door.id)
-    if old is not None and old.source != f"wall_{number}_{wall}":
+    wall_id, old = wall_id_of(room_id, wall), tx.snapshot.parent(door.id)
+    if old is not None and old.source != wall_id:
         tx.remove(old.key)
     tx.put(
         RtEdge(
-            source=f"wall_{number}_{wall}",
+            source=wall_id,
             target=door.id,
             T_source_target=SE3.from_xyz_yaw(float(station[wall] - lengths[wall] / 2.0), 0.0, 0.0, 0.0),
             covariance=spatial_covariance(diagonal_covariance(0.01, 0.01, 0.01)),

@@ -14,9 +14,9 @@ from majordomo.perception.lifecycle import LifeCycle, Verdict
 from majordomo.perception.localization.landmarks import room_model
 from majordomo.perception.localization.planar import Pose2
 from majordomo.perception.localization.robot_pose import RobotPose, robot_pose_at
-from majordomo.perception.rooms.fitness import OutlineFitness, Stretch
 from majordomo.perception.rooms.insertion import insert_room, propose_visit, withdraw
 from majordomo.perception.rooms.instance import MeasuredRoom
+from majordomo.perception.rooms.outline_fitness import OutlineFitness, Stretch
 from majordomo.perception.rooms.revision import let_stand, missing_walls, revise_room, take_back, taken_back
 from majordomo.perception.rooms.slice import OutlineSlicer
 from majordomo.perception.rooms.survey import Survey, SurveySettings
@@ -38,7 +38,6 @@ _LOOK_S = 1.5
 _RETURNS = 4
 _WELL_INSIDE_M = 0.35
 _REVISIONS = 2
-_WORTH_WRITING = 0.05
 
 
 class RoomConcept:
@@ -67,6 +66,7 @@ class RoomConcept:
         self._returns: dict[str, int] = {}
         self._fitness: dict[str, OutlineFitness] = {}
         self._revised: dict[str, int] = {}
+        self._judge = False
         self._life = LifeCycle(
             "room",
             explain=self._explain,
@@ -105,7 +105,7 @@ class RoomConcept:
             fitness = self._fitness.get(model.room_id)
             if fitness is None or not np.array_equal(fitness.polygon, model.polygon):
                 fitness = self._fitness[model.room_id] = OutlineFitness(model.polygon)
-            fitness.add(self._slicer.cut(scan), pose.T_parent_base)
+            self._judge |= fitness.add(self._slicer.cut(scan), pose.T_parent_base)
 
     # The four stages of the life cycle.
 
@@ -133,8 +133,9 @@ class RoomConcept:
         snapshot = self._memory.snapshot()
         room_id = snapshot.current_room
         fitness = self._fitness.get(room_id) if room_id is not None else None
-        if room_id is None or fitness is None or _room_needed(snapshot):
+        if room_id is None or fitness is None or not self._judge or _room_needed(snapshot):
             return Verdict.DONE
+        self._judge = False
         if self._revised.get(room_id, 0) < _REVISIONS:
             against = missing_walls(snapshot, room_id, fitness)
             if against:

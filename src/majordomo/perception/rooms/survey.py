@@ -94,7 +94,10 @@ class Survey:
         fit = self._measurement.solve()
         self._previous = self.fit
         self.fit = fit if fit is not None and self._plausible(fit) else None
-        self.hypotheses.update(self.fit, self._measurement.views)
+        if self.fit is not None:
+            self.hypotheses.add(self.fit)
+        if self.fit is None or self.hypotheses.crowded:
+            self.hypotheses.weigh(self._measurement.views)
 
     def _plausible(self, fit: Fit) -> bool:
         """Whether the outline has the size of a room and the robot is in it, not in front of it."""

@@ -14,6 +14,8 @@ from majordomo.perception.rooms.slice import OutlineScan
 
 Array = NDArray[np.float64]
 
+_GRAZING = 0.12  # cosine of incidence below which a ray says nothing about passing a line
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class View:
@@ -66,6 +68,17 @@ class View:
         ranges = self.scan.ranges_m[index]
         beyond = np.where(np.isfinite(ranges), ranges - distance, np.nan)
         return beyond, offset / np.maximum(distance, 1e-6)[:, None], distance
+
+    def clearance(self, points: Array, normals: Array, margin_m: float) -> tuple[Array, Array]:
+        """How far (N,) rays go beyond lines with unit ``normals`` (2,) or (N, 2) at (N, 2) ``points``, across the line.
+
+        ``nan`` where a ray does not tell: nothing returned, it grazes the line, or the point is so near, but for
+        ``margin_m``, that the ray may pass below a door's lintel. Also the cosines (N,) between rays and normals.
+        """
+        beyond, direction, distance = self.beyond(points)
+        incidence = (direction * normals).sum(axis=1)
+        tells = (np.abs(incidence) > _GRAZING) & (distance > self.scan.blind_m + margin_m)
+        return np.where(tells, beyond * np.abs(incidence), np.nan), incidence
 
 
 def dominant_direction(views: Sequence[View]) -> tuple[float, float]:

@@ -6,11 +6,11 @@ from collections.abc import Collection, Sequence
 
 import numpy as np
 
-from majordomo.scene_graph.nodes import ObjectNode, ObjectState, PersonNode, RoomNode, RoomStatus
+from majordomo.scene_graph.nodes import ObjectNode, ObjectState, PersonNode
 from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.skills.geometry import Box2, Point2, Points, Pose2, inside_polygon
 from majordomo.skills.navigation.grid import Canvas, Grid
-from majordomo.skills.navigation.walls import MIN_CORNERS, Walls, door_gaps
+from majordomo.skills.navigation.walls import Walls, door_gaps, whole_room
 
 MARGIN_M = 2.0
 PERSON_RADIUS_M = 0.25
@@ -68,8 +68,8 @@ def footprint(snapshot: Snapshot, node: ObjectNode, frame: str) -> Box2:
 
 
 def _walls_around(snapshot: Snapshot, frame: str, spots: Sequence[Point2]) -> tuple[Point2, ...]:
-    room = snapshot.get(frame)
-    if not isinstance(room, RoomNode) or room.status is not RoomStatus.PERMANENT or len(room.polygon_m) < MIN_CORNERS:
+    room = whole_room(snapshot, frame)
+    if room is None:
         return ()
     points = np.array(spots)
     within = inside_polygon(room.polygon_m, points)

@@ -28,9 +28,8 @@ class Walls:
     @classmethod
     def of(cls, snapshot: Snapshot, frame: str) -> Walls:
         """The walls of the room ``frame``, in its frame; none where a part of them was guessed."""
-        room = snapshot.get(frame)
-        whole = isinstance(room, RoomNode) and room.status is RoomStatus.PERMANENT
-        if not isinstance(room, RoomNode) or not whole or len(room.polygon_m) < MIN_CORNERS:
+        room = whole_room(snapshot, frame)
+        if room is None:
             return cls(points=np.zeros((0, 2)), tree=None)
         corners = np.array(room.polygon_m)
         sides = zip(corners, np.roll(corners, -1, axis=0), strict=True)
@@ -45,6 +44,14 @@ class Walls:
             return points
         far, _ = self.tree.query(points, distance_upper_bound=SKIN_M)
         return np.concatenate([points[np.isinf(far)], self.points])
+
+
+def whole_room(snapshot: Snapshot, frame: str) -> RoomNode | None:
+    """The room ``frame`` if it was seen whole; the outline of any other is partly guessed."""
+    room = snapshot.get(frame)
+    if isinstance(room, RoomNode) and room.status is RoomStatus.PERMANENT and len(room.polygon_m) >= MIN_CORNERS:
+        return room
+    return None
 
 
 def door_gaps(snapshot: Snapshot, room: str) -> list[Box2]:

@@ -14,12 +14,12 @@ from numpy.typing import NDArray
 from majordomo.perception.localization.planar import Pose2
 from majordomo.perception.rooms.slice import OutlineScan
 from majordomo.perception.rooms.views import View
+from majordomo.perception.runs import runs
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
 _STEP_M = 0.1
-_GRAZING = 0.12
 _GATE_M = 0.08
 _LEAST_MATCHED = 0.5
 
@@ -52,16 +52,10 @@ class Stretch:
 
 
 class OutlineFitness:
-    """Evidence about one outline.
-
-    Attributes:
-        recent, usual: share of the places on the outline at which rays end as they should, of those that tell.
-    """
+    """Evidence about one outline."""
 
     def __init__(self, polygon: Array, settings: OutlineFitnessSettings | None = None) -> None:
         self.polygon = polygon
-        self.recent = 1.0
-        self.usual = 1.0
         self._settings = settings or OutlineFitnessSettings()
         self._wall, self._station, self._points, self._outward = _places(polygon)
         self._ended = np.zeros((2, len(self._points)))
@@ -69,13 +63,23 @@ class OutlineFitness:
         self._from: list[Array] = []
         self._last: Pose2 | None = None
 
-    def add(self, scan: OutlineScan, T_room_base: Pose2) -> None:
-        """Take in a scan, unless the robot has not moved since the last."""
+    @property
+    def recent(self) -> float:
+        """Share of the places on the outline at which rays lately ended as they should, of those that tell."""
+        return self._share(0)
+
+    @property
+    def usual(self) -> float:
+        """The same in the long run."""
+        return self._share(1)
+
+    def add(self, scan: OutlineScan, T_room_base: Pose2) -> bool:
+        """Take in a scan, unless the robot has not moved since the last; whether it was taken in."""
         settings = self._settings
         if self._last is not None:
             moved = self._last.inverse() @ T_room_base
             if np.hypot(moved.x_m, moved.y_m) < settings.moved_m and abs(moved.yaw_rad) < settings.turned_rad:
-                return
+                return False
         self._last = T_room_base
         position = T_room_base.position_m
         if all(float(np.linalg.norm(position - other)) > settings.apart_m for other in self._from):
@@ -86,16 +90,14 @@ class OutlineFitness:
             keep = np.where(told, 1.0 - 1.0 / memory, 1.0)
             self._ended[row] = self._ended[row] * keep + ended
             self._passed[row] = self._passed[row] * keep + passed
-        self.recent, self.usual = (self._share(row) for row in range(2))
+        return True
 
     def _judge(self, scan: OutlineScan, T_room_base: Pose2) -> tuple[Mask, Mask]:
         """(P,) places where a ray ended as it should, and where one passed."""
         view = View(T_frame_base=T_room_base, T_odom_base=T_room_base, scan=scan, lines=(), corners=())
-        beyond, direction, distance = view.beyond(self._points)
-        incidence = (direction * self._outward).sum(axis=1)
         gate_m = max(_GATE_M, 3.0 * scan.noise_m)
-        tells = (incidence > _GRAZING) & (distance > scan.blind_m + gate_m)
-        clearance = np.where(tells, beyond * incidence, np.nan)
+        clearance, incidence = view.clearance(self._points, self._outward, gate_m)
+        clearance[incidence < 0.0] = np.nan
         with np.errstate(invalid="ignore"):
             return np.abs(clearance) <= gate_m, clearance > 2.0 * gate_m
 
@@ -116,8 +118,7 @@ class OutlineFitness:
         found: list[Stretch] = []
         for wall in range(len(self.polygon)):
             here = np.flatnonzero(self._wall == wall)
-            edges = np.flatnonzero(np.diff(np.concatenate([[False], against[here], [False]]).astype(np.int8)))
-            for first, last in zip(edges[::2], edges[1::2], strict=True):
+            for first, last in runs(against[here]):
                 start_m, end_m = self._station[here[[first, last - 1]]] + np.array([-0.5, 0.5]) * _STEP_M
                 if end_m - start_m >= settings.stretch_m:
                     found.append(Stretch(wall=wall, start_m=float(start_m), end_m=float(end_m)))

@@ -62,7 +62,7 @@ def find_post(
     """The post between a station where the wall is open and one where it is wall.
 
     ``wall_follows``: the wall is at greater stations, the gap at smaller ones. ``None`` when too few rays were
-    near, or none on one of its two sides.
+    near, or none on one of its two sides, or when the post may just as well be beyond where it was looked for.
     """
     settings = settings or PostSettings()
     sign = 1.0 if wall_follows else -1.0
@@ -77,7 +77,9 @@ def find_post(
         depth=samples.depth_m,
         weight=1.0 / np.maximum(samples.distance_m, 0.7) ** 2,
     )
-    rough, _ = _minimum(mirrored, middle_m, half_m, settings.coarse_m, settings)
+    rough, half_rough_m = _minimum(mirrored, middle_m, half_m, settings.coarse_m, settings)
+    if abs(rough - middle_m) + half_rough_m > half_m - settings.coarse_m:
+        return None
     best, half_m = _minimum(mirrored, rough, 2.0 * settings.coarse_m, settings.fine_m, settings)
     sides = mirrored.station > best
     if min(int(sides.sum()), int((~sides).sum())) < settings.rays // 4:

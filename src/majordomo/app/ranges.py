@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
 
+from majordomo.perception.range_noise import calmed
 from majordomo.perception.sensing import SensorBuffer, scan_points_base
 
+USUAL_NOISE_M = 0.02
+"""Noise of the ranges up to which they are taken as they are; more would fill doorways and floors with obstacles."""
 FLOOR_M = 0.06
 """Returns below this height are floor: three standard deviations of range noise at a steep ring."""
 
@@ -25,7 +30,8 @@ class ScanRanges:
         """(N, 3) points between floor and the robot's height, base frame at the scan's stamp."""
         scan = self._buffer.scan
         if scan is not None and scan.stamp_s != self._stamp_s:
-            points = scan_points_base(scan)
+            ranges_m = calmed(scan.ranges_m.astype(np.float64), USUAL_NOISE_M).astype(np.float32)
+            points = scan_points_base(replace(scan, ranges_m=ranges_m))
             height_m, distance_m = points[:, 2], np.hypot(points[:, 0], points[:, 1])
             near = (height_m > FLOOR_M) & (height_m < self._robot_height_m) & (distance_m < self._reach_m)
             self._points, self._stamp_s = points[near], scan.stamp_s

@@ -57,6 +57,20 @@ def test_a_post_close_to_a_corner_is_not_drawn_to_what_is_behind_the_door() -> N
     assert measured.width_m == pytest.approx(0.84, abs=0.012)
 
 
+@pytest.mark.parametrize("x_m", [3.0, 3.25, 3.5, 3.65])
+def test_posts_that_count_as_measured_are_where_they_are_however_the_door_was_glanced_at(x_m: float) -> None:
+    house, told = two_rooms(0.19, width=1.06, center_m=1.3), 0
+    for y_m in np.arange(0.3, 2.8, 0.1):
+        watch = watch_from(house, [Pose2(x_m, float(y_m), 0.5)] * 6, pose_error_m=0.0)
+        for gap in watch.gaps(RIGHT_WALL):
+            measured = watch.measure(RIGHT_WALL, gap)
+            if measured.posts == 2:
+                told += 1
+                assert measured.center_m == pytest.approx(1.3, abs=0.015)
+                assert measured.width_m == pytest.approx(1.06, abs=0.02)
+    assert told > 0
+
+
 def test_two_doors_in_one_wall_are_two() -> None:
     house = two_rooms(0.2, width=0.7, center_m=0.7)
     house.doors.append(replace(house.doors[0], center=(4.1, 2.2)))

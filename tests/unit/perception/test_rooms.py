@@ -127,6 +127,14 @@ def test_a_nook_behind_an_opening_with_thick_walls_beside_it_belongs_to_the_room
     assert corner_error_m(alcove, outline.polygon) < 0.012
 
 
+@pytest.mark.parametrize("x_m", [1.12, 1.5, 2.4])
+def test_a_nook_seen_from_far_along_its_wall_is_no_other_room(x_m: float) -> None:
+    hall = np.array([[0, 0], [3.56, 0], [3.56, 9], [0, 9], [0, 8.2], [-2, 8.2], [-2, 5.4], [0, 5.4]], dtype=np.float64)
+    house = House(rooms={"hall": hall}, doors=[Door(rooms=("hall", "outside"), center=(1.7, -0.1))])
+    outline = outline_from(house, (x_m - 0.2, 1.7), (x_m, 1.7), (x_m, 1.9))
+    assert not outline.closed or corner_error_m(hall, outline.polygon) < 0.02
+
+
 def test_a_slanted_wall_gives_an_outline_that_does_not_count_as_closed() -> None:
     polygon = np.array([[0.0, 0.0], [5.0, 0.0], [3.0, 4.0], [0.0, 4.0]])
     measured = approach(polygon, (1.0, 1.0), (1.8, 1.6), 0)

@@ -62,21 +62,22 @@ def find_portals(
         across = crossing.between(float(offset) - gate_m, float(offset) + gate_m)
         wall = ends[k] & (_returns(on_line.station_m, profile.stations) > _returns(across.offset_m, profile.stations))
         for first, last in runs(told[k] & ~ends[k]):
-            low_m, high_m = profile.stations[[first, last - 1]] + np.array([-0.5, 0.5]) * STATION_STEP_M
+            before, after = _stub(wall[:first], wall_first=True), _stub(wall[last:], wall_first=False)
+            low, high = first - before.vague, last + after.vague
+            low_m, high_m = profile.stations[[low, high - 1]] + np.array([-0.5, 0.5]) * STATION_STEP_M
             portal = Portal(
                 axis=profile.axis,
                 offset_m=float(offset),
                 low_m=_end(on_line, float(low_m), wall_first=True),
                 high_m=_end(on_line, float(high_m), wall_first=False),
             )
-            stubs = _stub(wall[:first][::-1]), _stub(wall[last:])
-            if not _narrow(wall, first, last, both=min(stubs) > 0):
+            if not _narrow(wall, first, last, both=min(before.count, after.count) > 0):
                 continue
-            before, after = slice(first - stubs[0], first), slice(last, last + stubs[1])
             if any(
-                _thin(views, portal, side, stub * STATION_STEP_M, towards, gate_m)
-                for stub, towards, side in zip(
-                    stubs, (profile.faces(k, before), profile.faces(k, after)), (-1.0, 1.0), strict=True
+                _thin(views, portal, side, stub.count * STATION_STEP_M, towards, gate_m)
+                for stub, towards, side in (
+                    (before, profile.faces(k, slice(low - before.count, low)), -1.0),
+                    (after, profile.faces(k, slice(high, high + after.count)), 1.0),
                 )
                 if not _at_corner(crossing, portal, side, towards)
             ):
@@ -106,13 +107,24 @@ def _returns(at_m: Array, stations: Array) -> Array:
     return np.histogram(at_m, edges)[0]
 
 
-def _stub(away: Mask) -> int:
-    """Stations of wall beside a gap; ``away`` begins at the gap, where normals are vague."""
+@dataclass(frozen=True, kw_only=True)
+class _Stub:
+    """Wall beside a gap, in stations: how many are ``vague`` between the two, and how many are wall."""
+
+    vague: int
+    count: int
+
+
+def _stub(wall: Mask, *, wall_first: bool) -> _Stub:
+    """The wall that ends, or else begins, at a gap. At its very end normals are vague, and rays that graze its line
+    may as well have ended on the next wall behind it.
+    """
+    away = wall[::-1] if wall_first else wall
     begins = np.flatnonzero(away[:_VAGUE])
     if len(begins) == 0:
-        return 0
+        return _Stub(vague=0, count=0)
     rest = away[begins[0] :]
-    return int(begins[0] + (len(rest) if rest.all() else np.argmin(rest)))
+    return _Stub(vague=int(begins[0]), count=int(len(rest) if rest.all() else np.argmin(rest)))
 
 
 def _narrow(wall: Mask, first: int, last: int, *, both: bool) -> bool:

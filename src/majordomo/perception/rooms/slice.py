@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from majordomo.perception.ports import LidarScan
+from majordomo.perception.range_noise import range_noise_m
 from majordomo.perception.sensing import ray_directions_base
 
 Array = NDArray[np.float64]
@@ -61,12 +62,8 @@ class OutlineScan:
 
     @property
     def noise_m(self) -> float:
-        """Standard deviation of the ranges, from second differences between neighboring directions.
-
-        Walls are straight, so what three neighbors do not share is noise but for the few at corners.
-        """
-        second = np.diff(self.ranges_m[np.isfinite(self.ranges_m)], n=2)
-        return float(1.4826 * np.median(np.abs(second)) / np.sqrt(6.0)) if len(second) else 0.0
+        """Standard deviation of the ranges."""
+        return range_noise_m(self.ranges_m[np.isfinite(self.ranges_m)])
 
 
 class OutlineSlicer:

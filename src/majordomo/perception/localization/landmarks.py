@@ -68,15 +68,14 @@ def match_corners(
     if len(sightings) == 0:
         return matches
     points = np.array([sighting.point for sighting in sightings])
+    stds = np.hypot([sighting.std_m for sighting in sightings], _SIGHTING_FLOOR_M)
     predicted = pose.inverse().apply(nominal)
     for index, expected in enumerate(predicted):
         jacobian = np.array([[-1.0, 0.0, expected[1]], [0.0, -1.0, -expected[0]]])
-        spread = jacobian @ covariance @ jacobian.T
-        stds = np.hypot([sighting.std_m for sighting in sightings], _SIGHTING_FLOOR_M)
-        distances = [
-            float(offset @ np.linalg.solve((spread + np.eye(2) * std**2) / 2.0, offset))
-            for offset, std in zip(points - expected, stds, strict=True)
-        ]
+        (xx, xy), (_, yy) = jacobian @ covariance @ jacobian.T
+        dx, dy = (points - expected).T
+        var_x, var_y = xx + stds**2, yy + stds**2
+        distances = 2.0 * (var_y * dx**2 - 2.0 * xy * dx * dy + var_x * dy**2) / (var_x * var_y - xy**2)
         best = int(np.argmin(distances))
         if distances[best] < _GATE:
             matches.append(LandmarkSighting(index=index, point=points[best], std_m=float(stds[best])))

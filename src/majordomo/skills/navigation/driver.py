@@ -14,7 +14,7 @@ from majordomo.skills.navigation.plan import Goal, GoalSource, Plan, make_plan
 from majordomo.skills.navigation.pose import look_around, planar_pose, robot_frame
 from majordomo.skills.navigation.pursuit import Pursuit, deviation_m, point_ahead, turn_rate
 from majordomo.skills.navigation.route import path_length_m
-from majordomo.skills.navigation.safety import admissible
+from majordomo.skills.navigation.safety import FAR_M, admissible
 
 SAFETY_MARGIN_M = 0.02
 """How much less than the planning radius must stay free while driving; that radius already exceeds the body's."""
@@ -129,7 +129,8 @@ class Driver:
         context = self._context
         clearance_m = float(plan.grid.clearance_at(np.array([pose.point]))[0])
         wanted = self._pursuit.velocity(pose, plan.path, clearance_m, context.body.linear_mps)
-        obstacles_base = pose.inverse_apply(plan.walls.explain(context.surroundings.points()))
+        near = context.surroundings.points_near(pose.point, FAR_M)
+        obstacles_base = pose.inverse_apply(plan.walls.explain(near))
         radius_m = plan.radius_m - SAFETY_MARGIN_M
         context.commands.drive = admissible(*wanted, obstacles_base, radius_m, context.limits)
         return self._judge(plan, pose)

@@ -14,7 +14,8 @@ from majordomo.skills.ports import BodyLimits
 REACTION_S = 0.30
 SHARES = (1.0, 0.75, 0.5, 0.3, 0.15)
 _STEPS = 8
-_FAR_M = 2.0
+FAR_M = 2.0
+"""What is farther away cannot be reached before the next tick."""
 
 
 def admissible(
@@ -25,7 +26,7 @@ def admissible(
     ``points_base``: obstacle points (N, 2), base frame. ``radius_m``: what must stay free around the axis. Where the
     robot is already closer than that, it may move so that it does not get closer.
     """
-    near = points_base[np.hypot(*points_base.T) < _FAR_M] if len(points_base) else points_base
+    near = points_base[np.hypot(*points_base.T) < FAR_M] if len(points_base) else points_base
     if linear_mps == 0.0 or not len(near):
         return linear_mps, angular_radps
     here_m = float(np.hypot(*near.T).min())

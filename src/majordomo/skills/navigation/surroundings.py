@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from majordomo.scene_graph.se3 import SE3
-from majordomo.skills.geometry import Points
+from majordomo.skills.geometry import Point2, Points
 
 CELL_M = 0.04
 PATCH_M = 0.12
@@ -54,6 +54,11 @@ class Surroundings:
         """Centers of occupied cells, (N, 2), in ``frame``."""
         return _centers(self._keys)
 
+    def points_near(self, point: Point2, reach_m: float) -> Points:
+        """Those within ``reach_m`` of ``point``."""
+        points = self.points()
+        return np.asarray(points[np.hypot(*(points - point).T) < reach_m])
+
     def observe(self, points_base: Points, T_frame_base: SE3, stamp_s: float, arm_reach_m: float = 0.0) -> None:
         """Take in one scan, (N, 3) in the base frame. The same array twice counts once."""
         if points_base is not self._last_scan:
@@ -87,14 +92,19 @@ class Surroundings:
         if arm_reach_m > 0:
             keep &= ~((x > 0) & (x < arm_reach_m) & (np.abs(y) < 0.12))
         points = points[keep]
-        keys, first, counts = np.unique(
-            _keys(T_frame_base.apply(points)[:, :2]), return_inverse=True, return_counts=True
-        )
-        highest = np.zeros(len(keys))
-        np.maximum.at(highest, first, points[:, 2])
-        solid = (counts >= config.min_hits) | np.isin(keys, self._keys)
-        keys, highest = keys[solid], highest[solid]
-        return keys, _beside_tall(_centers(keys), highest > config.tall_m)
+        if not len(points):
+            return np.zeros(0, dtype=np.int64), np.zeros(0, dtype=bool)
+        cells = np.floor(T_frame_base.apply(points)[:, :2] / CELL_M).astype(np.int64)
+        corner = cells.min(axis=0)
+        columns, rows = cells.max(axis=0) - corner + 1
+        index = (cells[:, 0] - corner[0]) * rows + cells[:, 1] - corner[1]
+        counts = np.bincount(index, minlength=columns * rows)
+        hit = np.flatnonzero(counts)
+        keys = _packed(np.stack([hit // rows, hit % rows], axis=1) + corner)
+        tall = np.bincount(index[points[:, 2] > config.tall_m], minlength=columns * rows)[hit] > 0
+        solid = (counts[hit] >= config.min_hits) | np.isin(keys, self._keys)
+        keys = keys[solid]
+        return keys, _beside_tall(_centers(keys), tall[solid])
 
     def _merge(self, keys: NDArray[np.int64], seen_s: Points, tall: NDArray[np.bool_]) -> None:
         both = np.concatenate([keys, self._keys])

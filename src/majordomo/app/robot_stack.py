@@ -144,6 +144,11 @@ class RobotStack:
             return f"silent: {', '.join(sorted(self._buffer.silent))}"
         return self._objects.degraded if self._objects is not None else None
 
+    @property
+    def scans(self) -> int:
+        """LiDAR revolutions taken in so far."""
+        return self._buffer.scans
+
     def now(self) -> float:
         """Robot time in seconds."""
         return self.robot.now_s

@@ -107,6 +107,11 @@ class Runtime:
         return self._scheduler.now_s if self._scheduler is not None else 0.0
 
     @property
+    def scans(self) -> int:
+        """LiDAR revolutions taken in so far."""
+        return self._stack.scans if isinstance(self._stack, RobotStack) else 0
+
+    @property
     def ready(self) -> bool:
         """Whether a request can be taken."""
         return self.not_ready_reason == ""

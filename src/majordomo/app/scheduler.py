@@ -34,6 +34,7 @@ class Turns:
     """Account of one agent's turns. ``fatal``: errors that end the scheduler instead of being survived.
 
     ``cpu_s``: processor time that the process used during its turns; in lockstep nobody else uses any meanwhile.
+    ``taken``: how many turns so far. ``longest_wait_s``: wall seconds between the starts of two successive ones.
     """
 
     agent: Agent
@@ -44,11 +45,18 @@ class Turns:
     restarts: int = 0
     last_error: str = ""
     cpu_s: float = 0.0
+    taken: int = 0
+    longest_wait_s: float = 0.0
+    _taken_at_s: float | None = None
 
     async def take(self, stamp_s: float) -> None:
         """Give the agent its turn; an unexpected error is logged and counted, and the agent goes on."""
         started, cpu_started_s = time.perf_counter(), time.process_time()
         self.stamps_s.append(stamp_s)
+        self.taken += 1
+        if self._taken_at_s is not None:
+            self.longest_wait_s = max(self.longest_wait_s, started - self._taken_at_s)
+        self._taken_at_s = started
         try:
             await self.agent.step(stamp_s)
         except self.fatal:

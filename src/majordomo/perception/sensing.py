@@ -64,6 +64,7 @@ class SensorBuffer:
     Attributes:
         odometry: recent odometry, oldest first.
         scan, frame, joints: newest of each, ``None`` until the first arrives.
+        scans: how many LiDAR revolutions arrived so far.
         silent: sensor name -> time in seconds since which it has been silent.
     """
 
@@ -71,6 +72,7 @@ class SensorBuffer:
         self.port = port
         self.odometry: deque[Odometry] = deque(maxlen=history)
         self.scan: LidarScan | None = None
+        self.scans = 0
         self.frame: RgbdFrame | None = None
         self.joints: JointState | None = None
         self.silent: dict[str, float] = {}
@@ -79,6 +81,11 @@ class SensorBuffer:
         """Append ``sample`` unless its time has been recorded already."""
         if not self.odometry or sample.stamp_s > self.odometry[-1].stamp_s:
             self.odometry.append(sample)
+
+    def add_scan(self, scan: LidarScan) -> None:
+        """Take in a revolution; the same one twice counts once."""
+        self.scans += self.scan is None or scan.stamp_s > self.scan.stamp_s
+        self.scan = scan
 
     def odometry_at(self, stamp_s: float) -> SE3:
         """Pose of the base in the odometry frame at ``stamp_s``.
@@ -155,7 +162,9 @@ class Sensing:
         odometry = await self._fetch("odometry", port.odometry, stamp_s)
         if odometry is not None:
             buffer.add_odometry(odometry)
-        buffer.scan = await self._fetch("scan", port.scan, stamp_s) or buffer.scan
+        scan = await self._fetch("scan", port.scan, stamp_s)
+        if scan is not None:
+            buffer.add_scan(scan)
         buffer.joints = await self._fetch("joints", port.joints, stamp_s) or buffer.joints
         if self._camera_period_s is not None and stamp_s >= self._next_frame_s - 1e-6:
             self._next_frame_s = stamp_s + self._camera_period_s

@@ -118,3 +118,16 @@ def evaluate_resources(
 
     good = evaluate(house=house, camera=camera, json_file=json_file, plot_file=plot, console=console)
     raise typer.Exit(0 if good else 1)
+
+
+@evaluations.command("rates")
+def evaluate_rates(
+    house: House = "flat",
+    seconds: Annotated[float, typer.Option(min=5.0, help="Wall seconds of each of the two measurements.")] = 60.0,
+    json_file: JsonFile = None,
+) -> None:
+    """Measure in real time whether agents keep up with the sensors, from memory and beside the simulator."""
+    from majordomo.app.evaluations.rates import evaluate
+
+    good = evaluate(house=house, seconds=seconds, json_file=json_file, console=console)
+    raise typer.Exit(0 if good else 1)

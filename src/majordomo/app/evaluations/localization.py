@@ -26,16 +26,15 @@ from majordomo.app.evaluations.floor_plan import compare, in_house, placement, p
 from majordomo.app.evaluations.mapping import house_of
 from majordomo.app.evaluations.plots import save
 from majordomo.app.evaluations.pool import run_all
+from majordomo.app.evaluations.wandering import Wanderer
 from majordomo.app.runtime import Runtime
-from majordomo.scene_graph.edges import EdgeKey, EdgeType, HasIntentionEdge, IntentionAction, IntentionStatus, Priority
-from majordomo.scene_graph.nodes import ROBOT_ID, ROOT_ID, RoomNode
+from majordomo.scene_graph.nodes import ROBOT_ID, ROOT_ID
 from majordomo.simulation.house import House
 
 Array = NDArray[np.float64]
 
 PAPER_MAX_MM = 150.0
 AIM_MAX_MM = 50.0
-_ENDED = (IntentionStatus.DONE, IntentionStatus.FAILED)
 
 
 def evaluate(
@@ -96,15 +95,14 @@ class _Rounds:
 
     def __init__(self, runtime: Runtime, house: House) -> None:
         self._runtime, self._house = runtime, house
-        self._rng = np.random.default_rng(0)
+        self._wanderer = Wanderer(self.name, runtime.memory)
         self._true = plan_of_house(house)
         self._rooms: dict[str, str] = {}
         self._begun = False
-        self._goal: str | None = None
         self._last: Array | None = None
         self.stamps_s: list[float] = []
         self.errors_mm: list[float] = []
-        self.visits, self.failed, self.driven_m = 0, 0, 0.0
+        self.driven_m = 0.0
 
     def begin(self) -> None:
         """The building is known: from now on it counts."""
@@ -112,13 +110,23 @@ class _Rounds:
         self._rooms = {ours: truth for truth, ours in compare(found, self._true).found.items()}
         self._begun = True
 
+    @property
+    def visits(self) -> int:
+        """Rooms that were to be visited."""
+        return self._wanderer.visits
+
+    @property
+    def failed(self) -> int:
+        """Visits that failed."""
+        return self._wanderer.failed
+
     async def step(self, stamp_s: float) -> None:
         """Compare, and choose the next room when the last one was reached."""
         if not self._begun:
             return
         truth = await self._runtime.require_robot().truth()
         self._compare(np.array(truth["robot"]["pose"][:2]), stamp_s)
-        self._send(stamp_s)
+        self._wanderer.step(stamp_s)
 
     def _compare(self, actual: Array, stamp_s: float) -> None:
         self.driven_m += 0.0 if self._last is None else float(np.linalg.norm(actual - self._last))
@@ -134,33 +142,6 @@ class _Rounds:
         believed = in_house(snapshot.position(ROBOT_ID, ROOT_ID)[None, :2], self._house.robot.pose)[0]
         self.stamps_s.append(stamp_s)
         self.errors_mm.append(1000.0 * float(np.linalg.norm(rotation @ believed + shift - actual)))
-
-    def _send(self, stamp_s: float) -> None:
-        memory = self._runtime.memory
-        snapshot = memory.snapshot()
-        key = EdgeKey(EdgeType.HAS_INTENTION, ROBOT_ID, self._goal, self.name) if self._goal else None
-        edge = snapshot.edges.get(key) if key else None
-        if isinstance(edge, HasIntentionEdge) and edge.status not in _ENDED:
-            return
-        self.visits += 1
-        self.failed += isinstance(edge, HasIntentionEdge) and edge.status is IntentionStatus.FAILED
-        here = snapshot.current_room
-        others = [room.id for room in memory.building().of_type(RoomNode) if room.id != here]
-        if not others:
-            return
-        self._goal = str(self._rng.choice(others))
-        visit = HasIntentionEdge(
-            source=ROBOT_ID,
-            target=self._goal,
-            agent=self.name,
-            action=IntentionAction.VISIT,
-            priority=Priority.VISIT_DOOR,
-            proposed_s=stamp_s,
-        )
-        with memory.edit(self.name, stamp_s) as tx:
-            if edge is not None:
-                tx.remove(edge.key)
-            tx.put(visit)
 
 
 def _table(runs: Sequence[Mapping[str, Any]]) -> Table:

@@ -10,6 +10,7 @@ import pytest
 
 from majordomo.perception.doors.room_watch import RoomWatch, Span
 from majordomo.perception.localization.planar import Pose2
+from majordomo.scene_graph.nodes import DoorState
 from unit.perception.lidar_house import Array, Box, Door, House, cast, rectangle
 
 ROOM = rectangle(4.0, 3.0)
@@ -131,6 +132,58 @@ def test_a_panel_in_the_gap_is_seen_and_so_is_its_opening(thickness_m: float) ->
     assert watch.looks_open(RIGHT_WALL, span) is False
     watch.add(cast(open_house, pose, rng), pose)
     assert watch.looks_open(RIGHT_WALL, span) is True
+
+
+@pytest.mark.parametrize("thickness_m", [0.1, 0.19, 0.4])
+@pytest.mark.parametrize("width", [0.7, 0.9, 1.2])
+@pytest.mark.parametrize("seed", range(2))
+def test_a_door_that_was_closed_from_the_first_is_told_from_wall_by_its_recessed_leaf(
+    thickness_m: float, width: float, seed: int
+) -> None:
+    house = two_rooms(thickness_m, width=width)
+    house.doors[0] = replace(house.doors[0], open=False)
+    watch = watch_from(house, way_to_the_door(), seed)
+    found = [(wall, gap) for wall in range(4) for gap in (*watch.gaps(wall), *watch.recesses(wall))]
+    assert [(wall, gap.state) for wall, gap in found] == [(RIGHT_WALL, DoorState.CLOSED)]
+    measured = watch.measure(*found[0])
+    assert measured.center_m == pytest.approx(1.3, abs=0.02)
+    assert measured.width_m == pytest.approx(width, abs=0.03)
+
+
+def test_a_closed_door_that_opens_is_an_open_door_where_it_was() -> None:
+    open_house = two_rooms()
+    closed_house = replace(open_house, doors=[replace(open_house.doors[0], open=False)])
+    watch, rng = watch_from(closed_house, way_to_the_door()), np.random.default_rng(1)
+    for pose in [*way_to_the_door(), *reversed(way_to_the_door())] * 2:
+        watch.add(cast(open_house, pose, rng), pose)
+    assert [gap.center_m for gap in watch.gaps(RIGHT_WALL)] == [pytest.approx(1.3, abs=0.05)]
+    assert watch.recesses(RIGHT_WALL) == []
+
+
+class Niche(House):
+    """The closed door's recess goes up to the ceiling."""
+
+    def faces(self) -> Array:
+        faces = super().faces()
+        faces[:, 5] = np.where(faces[:, 5] == self.doors[0].height, self.height, faces[:, 5])
+        return np.asarray(faces[faces[:, 4] == 0.0])
+
+
+def test_a_niche_as_high_as_the_wall_is_no_closed_door() -> None:
+    house = two_rooms()
+    niche = Niche(rooms=house.rooms, doors=[replace(house.doors[0], open=False)])
+    assert watch_from(niche, way_to_the_door()).recesses(RIGHT_WALL) == []
+
+
+@pytest.mark.parametrize("sigma_m", [0.02, 0.05])
+@pytest.mark.parametrize("seed", range(4))
+def test_plain_walls_with_furniture_before_them_have_no_closed_doors(sigma_m: float, seed: int) -> None:
+    boxes = [Box(center=(3.7, 2.4), size=(0.5, 0.8, 1.9)), Box(center=(1.5, 0.3), size=(0.9, 0.5, 0.8))]
+    house, rng, watch = House(rooms={"a": ROOM}, boxes=boxes), np.random.default_rng(seed), RoomWatch(ROOM)
+    for pose in way_to_the_door():
+        error = rng.normal(0.0, 0.006, 2)
+        watch.add(cast(house, pose, rng, sigma_m=sigma_m), pose @ Pose2(error[0], error[1], rng.normal(0.0, 0.001)))
+    assert [gap for wall in range(4) for gap in watch.recesses(wall)] == []
 
 
 def test_a_door_out_of_sight_is_neither_open_nor_closed() -> None:

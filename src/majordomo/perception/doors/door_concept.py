@@ -169,7 +169,8 @@ class DoorConcept:
             with self._memory.edit(self.name, self._stamp_s) as tx:
                 door_id = free_door_id(tx.snapshot, scene.room.room_id, wall)
                 length_m = scene.wall_length_m(wall)
-                put_provisional(tx, door_id, scene.room.room_id, wall, length_m, measured, self._stamp_s)
+                room_id, stamp_s = scene.room.room_id, self._stamp_s
+                put_provisional(tx, door_id, room_id, wall, length_m, measured, stamp_s, state=gap.state)
             logger.info("something like a door in %s", wall_id_of(scene.room.room_id, wall), extra={"door": door_id})
         return Verdict.BUSY
 

@@ -76,8 +76,10 @@ class DoorErrands:
             return
         length_m = scene.wall_length_m(wall)
         with self._memory.edit(DOOR_AGENT, scene.stamp_s) as tx:
-            door_id = put_permanent(tx, door.id, scene.room.room_id, wall, length_m, measured, scene.stamp_s)
-        logger.info("%s stands: %.2f m wide", door_id, measured.width_m, extra={"door": door_id})
+            door_id = put_permanent(
+                tx, door.id, scene.room.room_id, wall, length_m, measured, scene.stamp_s, state=gap.state
+            )
+        logger.info("%s stands: %.2f m wide, %s", door_id, measured.width_m, gap.state, extra={"door": door_id})
         self._arrived_s.pop(door.id, None)
         if edge.status is IntentionStatus.FAILED:
             self._give_up(door_id, edge.reason, scene.stamp_s)

@@ -9,10 +9,11 @@ from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import binary_dilation
+from scipy.ndimage import binary_closing, binary_dilation
 
 from majordomo.perception.doors.wall_rays import WallRays
 from majordomo.perception.runs import runs
+from majordomo.scene_graph.nodes import DoorState
 
 Array = NDArray[np.float64]
 
@@ -21,6 +22,7 @@ _KEPT_SCANS = 60
 _MOST_RAYS = 30.0
 _FARTHEST_SAMPLE_M = 5.0
 _FRAME_M = 0.10
+_DEEPEST_M = 0.35
 _GRAZING = 2.0  # way along the wall per way into it
 
 
@@ -29,13 +31,15 @@ class Gap:
     """An open stretch of a wall, stations in meters from the wall's start.
 
     ``wall_before_m``, ``wall_after_m``: where wall was seen beside it, so that the post is between there and the open
-    stretch; ``None`` where none was seen near.
+    stretch; ``None`` where none was seen near. ``panel_m``: how far behind the wall's face the leaf of a closed door
+    is, ``None`` where one can look through.
     """
 
     start_m: float
     end_m: float
     wall_before_m: float | None = None
     wall_after_m: float | None = None
+    panel_m: float | None = None
 
     @property
     def width_m(self) -> float:
@@ -44,6 +48,10 @@ class Gap:
     @property
     def center_m(self) -> float:
         return (self.start_m + self.end_m) / 2.0
+
+    @property
+    def state(self) -> DoorState:
+        return DoorState.OPEN if self.panel_m is None else DoorState.CLOSED
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -54,7 +62,9 @@ class GapSettings:
     of a door. ``rays``: least number in a part of the wall that tells. ``bridge_m``: a part without rays this short is
     like its neighbors. ``post_m``: how far beside a gap wall may be first seen: rays that end on the reveal of a thick
     wall tell nothing. ``hiding_m``: an unseen stretch this long could hide a door, if ``dark_m`` of it showed nothing
-    at all.
+    at all. ``panel_m``, ``deepest_m``: how deep in the wall a door's leaf may be; ``leaf_rays``: least number in a part
+    of it; ``widest_leaf_m``: of a single leaf; ``flush``: share of the panel's depth that the wall above it, and beside
+    it, may be off its face.
     """
 
     narrowest_m: float = 0.35
@@ -63,6 +73,12 @@ class GapSettings:
     post_m: float = 0.36
     hiding_m: float = 0.5
     dark_m: float = 0.2
+    panel_m: float = 0.02
+    deepest_m: float = 0.3
+    leaf_rays: float = 6.0
+    narrowest_leaf_m: float = 0.5
+    widest_leaf_m: float = 1.4
+    flush: float = 0.4
 
 
 class WallEvidence:
@@ -80,6 +96,8 @@ class WallEvidence:
         self._grazed = np.zeros(bins)
         self._low_hits = np.zeros(bins)
         self._blocked = np.zeros(bins)
+        self._depth = np.zeros((2, bins))
+        self._depth_rays = np.zeros((2, bins))
         self._scans: deque[WallRays] = deque(maxlen=_KEPT_SCANS)
 
     def add(self, rays: WallRays, *, keep: bool) -> None:
@@ -97,6 +115,16 @@ class WallEvidence:
         self._bound()
         if keep:
             self._scans.append(rays)
+            self._add_depths(rays, index)
+
+    def _add_depths(self, rays: WallRays, index: NDArray[np.int64]) -> None:
+        """Sum up how deep rays end at the height of a door, and above; a leaf hides in part from the side."""
+        weight = 1.0 / (1.0 + rays.slope**2)
+        for row, depth_m in enumerate((rays.depth_m, rays.lintel_m)):
+            ended = (np.abs(rays.slope) < _GRAZING) & (depth_m < _DEEPEST_M) & ((row == 1) | ~rays.passed)
+            bins, rated = index[ended], weight[ended]
+            self._depth[row] += np.bincount(bins, rated * depth_m[ended], minlength=len(self._depth[row]))
+            self._depth_rays[row] += np.bincount(bins, rated, minlength=len(self._depth[row]))
 
     def _bound(self) -> None:
         """Old counts make room for new ones where there are many, so that what changes is seen."""
@@ -119,6 +147,38 @@ class WallEvidence:
                 wall_after_m=self._wall_beside(state, end - 1, 1, settings),
             )
             if gap.width_m >= settings.narrowest_m:
+                found.append(gap)
+        return found
+
+    def recesses(self, settings: GapSettings | None = None) -> list[Gap]:
+        """Closed doors: stretches as wide as a door's leaf that lie behind the face, below wall that does not."""
+        settings = settings or GapSettings()
+        rays = self._depth_rays
+        depth_m = self._depth / np.maximum(rays, 1e-9)
+        told = rays[0] >= settings.leaf_rays
+        deep = (
+            told & (depth_m[0] > settings.panel_m) & (depth_m[0] < settings.deepest_m) & (self._states(settings) != 1)
+        )
+        deep = binary_closing(deep, iterations=round(settings.bridge_m / _BIN_M / 2.0))
+        found: list[Gap] = []
+        for first, last in runs(deep):
+            leaf = np.arange(first, last)[told[first:last]]
+            panel_m = float(np.median(depth_m[0, leaf])) if len(leaf) else 0.0
+            beside = round(settings.post_m / _BIN_M)
+            flush = told & (np.abs(depth_m[0]) < settings.flush * panel_m)
+            before = np.flatnonzero(flush[max(0, first - beside) : first])
+            after = np.flatnonzero(flush[last : last + beside])
+            above = leaf[rays[1, leaf] > 0]
+            gap = Gap(
+                start_m=first * _BIN_M,
+                end_m=min(last * _BIN_M, self.length_m),
+                wall_before_m=(max(0, first - beside) + before[-1] + 1) * _BIN_M if len(before) else None,
+                wall_after_m=(last + after[0]) * _BIN_M if len(after) else None,
+                panel_m=panel_m,
+            )
+            a_leaf = settings.narrowest_leaf_m < gap.width_m < settings.widest_leaf_m and panel_m > settings.panel_m
+            below_lintel = len(above) > 0.3 * len(leaf) and np.median(depth_m[1, above]) < settings.flush * panel_m
+            if a_leaf and below_lintel and len(before) and len(after):
                 found.append(gap)
         return found
 
@@ -187,5 +247,6 @@ class WallEvidence:
             passed=np.concatenate([rays.passed[near] for rays, near in parts]),
             on_face=np.concatenate([rays.on_face[near] for rays, near in parts]),
             low_hit=np.concatenate([rays.low_hit[near] for rays, near in parts]),
+            lintel_m=np.concatenate([rays.lintel_m[near] for rays, near in parts]),
             blocked_m=np.empty(0),
         )

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from majordomo.perception.crossing import DOOR_AGENT, cross_affordance
+from majordomo.perception.crossing import CLOSED_REASON, DOOR_AGENT, cross_affordance, given_up
 from majordomo.perception.doors.evidence import Gap
 from majordomo.perception.doors.posts import MeasuredGap
 from majordomo.perception.localization.planar import diagonal_covariance, spatial_covariance
@@ -52,7 +52,15 @@ def hang(door_id: str, wall_id: str, wall_length_m: float, gap: MeasuredGap, sta
 
 
 def put_provisional(
-    tx: Transaction, door_id: str, room_id: str, wall: int, wall_length_m: float, gap: MeasuredGap, stamp_s: float
+    tx: Transaction,
+    door_id: str,
+    room_id: str,
+    wall: int,
+    wall_length_m: float,
+    gap: MeasuredGap,
+    stamp_s: float,
+    *,
+    state: DoorState = DoorState.OPEN,
 ) -> str:
     """A provisional door and the wish to look at it from the front; its identifier."""
     provisional_id = door_id + _SUFFIX
@@ -62,6 +70,7 @@ def put_provisional(
             label=door_label(gap.width_m),
             rooms=(room_id, None),
             width_m=gap.width_m,
+            state=state,
             confidence=0.4 + 0.2 * gap.posts,
         ),
         hang(provisional_id, wall_id_of(room_id, wall), wall_length_m, gap, stamp_s),
@@ -100,25 +109,30 @@ def put_permanent(
     wall_length_m: float,
     gap: MeasuredGap,
     stamp_s: float,
+    *,
+    state: DoorState = DoorState.OPEN,
 ) -> str:
-    """The provisional door becomes permanent, offers to be crossed, and asks for it; its identifier."""
+    """The provisional door becomes permanent, offers to be crossed, and asks for it when open; its identifier."""
     door_id = provisional_id.removesuffix(_SUFFIX)
     affordance_id = cross_affordance(door_id)
     tx.remove(provisional_id)
+    door = DoorNode(
+        id=door_id,
+        label=door_label(gap.width_m),
+        rooms=(room_id, None),
+        width_m=gap.width_m,
+        confidence=measured_confidence(gap),
+        state=state,
+        provisional=False,
+    )
+    closed = state is DoorState.CLOSED
     tx.put(
-        DoorNode(
-            id=door_id,
-            label=door_label(gap.width_m),
-            rooms=(room_id, None),
-            width_m=gap.width_m,
-            confidence=measured_confidence(gap),
-            provisional=False,
-        ),
+        given_up(door, CLOSED_REASON) if closed else door,
         hang(door_id, wall_id_of(room_id, wall), wall_length_m, gap, stamp_s),
         ConnectsEdge(source=door_id, target=room_id),
         AffordanceNode(id=affordance_id, kind=AffordanceKind.CROSS, target=door_id),
         HasEdge(source=door_id, target=affordance_id),
-        cross(door_id, stamp_s),
+        *([] if closed else [cross(door_id, stamp_s)]),
     )
     return door_id
 

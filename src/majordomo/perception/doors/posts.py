@@ -7,7 +7,7 @@ would take the last for wall and make every door seen from the front too narrow;
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,7 +27,8 @@ class PostSettings:
 
     ``window_m``: rays this near to a post count. ``slack_m``: how far the bounds may be off. ``shadow_m``: how far
     behind where wall was first seen the post may be, for the shallow end of a reveal looks like wall. ``sigma_m``: of a
-    ray's depth. ``thinnest_wall_m``: a ray this deep in the gap may have passed the reveal and met whatever is behind.
+    ray's depth. ``through_m``: how deep rays in the gap can end at most. ``thinnest_wall_m``: a ray this deep in the
+    gap may have passed the reveal and met whatever is behind.
     """
 
     window_m: float = 0.25
@@ -130,8 +131,11 @@ class MeasuredGap:
 
 def measure_gap(evidence: WallEvidence, gap: Gap) -> MeasuredGap:
     """Refine both ends of ``gap``; an end that cannot be refined stays where it is, with a large uncertainty."""
-    start_m, start_std_m = _end(evidence, gap.start_m, gap.wall_before_m, wall_follows=False)
-    end_m, end_std_m = _end(evidence, gap.end_m, gap.wall_after_m, wall_follows=True)
+    settings = PostSettings()
+    if gap.panel_m is not None:
+        settings = replace(settings, through_m=gap.panel_m)
+    start_m, start_std_m = _end(evidence, gap.start_m, gap.wall_before_m, settings, wall_follows=False)
+    end_m, end_std_m = _end(evidence, gap.end_m, gap.wall_after_m, settings, wall_follows=True)
     return MeasuredGap(
         center_m=(start_m + end_m) / 2.0,
         width_m=max(end_m - start_m, 0.0),
@@ -140,11 +144,13 @@ def measure_gap(evidence: WallEvidence, gap: Gap) -> MeasuredGap:
     )
 
 
-def _end(evidence: WallEvidence, open_m: float, wall_m: float | None, *, wall_follows: bool) -> tuple[float, float]:
+def _end(
+    evidence: WallEvidence, open_m: float, wall_m: float | None, settings: PostSettings, *, wall_follows: bool
+) -> tuple[float, float]:
     """Station and standard deviation of one end; a gap that reaches the wall's end has the next wall for a post."""
     if wall_m is None:
         return open_m, _ROUGH_M
     if wall_m in (0.0, evidence.length_m) and abs(open_m - wall_m) < _CORNER_M:
         return wall_m, 0.005
-    post = find_post(evidence, open_m, wall_m, wall_follows=wall_follows)
+    post = find_post(evidence, open_m, wall_m, wall_follows=wall_follows, settings=settings)
     return (post.station_m, post.std_m) if post is not None else (open_m, _ROUGH_M)

@@ -76,6 +76,10 @@ class RoomWatch:
         """Open stretches of a wall."""
         return self._evidence[wall].gaps()
 
+    def recesses(self, wall: int) -> list[Gap]:
+        """Closed doors in a wall, as far as they can be told from it."""
+        return self._evidence[wall].recesses()
+
     def unseen(self, wall: int, doors: Sequence[Span] = ()) -> list[Gap]:
         """Stretches of a wall, beside its known ``doors``, that could hide another and were not looked at yet."""
         explained = [(door.center_m - door.width_m / 2.0, door.center_m + door.width_m / 2.0) for door in doors]
@@ -87,8 +91,9 @@ class RoomWatch:
         ]
 
     def gap_at(self, wall: int, span: Span) -> Gap | None:
-        """The open stretch where a door is known, if there is one."""
-        return next((gap for gap in self.gaps(wall) if span.overlaps(gap)), None)
+        """The open stretch, or else the closed leaf, where a door is known, if there is one."""
+        both = (*self.gaps(wall), *self.recesses(wall))
+        return next((gap for gap in both if span.overlaps(gap)), None)
 
     def measure(self, wall: int, gap: Gap) -> MeasuredGap:
         """A gap with both ends refined."""

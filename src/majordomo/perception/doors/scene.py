@@ -43,13 +43,13 @@ class Scene:
         return found
 
     def unexplained(self) -> list[tuple[int, Gap]]:
-        """Gaps that are none of the known doors, with the index of their wall."""
+        """Gaps and closed leaves that are none of the known doors, with the index of their wall."""
         known = self.doors()
         return [
             (wall, gap)
             for wall in range(len(self.room.polygon))
             if self.wall_exists(wall)
-            for gap in self.watch.gaps(wall)
+            for gap in (*self.watch.gaps(wall), *self.watch.recesses(wall))
             if not any(other == wall and span.overlaps(gap) for _, other, span in known)
         ]
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 from dataclasses import dataclass, replace
 
-from majordomo.perception.crossing import DOOR_AGENT, given_up, match_of, uncrossed
+from majordomo.perception.crossing import CLOSED_REASON, DOOR_AGENT, given_up, match_of, uncrossed
 from majordomo.perception.doors.insertion import door_label, hang, is_suspicion, measured_confidence
 from majordomo.perception.doors.posts import MeasuredGap
 from majordomo.perception.doors.room_watch import Span
@@ -16,8 +16,6 @@ from majordomo.scene_graph.nodes import CrossingStatus, DoorNode, DoorState
 from majordomo.scene_graph.snapshot import Snapshot
 
 logger = logging.getLogger(__name__)
-
-CLOSED_REASON = "closed"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -78,17 +76,18 @@ class DoorUpkeep:
         if is_suspicion(door) and measured.width_m < NARROWEST_DOOR_M:
             return
         if door.provisional or measured.posts == 2:
-            self._write(scene, door, wall, span, measured)
+            self._write(scene, door, wall, span, measured, gap.state if door.provisional else door.state)
 
-    def _write(self, scene: Scene, door: DoorNode, wall: int, span: Span, measured: MeasuredGap) -> None:
+    def _write(
+        self, scene: Scene, door: DoorNode, wall: int, span: Span, measured: MeasuredGap, state: DoorState
+    ) -> None:
         confidence = 0.4 + 0.2 * measured.posts if door.provisional else measured_confidence(measured)
         change_m = max(abs(measured.center_m - span.center_m), abs(measured.width_m - span.width_m))
-        if change_m < self._settings.changed_m and confidence == door.confidence:
+        if change_m < self._settings.changed_m and confidence == door.confidence and state is door.state:
             return
         edge = hang(door.id, wall_id_of(scene.room.room_id, wall), scene.wall_length_m(wall), measured, scene.stamp_s)
         label = door_label(measured.width_m)
         with self._memory.edit(DOOR_AGENT, scene.stamp_s) as tx:
-            state = DoorState.OPEN if is_suspicion(door) else door.state
             tx.put(replace(door, width_m=measured.width_m, confidence=confidence, label=label, state=state), edge)
 
     def _remove(self, door: DoorNode, stamp_s: float) -> None:

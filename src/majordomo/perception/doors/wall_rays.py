@@ -27,8 +27,9 @@ class RaySettings:
     returns this near to the plane are on the wall. ``floor_m``, ``lintel_m``: a ray that would meet the floor or the
     lintel before it has passed tells nothing. ``through_m``: a ray this far beyond the plane has passed it
     (``lambda`` of algorithm 2). ``grazing``: least cosine of incidence. ``reach_m``: rays meeting a wall farther away
-    are too far apart to tell. ``floor_range_m``: a ray that meets the floor nearer than this
-    always returns. ``passage_m``: what stands nearer to a wall than this leaves no way to a door in it.
+    are too far apart to tell. ``lintel_bottom_m``, ``lintel_top_m``: where wall goes on above a door.
+    ``floor_range_m``: a ray that meets the floor nearer than this always returns. ``passage_m``: what stands nearer to
+    a wall than this leaves no way to a door in it.
     """
 
     low_m: float = 0.25
@@ -41,6 +42,8 @@ class RaySettings:
     grazing: float = 0.25
     reach_m: float = 9.0
     passage_m: float = 0.6
+    lintel_bottom_m: float = 2.05
+    lintel_top_m: float = 2.45
     floor_range_m: float = 20.0
 
 
@@ -52,6 +55,7 @@ class WallRays:
     ``through_m``. ``slope``: way along the wall per way into it. ``distance_m``: from the sensor.
     ``passed``: whether most rays of the direction passed; ``on_face``: whether they ended on the face, not behind it on
     a reveal or a recessed panel; ``low_hit``: whether most in the low band ended on the face.
+    ``lintel_m``: how far behind the face the nearest return above doors is, ``inf`` where there is none.
     ``blocked_m``: (M,) stations in whose direction something stands so close before the wall that nobody could pass.
     """
 
@@ -62,6 +66,7 @@ class WallRays:
     passed: NDArray[np.bool_]
     on_face: NDArray[np.bool_]
     low_hit: NDArray[np.bool_]
+    lintel_m: Array
     blocked_m: Array
 
 
@@ -125,6 +130,7 @@ def _classify(
     passing = (told & (depth >= settings.through_m)).sum(axis=0)
     low_hits = (low & (depth < settings.face_m)).sum(axis=0)
     kept = count > 0
+    above = (height > settings.lintel_bottom_m) & (height < settings.lintel_top_m) & (depth > -settings.face_m)
     before = (in_band & (depth > -settings.passage_m) & (depth <= -settings.face_m)).any(axis=0)
     typical = _median_where(depth, told)
     return WallRays(
@@ -135,6 +141,7 @@ def _classify(
         passed=(2 * passing > count)[kept],
         on_face=(typical < settings.face_m)[kept],
         low_hit=(2 * low_hits > low.sum(axis=0))[kept],
+        lintel_m=np.where(above, depth, np.inf).min(axis=0)[kept],
         blocked_m=station[before & ~kept],
     )
 

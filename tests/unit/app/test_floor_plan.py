@@ -100,3 +100,16 @@ def test_the_scene_is_put_where_the_robot_started():
     score = compare(plan_of_scene(scene, house.robot.pose), true)
     assert score.topology_right
     assert max(score.unaligned.room_position_m) < 1e-9
+
+
+def test_what_only_a_closed_door_leads_to_is_not_missed_and_the_door_counts_from_one_side():
+    true = two_rooms()
+    closed = FloorPlan(rooms=true.rooms, doors={"d": PlanDoor(**{**vars(true.doors["d"]), "optional": True})})
+    found = FloorPlan(
+        rooms={"room_1": true.rooms["a"]},
+        doors={"door_d": PlanDoor(center=np.array([4.0, 1.5]), width_m=0.9, rooms=frozenset({"room_1"}))},
+    )
+    assert compare(found, closed).topology_right
+    assert compare(FloorPlan(rooms=found.rooms, doors={}), closed).topology_right
+    assert not compare(found, true).topology_right
+    assert compare(FloorPlan(rooms={}, doors={}), closed).rooms_missed == ("a", "b")

@@ -122,16 +122,24 @@ def in_house(points_map: Array, start: Sequence[float]) -> Array:
 
 
 def compare(found: FloorPlan, true: FloorPlan) -> Score:
-    """Match rooms by shared area and doors by place and rooms; then measure."""
+    """Match rooms by shared area and doors by place and rooms; then measure.
+
+    Rooms that no open door leads to, and their doors, cannot be found and are not missed.
+    """
     same = _same_rooms(found, true)
+    open_to = _open_to(true, same)
     rotation, shift = _alignment(found, true, same)
     aligned = found.moved(rotation, shift)
     doors = _same_doors(aligned, true, same)
     return Score(
         found=same,
-        rooms_missed=tuple(room for room in true.rooms if room not in same),
+        rooms_missed=tuple(room for room in true.rooms if room not in same and room in open_to),
         rooms_invented=tuple(room for room in found.rooms if room not in same.values()),
-        doors_missed=tuple(name for name, door in true.doors.items() if name not in doors and not door.optional),
+        doors_missed=tuple(
+            name
+            for name, door in true.doors.items()
+            if name not in doors and not door.optional and door.rooms & open_to
+        ),
         doors_invented=tuple(name for name in found.doors if name not in doors.values()),
         errors=_errors(aligned, true, same, doors),
         unaligned=_errors(found, true, same, doors),
@@ -175,8 +183,21 @@ def _same_rooms(found: FloorPlan, true: FloorPlan) -> dict[str, str]:
     }
 
 
+def _open_to(true: FloorPlan, same: Mapping[str, str]) -> set[str]:
+    """True rooms that can be reached from one that was found; all when none was."""
+    if not same:
+        return set(true.rooms)
+    reached, before = set(same), -1
+    while len(reached) > before:
+        before = len(reached)
+        for door in true.doors.values():
+            if not door.optional and door.rooms & reached:
+                reached |= door.rooms
+    return reached
+
+
 def _same_doors(found: FloorPlan, true: FloorPlan, rooms: Mapping[str, str]) -> dict[str, str]:
-    """True door -> found door: same rooms, nearest."""
+    """True door -> found door: same rooms, nearest. Of a closed door one side may be all that is known."""
     names, truths = list(found.doors), list(true.doors)
     if not names or not truths:
         return {}
@@ -184,7 +205,8 @@ def _same_doors(found: FloorPlan, true: FloorPlan, rooms: Mapping[str, str]) -> 
     for row, truth in enumerate(truths):
         expected = {rooms.get(room) for room in true.doors[truth].rooms}
         for column, name in enumerate(names):
-            if expected == set(found.doors[name].rooms):
+            ours = set(found.doors[name].rooms)
+            if expected == ours or (true.doors[truth].optional and ours and ours < expected):
                 cost[row, column] = math.dist(true.doors[truth].center, found.doors[name].center)
     return {
         truths[row]: names[column]

@@ -134,7 +134,7 @@ def test_a_panel_in_the_gap_is_seen_and_so_is_its_opening(thickness_m: float) ->
     assert watch.looks_open(RIGHT_WALL, span) is True
 
 
-@pytest.mark.parametrize("thickness_m", [0.1, 0.19, 0.4])
+@pytest.mark.parametrize("thickness_m", [0.05, 0.1, 0.19, 0.4])
 @pytest.mark.parametrize("width", [0.7, 0.9, 1.2])
 @pytest.mark.parametrize("seed", range(2))
 def test_a_door_that_was_closed_from_the_first_is_told_from_wall_by_its_recessed_leaf(

@@ -73,7 +73,7 @@ class GapSettings:
     post_m: float = 0.36
     hiding_m: float = 0.5
     dark_m: float = 0.2
-    panel_m: float = 0.02
+    panel_m: float = 0.014
     deepest_m: float = 0.3
     leaf_rays: float = 6.0
     narrowest_leaf_m: float = 0.5
@@ -156,6 +156,7 @@ class WallEvidence:
         rays = self._depth_rays
         depth_m = self._depth / np.maximum(rays, 1e-9)
         told = rays[0] >= settings.leaf_rays
+        depth_m[0] -= np.median(depth_m[0, told]) if told.any() else 0.0
         deep = (
             told & (depth_m[0] > settings.panel_m) & (depth_m[0] < settings.deepest_m) & (self._states(settings) != 1)
         )

@@ -71,6 +71,15 @@ def test_a_room_that_is_as_it_is_believed_to_be_is_left_alone() -> None:
     written = run.memory.snapshot().room("room_1").polygon_m
     run.run(20.0)
     assert run.memory.snapshot().room("room_1").polygon_m == written
+    assert run.memory.snapshot().room("room_1").confidence > 0.9
+
+
+def test_a_room_that_is_not_as_believed_loses_confidence_before_it_is_measured_again() -> None:
+    believed = House(rooms={"a": rectangle(6.0, 2.5), "b": BESIDE}, doors=DOORS)
+    run = believed_in(l_house(), believed, Pose2(4.5, 1.2, 0.3))
+    run.run(30.0, until=lambda run: run.memory.snapshot().room("room_1").status is RoomStatus.TEMPORARY)
+    assert run.memory.snapshot().room("room_1").status is RoomStatus.TEMPORARY
+    assert run.memory.snapshot().room("room_1").confidence < 0.9
 
 
 def test_the_fitness_of_an_outline_falls_where_rays_pass_and_stays_where_they_end() -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import logging
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -38,6 +39,7 @@ _LOOK_S = 1.5
 _RETURNS = 4
 _WELL_INSIDE_M = 0.35
 _REVISIONS = 2
+_WORTH_WRITING = 0.05
 
 
 class RoomConcept:
@@ -136,11 +138,18 @@ class RoomConcept:
         if room_id is None or fitness is None or not self._judge or _room_needed(snapshot):
             return Verdict.DONE
         self._judge = False
+        self._publish(snapshot.room(room_id), fitness)
         if self._revised.get(room_id, 0) < _REVISIONS:
             against = missing_walls(snapshot, room_id, fitness)
             if against:
                 self._take_back(room_id, against)
         return Verdict.DONE
+
+    def _publish(self, room: RoomNode, fitness: OutlineFitness) -> None:
+        """Let the room's confidence be its running fitness: what of its walls is lately seen where it should be."""
+        if abs(fitness.recent - room.confidence) > _WORTH_WRITING:
+            with self._memory.edit(self.name, self._stamp_s) as tx:
+                tx.put(replace(room, confidence=fitness.recent))
 
     def _take_back(self, room_id: str, against: Sequence[Stretch]) -> None:
         self._revised[room_id] = self._revised.get(room_id, 0) + 1

@@ -8,7 +8,7 @@ from majordomo.planner.grammar.syntax import NounPhrase, Pronoun, Quantity
 from majordomo.planner.matching import nodes_of, similar
 from majordomo.planner.naming import at, listed, name_of
 from majordomo.planner.vocabulary import is_plural, normal, singular
-from majordomo.scene_graph.nodes import DoorNode, ObjectNode, ObjectState, PersonNode, RoomNode
+from majordomo.scene_graph.nodes import CrossingStatus, DoorNode, ObjectNode, ObjectState, PersonNode, RoomNode
 from majordomo.scene_graph.snapshot import Snapshot
 
 MAX_LISTED = 5
@@ -72,6 +72,19 @@ def which_question(ask: str, text: str, candidates: Sequence[str], snapshot: Sna
 
 def alternatives(phrase: NounPhrase, same: Sequence[str], snapshot: Snapshot) -> str:
     """Why a phrase names nothing, and what there is instead."""
+    return _alternatives(phrase, same, snapshot) + (
+        " I have not seen the whole building yet." if _parts_unseen(snapshot) else ""
+    )
+
+
+def _parts_unseen(snapshot: Snapshot) -> bool:
+    """Whether there is a door that nobody went through yet, or not even a room."""
+    doors = snapshot.of_type(DoorNode)
+    ahead = any(door.rooms[1] is None and door.crossing is CrossingStatus.UNCROSSED for door in doors)
+    return not snapshot.root.explored and (ahead or not snapshot.of_type(RoomNode))
+
+
+def _alternatives(phrase: NounPhrase, same: Sequence[str], snapshot: Snapshot) -> str:
     text = phrase_text(phrase)
     head = singular(phrase.head)
     if phrase.person and not same:

@@ -12,7 +12,9 @@ from majordomo.planner.plan import Dialogue, Kind
 from majordomo.planner.sketch import Sketch, flat
 from majordomo.planner.task_planner import TaskPlanner
 from majordomo.planner.verifier import Verifier
-from majordomo.scene_graph.nodes import DoorState, ObjectState
+from majordomo.scene_graph.edges import RtEdge
+from majordomo.scene_graph.nodes import DoorNode, DoorState, ObjectState
+from majordomo.scene_graph.se3 import SE3
 from majordomo.skills.registry import load_registry
 
 VERIFIER = Verifier(load_registry([]))
@@ -39,6 +41,16 @@ def test_nothing_of_the_kind_lists_what_there_is_instead():
         "I know of no green bottle. I have seen a blue bottle on the table in the kitchen and a red bottle on the desk "
         "in the office."
     )
+
+
+def test_while_doors_are_left_to_go_through_what_is_unknown_may_still_be_found():
+    memory = flat().memory(robot_in="room_2", at=(4.2, 0.0))
+    with memory.edit("test", 100.0) as tx:
+        tx.put(DoorNode(id="door_2_1_0", rooms=("room_2", None), provisional=False))
+        tx.put(RtEdge(source="room_2", target="door_2_1_0", T_source_target=SE3.identity()))
+    reply = read("bring me the green bottle", memory.snapshot()).reply
+    assert reply.startswith("I know of no green bottle.")
+    assert reply.endswith("I have not seen the whole building yet.")
 
 
 def test_a_misspelled_word_suggests_the_label():

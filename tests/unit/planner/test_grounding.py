@@ -46,8 +46,8 @@ def test_nothing_of_the_kind_lists_what_there_is_instead():
 def test_while_doors_are_left_to_go_through_what_is_unknown_may_still_be_found():
     memory = flat().memory(robot_in="room_2", at=(4.2, 0.0))
     with memory.edit("test", 100.0) as tx:
-        tx.put(DoorNode(id="door_2_1_0", rooms=("room_2", None), provisional=False))
-        tx.put(RtEdge(source="room_2", target="door_2_1_0", T_source_target=SE3.identity()))
+        tx.put(DoorNode(id="door_2_1_0", rooms=("room_2", None), width_m=0.9, provisional=False))
+        tx.put(RtEdge(source="room_2", target="door_2_1_0", T_source_target=SE3.from_xyz_yaw(0.0, 2.0, 0.0, 0.0)))
     reply = read("bring me the green bottle", memory.snapshot()).reply
     assert reply.startswith("I know of no green bottle.")
     assert reply.endswith("I have not seen the whole building yet.")

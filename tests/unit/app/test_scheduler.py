@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from majordomo.app.scheduler import LockstepScheduler, RealTimeScheduler
+from majordomo.app.scheduler import LockstepScheduler, RealTimeScheduler, Turns
 
 pytestmark = pytest.mark.anyio
 
@@ -112,3 +112,12 @@ async def test_a_fatal_error_of_any_agent_ends_the_scheduler(kind):
     with pytest.raises(ArithmeticError, match="as told"):
         async with asyncio.timeout(5.0):
             await scheduler.run()
+
+
+async def test_turns_are_counted_and_the_longest_wait_between_two_is_kept():
+    turns = Turns(agent=Diary("a", 0.01, []))
+    for pause_s in (0.0, 0.01, 0.2, 0.01):
+        await asyncio.sleep(pause_s)
+        await turns.take(0.0)
+    assert turns.taken == 4
+    assert 0.2 <= turns.longest_wait_s < 0.5

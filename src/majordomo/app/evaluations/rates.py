@@ -82,7 +82,7 @@ async def _replayed(house: str, seconds: float) -> dict[str, Any]:
     scheduler = RealTimeScheduler(agents, lambda: robot.now_s, speed=robot.speed)
     robot.start()
     await _for(seconds, asyncio.create_task(scheduler.run()))
-    return _summary("from memory", REPLAY_LIDAR_HZ, seconds, buffer.scans, scheduler.turns)
+    return summary("from memory", REPLAY_LIDAR_HZ, seconds, buffer.scans, scheduler.turns)
 
 
 async def _beside_simulator(house: str, seconds: float) -> dict[str, Any]:
@@ -94,7 +94,7 @@ async def _beside_simulator(house: str, seconds: float) -> dict[str, Any]:
             before, started = runtime.scans, time.monotonic()
             turns_before = {one.agent.name: one.taken for one in runtime.turns()}
             await asyncio.sleep(seconds)
-            return _summary(
+            return summary(
                 "beside the simulator",
                 SIMULATED_LIDAR_HZ,
                 time.monotonic() - started,
@@ -113,7 +113,7 @@ async def _for(seconds: float, task: asyncio.Task[None]) -> None:
         one.result()
 
 
-def _summary(
+def summary(
     source: str,
     lidar_hz: float,
     seconds: float,
@@ -121,7 +121,7 @@ def _summary(
     turns: Sequence[Turns],
     turns_before: Mapping[str, int] | None = None,
 ) -> dict[str, Any]:
-    """``scans``: that arrived within ``seconds``. ``turns_before``: that agents had taken before.
+    """What was held. ``scans``: that arrived within ``seconds``. ``turns_before``: that agents had taken before.
 
     A turn is overdue when it comes later than a period after the one before.
     """

@@ -79,7 +79,7 @@ def _drive(context: RobotContext, node_id: str, standoff_m: float) -> Action:
     if isinstance(node, RoomNode):
         return DriveTo(context, node_id, near_origin(context, node_id))
     if isinstance(node, DoorNode):
-        distances = dict.fromkeys((max(standoff_m, LEAST_STANDOFF_M), 0.8, 0.6, 1.2))
+        distances = dict.fromkeys((max(standoff_m, LEAST_STANDOFF_M), 0.8, 0.6, 1.2, 0.45))
         return DriveTo(context, node_id, at_poses(context, node_id, [(0.0, y_m, -pi / 2) for y_m in distances]))
     return DriveTo(context, node_id, around(context, node_id, max(standoff_m, LEAST_STANDOFF_M)))
 

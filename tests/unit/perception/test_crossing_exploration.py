@@ -170,7 +170,7 @@ def test_a_door_that_leads_outdoors_is_given_up_with_a_reason() -> None:
     assert run.memory.snapshot().root.explored
 
 
-def test_a_crossing_that_fails_twice_is_given_up_with_the_executor_s_reason() -> None:
+def test_a_crossing_that_fails_twice_and_once_more_at_the_end_is_given_up_with_the_executor_s_reason() -> None:
     run = Exploration.of(two_rooms(), Pose2(1.0, 1.0, 0.7), 0, agents)
     run.driver.refused |= {f"aff_cross_1_{wall}_0" for wall in range(4)}
     run.run(60.0, until=lambda one: one.memory.snapshot().root.explored)
@@ -178,7 +178,21 @@ def test_a_crossing_that_fails_twice_is_given_up_with_the_executor_s_reason() ->
     assert (door.crossing, door.crossing_reason) == (CrossingStatus.GIVEN_UP, "no way")
     assert [what for _, action, what, status in run.driver.finished if status == "failed"] == [
         f"aff_cross_{door.id.removeprefix('door_')}"
-    ] * 2
+    ] * 3
+
+
+def test_a_door_that_was_given_up_is_tried_again_when_nothing_else_is_left() -> None:
+    run = Exploration.of(two_rooms(), Pose2(1.0, 1.0, 0.7), 0, agents)
+    run.driver.refused |= {f"aff_cross_1_{wall}_0" for wall in range(4)}
+    run.run(60.0, until=lambda one: any(door.crossing is CrossingStatus.GIVEN_UP for door in doors_of(one)))
+    run.driver.refused.clear()
+    run.run(60.0, until=lambda one: one.memory.snapshot().root.explored)
+    assert {door.crossing for door in doors_of(run)} == {CrossingStatus.CROSSED}
+    assert len(run.memory.snapshot().of_type(RoomNode)) == 2
+
+
+def doors_of(run: Exploration) -> tuple[DoorNode, ...]:
+    return tuple(run.memory.snapshot().of_type(DoorNode))
 
 
 def test_a_door_that_closes_is_noticed_and_so_is_its_opening() -> None:

@@ -66,6 +66,14 @@ async def test_passes_a_gap_of_80_cm_from_wherever_it_starts(flat, y, before, ya
     assert rehearsal.least_clearance_m > 0.29
 
 
+async def test_a_door_with_furniture_right_before_it_is_crossed_from_between_the_two(flat):
+    world = wall(0.9, Box2(Pose2(1.95, 0.0), 0.4, 0.6))
+    rehearsal = Rehearsal(memory=flat(width_m=0.9).memory, world=world, body=FakeBody(pose=Pose2(1.2, 1.0)))
+    context = await rehearsal.prepare()
+    assert await rehearsal.run([CrossDoor(context, "door_1_1_0")]) is None
+    assert rehearsal.least_clearance_m > 0.25
+
+
 async def test_goes_on_in_the_new_room_when_placed_there_on_the_way(flat):
     crossing = Crossing(error=(0.0, 0.02, 0.01))
     rehearsal = Rehearsal(memory=flat().memory, world=wall(0.9), observe=crossing)

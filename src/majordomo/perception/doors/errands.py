@@ -6,10 +6,12 @@ import logging
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from majordomo.perception.crossing import DOOR_AGENT, cross_affordance, given_up, is_being_crossed
+from majordomo.perception.crossing import DOOR_AGENT, cross_affordance, given_up, is_being_crossed, uncrossed
 from majordomo.perception.doors.insertion import cross, put_permanent, visit
 from majordomo.perception.doors.scene import NARROWEST_DOOR_M, Scene
+from majordomo.perception.memory.exploration import nothing_left
 from majordomo.scene_graph.edges import EdgeKey, EdgeType, HasIntentionEdge, IntentionAction, IntentionStatus
+from majordomo.scene_graph.identifiers import natural_key
 from majordomo.scene_graph.memory import WorkingMemory
 from majordomo.scene_graph.nodes import ROBOT_ID, AffordanceNode, CrossingStatus, DoorNode, DoorState
 from majordomo.scene_graph.snapshot import Snapshot
@@ -30,13 +32,18 @@ class ErrandSettings:
 
 
 class DoorErrands:
-    """Follows own intentions: done visits make doors permanent, failures are repeated once, then given up."""
+    """Follows own intentions: done visits make doors permanent, failures are repeated once, then given up.
+
+    What was given up is tried once more at the end.
+    """
 
     def __init__(self, memory: WorkingMemory, settings: ErrandSettings | None = None) -> None:
         self._memory = memory
         self._settings = settings or ErrandSettings()
         self._failures: dict[str, int] = {}
         self._arrived_s: dict[str, float] = {}
+        self._postponed: set[str] = set()
+        self._tried_again: set[str] = set()
 
     def run(self, snapshot: Snapshot, scene_of: Callable[[str], Scene | None], stamp_s: float) -> None:
         """Follow every own intention one step; ``scene_of`` gives what is known of a room's walls."""
@@ -50,6 +57,7 @@ class DoorErrands:
                 if scene is not None:
                     self._follow_visit(scene, edge)
         self._ask_for_crossings(stamp_s)
+        self._try_again(snapshot, stamp_s)
 
     def _follow_visit(self, scene: Scene, edge: HasIntentionEdge) -> None:
         if edge.status is IntentionStatus.FAILED and self._failed_again(edge) < self._settings.attempts:
@@ -108,8 +116,28 @@ class DoorErrands:
                 with self._memory.edit(DOOR_AGENT, stamp_s) as tx:
                     tx.put(cross(door.id, stamp_s))
 
+    def _try_again(self, snapshot: Snapshot, stamp_s: float) -> None:
+        """When nothing else is left, doors that could not be reached get another chance, once: what stood in the way
+        may be gone.
+        """
+        if not self._postponed or not nothing_left(snapshot):
+            return
+        again, self._postponed = self._postponed, set()
+        self._tried_again |= again
+        for door_id in sorted(again, key=natural_key):
+            if door_id not in self._memory.building():
+                continue
+            self._memory.load(door_id, agent=DOOR_AGENT, stamp_s=stamp_s)
+            with self._memory.edit(DOOR_AGENT, stamp_s) as tx:
+                door = tx.snapshot.door(door_id)
+                if door.crossing is CrossingStatus.GIVEN_UP and door.state is not DoorState.CLOSED:
+                    tx.put(uncrossed(door))
+                    logger.info("trying %s again", door_id, extra={"door": door_id})
+
     def _give_up(self, door_id: str, reason: str, stamp_s: float) -> None:
         logger.info("gave up on %s: %s", door_id, reason, extra={"door": door_id})
+        if door_id not in self._tried_again:
+            self._postponed.add(door_id)
         with self._memory.edit(DOOR_AGENT, stamp_s) as tx:
             tx.put(given_up(tx.snapshot.door(door_id), reason or "could not be reached"))
             key = EdgeKey(EdgeType.HAS_INTENTION, ROBOT_ID, cross_affordance(door_id), DOOR_AGENT)

@@ -27,6 +27,9 @@ from majordomo.skills.navigation.pursuit import turn_rate
 from majordomo.skills.navigation.safety import admissible
 
 FRONT_M = 0.7
+OTHER_FRONTS_M = (0.8, 0.6, 0.95, 0.5, 0.42)
+ASIDE_M = (0.0, 0.08, -0.08)
+"""From where else a door may be crossed, when something stands right before it."""
 BEYOND_M = 0.9
 WALL_M = 0.2
 PANEL_BIN_M = 0.05
@@ -203,4 +206,4 @@ def twins_of(snapshot: Snapshot, door_id: str) -> list[str]:
 
 
 def _in_front(context: RobotContext, door_id: str) -> GoalSource:
-    return at_poses(context, door_id, [(0.0, y_m, -pi / 2) for y_m in (FRONT_M, 0.8, 0.6, 0.95)])
+    return at_poses(context, door_id, [(x_m, y_m, -pi / 2) for x_m in ASIDE_M for y_m in (FRONT_M, *OTHER_FRONTS_M)])

@@ -107,9 +107,14 @@ def test_what_only_a_closed_door_leads_to_is_not_missed_and_the_door_counts_from
     closed = FloorPlan(rooms=true.rooms, doors={"d": PlanDoor(**{**vars(true.doors["d"]), "optional": True})})
     found = FloorPlan(
         rooms={"room_1": true.rooms["a"]},
-        doors={"door_d": PlanDoor(center=np.array([4.0, 1.5]), width_m=0.9, rooms=frozenset({"room_1"}))},
+        doors={
+            "door_d": PlanDoor(
+                center=np.array([4.0, 1.52]), width_m=0.9, rooms=frozenset({"room_1"}), along=np.array([0.0, 1.0])
+            )
+        },
     )
     assert compare(found, closed).topology_right
+    assert compare(found, closed).errors.door_position_m == pytest.approx([0.02])
     assert compare(FloorPlan(rooms=found.rooms, doors={}), closed).topology_right
     assert not compare(found, true).topology_right
     assert compare(FloorPlan(rooms={}, doors={}), closed).rooms_missed == ("a", "b")

@@ -23,13 +23,20 @@ _GRID = 240
 @dataclass(frozen=True, kw_only=True, eq=False)
 class PlanDoor:
     """A door: ``center`` (2,), ``width_m``, and the rooms it joins; one that leads outside, or where no one has been,
-    has one. ``optional``: it need not be found, because it was closed all the time.
+    has one. ``optional``: it need not be found, because it was closed all the time. ``along``: (2,) unit direction of
+    the wall in whose face ``center`` is, for a door known from one side: nobody knows how thick the wall is.
     """
 
     center: Array
     width_m: float
     rooms: frozenset[str]
     optional: bool = False
+    along: Array | None = None
+
+    def distance_m(self, true: PlanDoor) -> float:
+        """How far it is from the true one; along the wall only where its other side is unknown."""
+        offset = self.center - true.center
+        return float(np.linalg.norm(offset) if self.along is None else abs(offset @ self.along))
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -43,7 +50,14 @@ class FloorPlan:
         """The plan after ``rotation`` (2, 2) and ``shift`` (2,)."""
         return FloorPlan(
             rooms={name: polygon @ rotation.T + shift for name, polygon in self.rooms.items()},
-            doors={name: replace(door, center=rotation @ door.center + shift) for name, door in self.doors.items()},
+            doors={
+                name: replace(
+                    door,
+                    center=rotation @ door.center + shift,
+                    along=None if door.along is None else rotation @ door.along,
+                )
+                for name, door in self.doors.items()
+            },
         )
 
 
@@ -107,7 +121,10 @@ def plan_of_scene(scene: Mapping[str, Any], start: Sequence[float]) -> FloorPlan
         },
         doors={
             node["id"]: PlanDoor(
-                center=np.array(node["position_m"][:2]), width_m=node["width_m"], rooms=frozenset(node["rooms"])
+                center=np.array(node["position_m"][:2]),
+                width_m=node["width_m"],
+                rooms=frozenset(node["rooms"]),
+                along=_rotation(node["yaw_rad"])[:, 0] if len(node["rooms"]) == 1 else None,
             )
             for node in nodes
             if node["type"] == "door" and not node["provisional"]
@@ -239,7 +256,7 @@ def _errors(found: FloorPlan, true: FloorPlan, rooms: Mapping[str, str], doors: 
         room_position_m=tuple(float(np.linalg.norm(ours.mean(axis=0) - theirs.mean(axis=0))) for ours, theirs in boxes),
         room_size_m=tuple(float(np.abs(_sides(ours) - _sides(theirs)).mean()) for ours, theirs in boxes),
         iou=tuple(iou(found.rooms[name], true.rooms[truth]) for truth, name in rooms.items()),
-        door_position_m=tuple(math.dist(ours.center, theirs.center) for ours, theirs in pairs),
+        door_position_m=tuple(ours.distance_m(theirs) for ours, theirs in pairs),
         door_width_m=tuple(abs(ours.width_m - theirs.width_m) for ours, theirs in pairs),
     )
 

@@ -70,12 +70,14 @@ class Arrangement:
     """Cells between the lines ``xs`` and ``ys`` (sorted, meters, axis-aligned frame).
 
     ``inside``: (len(xs) - 1, len(ys) - 1), the cells of the room. ``portals``: openings without a lintel.
+    ``passed``: stretches of lines that most rays go beyond, whatever they are.
     """
 
     xs: Array
     ys: Array
     inside: Mask
     portals: tuple[Portal, ...] = ()
+    passed: tuple[Portal, ...] = ()
 
 
 def wall_offsets(facets: Facets, settings: ArrangementSettings) -> list[float]:
@@ -149,7 +151,24 @@ def arrange(
     blocked_y |= _slits(seen.T, blocked_y.T, xs, settings.narrowest_m).T
     inside = _flood(seen, blocked_x, blocked_y, _cell(xs, ys, robot))
     inside = _without_crannies(inside, xs, ys, settings.narrowest_m)
-    return Arrangement(xs=xs, ys=ys, inside=inside, portals=tuple(portals))
+    passed = (*_passed(across_x, settings), *_passed(across_y, settings))
+    return Arrangement(xs=xs, ys=ys, inside=inside, portals=tuple(portals), passed=passed)
+
+
+def _passed(profile: LineProfile, settings: ArrangementSettings) -> list[Portal]:
+    """Stretches of the profile's lines, long enough to matter, that most rays go beyond."""
+    through = profile.told & ~profile.wall(settings.blocked)
+    return [
+        Portal(
+            axis=profile.axis,
+            offset_m=float(offset),
+            low_m=float(profile.stations[first]) - STATION_STEP_M / 2.0,
+            high_m=float(profile.stations[last - 1]) + STATION_STEP_M / 2.0,
+        )
+        for offset, row in zip(profile.lines, through, strict=True)
+        for first, last in runs(row)
+        if last - first > _RUN
+    ]
 
 
 def _stations(crossing: Array) -> Array:

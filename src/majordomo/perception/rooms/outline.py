@@ -80,11 +80,12 @@ def find_outline(views: Sequence[View], settings: ArrangementSettings | None = N
     if arrangement is None:
         return None
     polygon, portals = trace(arrangement), list(arrangement.portals)
-    walls = _refine(polygon, x_facing, y_facing, portals, settings)
+    passed = arrangement.passed
+    walls = _refine(polygon, x_facing, y_facing, portals, passed, settings)
     while (reveal := _reveal(polygon, walls)) is not None:
         polygon, portal = _cut(polygon, reveal)
         portals.append(portal)
-        walls = _refine(polygon, x_facing, y_facing, portals, settings)
+        walls = _refine(polygon, x_facing, y_facing, portals, passed, settings)
     turn = Pose2(0.0, 0.0, direction_rad)
     return Outline(
         polygon=turn.apply(_intersections(polygon, walls)),
@@ -170,11 +171,16 @@ class _MeasuredWall:
 
 
 def _refine(
-    polygon: Array, x_facing: Facets, y_facing: Facets, portals: Sequence[Portal], settings: ArrangementSettings
+    polygon: Array,
+    x_facing: Facets,
+    y_facing: Facets,
+    portals: Sequence[Portal],
+    passed: Sequence[Portal],
+    settings: ArrangementSettings,
 ) -> list[_MeasuredWall]:
     """Put each wall at the mean of the returns along it."""
     return [
-        _measure(start, end, (x_facing, y_facing), portals, settings)
+        _measure(start, end, (x_facing, y_facing), portals, passed, settings)
         for start, end in zip(polygon, np.roll(polygon, -1, axis=0), strict=True)
     ]
 
@@ -184,8 +190,12 @@ def _measure(
     end: Array,
     facets_by_axis: tuple[Facets, Facets],
     portals: Sequence[Portal],
+    passed: Sequence[Portal],
     settings: ArrangementSettings,
 ) -> _MeasuredWall:
+    """``passed`` stretches were not seen to be wall, however sparse the returns on a wall seen at a grazing angle are;
+    those in ``portals`` are closed by what is known of the wall beside them.
+    """
     across = 0 if abs(start[0] - end[0]) < abs(start[1] - end[1]) else 1
     nominal = float(start[across])
     low, high = sorted((float(start[1 - across]), float(end[1 - across])))
@@ -193,9 +203,12 @@ def _measure(
     low, high = low + clearance, high - clearance
     facets = facets_by_axis[across].near(nominal, 1.5 * settings.gate_m).between(low, high)
     seen = facets.seen(low, high)
+    stations = low + (np.arange(len(seen)) + 0.5) * (high - low) / len(seen)
+    for one in passed:
+        if one.axis == across and abs(one.offset_m - nominal) < settings.separation_m:
+            seen &= (stations < one.low_m) | (stations > one.high_m)
     for portal in portals:
         if portal.axis == across and abs(portal.offset_m - nominal) < settings.separation_m:
-            stations = low + (np.arange(len(seen)) + 0.5) * (high - low) / len(seen)
             seen |= (stations > portal.low_m - STATION_STEP_M) & (stations < portal.high_m + STATION_STEP_M)
     first, count = longest_gap(seen)
     bin_m = (high - low) / len(seen)

@@ -18,7 +18,7 @@ from majordomo.perception.localization.robot_pose import RobotPose, robot_pose_a
 from majordomo.perception.rooms.insertion import insert_room, propose_visit, withdraw
 from majordomo.perception.rooms.instance import MeasuredRoom
 from majordomo.perception.rooms.outline_fitness import OutlineFitness, Stretch
-from majordomo.perception.rooms.revision import let_stand, missing_walls, revise_room, take_back, taken_back
+from majordomo.perception.rooms.revision import let_stand, missing_walls, revise_room, same_place, take_back, taken_back
 from majordomo.perception.rooms.slice import OutlineSlicer
 from majordomo.perception.rooms.survey import Survey, SurveySettings
 from majordomo.perception.sensing import SensorBuffer, scan_points_base
@@ -223,6 +223,9 @@ class RoomConcept:
 
     def _revise(self, doubted: RoomNode, room: MeasuredRoom | None) -> Verdict:
         """The room that was taken back stands as it was measured now, or for want of that as it was."""
+        if room is not None and not same_place(doubted, room):
+            logger.info("what was measured is not %s; it stands as it was", doubted.id, extra={"room": doubted.id})
+            room = None
         with self._memory.edit(self.name, self._stamp_s) as tx:
             if room is None:
                 let_stand(tx, doubted)

@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 
 from majordomo.perception.localization.planar import Pose2
+from majordomo.perception.rooms.instance import MeasuredRoom
 from majordomo.perception.rooms.outline_fitness import OutlineFitness
+from majordomo.perception.rooms.revision import same_place
 from majordomo.perception.rooms.slice import OutlineSlicer
 from majordomo.scene_graph.memory import WorkingMemory
 from majordomo.scene_graph.nodes import ROBOT_ID, ROOT_ID, DoorNode, RoomNode, RoomStatus, WallNode
@@ -80,6 +82,27 @@ def test_a_room_that_is_not_as_believed_loses_confidence_before_it_is_measured_a
     run.run(30.0, until=lambda run: run.memory.snapshot().room("room_1").status is RoomStatus.TEMPORARY)
     assert run.memory.snapshot().room("room_1").status is RoomStatus.TEMPORARY
     assert run.memory.snapshot().room("room_1").confidence < 0.9
+
+
+def test_only_what_lies_where_the_room_was_can_replace_it() -> None:
+    room = RoomNode(id="room_1", polygon_m=tuple((x, y) for x, y in rectangle(6.0, 2.5).tolist()))
+
+    def measured(polygon: Array) -> MeasuredRoom:
+        nothing = np.zeros(len(polygon))
+        return MeasuredRoom(
+            polygon=polygon,
+            wall_seen=nothing,
+            wall_std_m=nothing,
+            T_parent_room=Pose2(0.0, 0.0, 0.0),
+            covariance=np.eye(3),
+            T_room_base=Pose2(1.0, 1.0, 0.0),
+            confidence=1.0,
+        )
+
+    assert same_place(room, measured(l_shape()))
+    assert same_place(room, measured(rectangle(3.0, 2.5)))
+    assert not same_place(room, measured(rectangle(4.0, 3.0, x=1.0, y=2.6)))
+    assert not same_place(room, measured(rectangle(4.0, 3.0, x=4.5, y=0.5)))
 
 
 def test_the_fitness_of_an_outline_falls_where_rays_pass_and_stays_where_they_end() -> None:

@@ -135,6 +135,15 @@ def test_a_nook_seen_from_far_along_its_wall_is_no_other_room(x_m: float) -> Non
     assert not outline.closed or corner_error_m(hall, outline.polygon) < 0.02
 
 
+@pytest.mark.parametrize("width_m", [1.0, 1.4])
+def test_the_mouth_of_a_corridor_s_arm_is_unseen_wall_however_sparse_the_returns_beside_it_are(width_m: float) -> None:
+    end = 5.6 + width_m
+    corridor = np.array([[0, 0], [12, 0], [12, 1.2], [end, 1.2], [end, 3], [5.6, 3], [5.6, 1.2], [0, 1.2]])
+    outline = outline_from(House(rooms={"corridor": corridor}), (1.5, 0.6), (2.0, 0.6), (2.4, 0.6))
+    assert not outline.closed
+    assert outline.gap_m.max() == pytest.approx(width_m, abs=0.15)
+
+
 def test_a_slanted_wall_gives_an_outline_that_does_not_count_as_closed() -> None:
     polygon = np.array([[0.0, 0.0], [5.0, 0.0], [3.0, 4.0], [0.0, 4.0]])
     measured = approach(polygon, (1.0, 1.0), (1.8, 1.6), 0)

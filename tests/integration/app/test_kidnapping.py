@@ -44,7 +44,7 @@ async def test_carried_into_another_room_the_robot_says_so_finds_itself_and_expl
         await until(runtime, lambda: runtime.status_document()["robot"]["localized"], 10.0)
         assert runtime.memory.snapshot().current_room == away
         await until(runtime, lambda: runtime.memory.snapshot().root.explored, 200.0)
-        graph = runtime.memory.snapshot()
+        graph = runtime.memory.building()
         assert len(graph.of_type(RoomNode)) == 3
         assert {door.crossing for door in graph.of_type(DoorNode)} == {CrossingStatus.CROSSED}
         said = [event.data["message"] for event in runtime.stream._history if event.type == "log"]

@@ -12,12 +12,14 @@ from dataclasses import replace
 from majordomo.perception.localization.planar import Pose2, diagonal_covariance, spatial_covariance
 from majordomo.scene_graph.edges import EdgeKey, EdgeType, InEdge, IntentionAction, IntentionStatus, RtEdge
 from majordomo.scene_graph.memory import Transaction
-from majordomo.scene_graph.nodes import ROBOT_ID, ROOT_ID, CrossingStatus, DoorNode
+from majordomo.scene_graph.nodes import ROBOT_ID, ROOT_ID, CrossingStatus, DoorNode, RoomNode, RoomStatus
 from majordomo.scene_graph.snapshot import Snapshot
 
 BEING_CROSSED = "being crossed"
 CLOSED_REASON = "closed"
 DOOR_AGENT = "door_concept"
+_OPEN = frozenset({IntentionStatus.PROPOSED, IntentionStatus.GRANTED, IntentionStatus.REVOKED})
+_TASK_PREFIX = "task:"
 LOST_STD = 1.0
 """Meters and radians: how far off the guess of a lost robot may be, as far as the covariance has to say it."""
 
@@ -25,6 +27,20 @@ LOST_STD = 1.0
 def door_being_crossed(snapshot: Snapshot) -> DoorNode | None:
     """The door whose far side the robot is on without knowing it, if any."""
     return next((door for door in snapshot.of_type(DoorNode) if is_being_crossed(door)), None)
+
+
+def nothing_left(snapshot: Snapshot) -> bool:
+    """Whether every door is crossed or given up, every room stands, and nobody but tasks wants the robot.
+
+    The agent that looks around in rooms asks for it by an intention, so an open one keeps the building unexplored.
+    """
+    rooms, doors = snapshot.of_type(RoomNode), snapshot.of_type(DoorNode)
+    return (
+        len(rooms) > 0
+        and all(room.status is not RoomStatus.TEMPORARY for room in rooms)
+        and all(not door.provisional and door.crossing is not CrossingStatus.UNCROSSED for door in doors)
+        and not any(edge.status in _OPEN and not edge.agent.startswith(_TASK_PREFIX) for edge in snapshot.intentions())
+    )
 
 
 def is_being_crossed(door: DoorNode) -> bool:

@@ -6,10 +6,16 @@ import logging
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from majordomo.perception.crossing import DOOR_AGENT, cross_affordance, given_up, is_being_crossed, uncrossed
+from majordomo.perception.crossing import (
+    DOOR_AGENT,
+    cross_affordance,
+    given_up,
+    is_being_crossed,
+    nothing_left,
+    uncrossed,
+)
 from majordomo.perception.doors.insertion import cross, put_permanent, visit
 from majordomo.perception.doors.scene import NARROWEST_DOOR_M, Scene
-from majordomo.perception.memory.exploration import nothing_left
 from majordomo.scene_graph.edges import EdgeKey, EdgeType, HasIntentionEdge, IntentionAction, IntentionStatus
 from majordomo.scene_graph.identifiers import natural_key
 from majordomo.scene_graph.memory import WorkingMemory

@@ -92,8 +92,11 @@ class RoomWatch:
 
     def gap_at(self, wall: int, span: Span) -> Gap | None:
         """The open stretch, or else the closed leaf, where a door is known, if there is one."""
-        both = (*self.gaps(wall), *self.recesses(wall))
-        return next((gap for gap in both if span.overlaps(gap)), None)
+        for found in (self.gaps, self.recesses):
+            for gap in found(wall):
+                if span.overlaps(gap):
+                    return gap
+        return None
 
     def measure(self, wall: int, gap: Gap) -> MeasuredGap:
         """A gap with both ends refined."""

@@ -92,6 +92,17 @@ def inside(polygon: Array, point: Array) -> bool:
     return bool(np.count_nonzero(straddles & (point[0] < crossing)) % 2)
 
 
+def shared_area(first: Array, second: Array, *, samples: int = 32) -> tuple[int, int, int]:
+    """Areas of two (N, 2) polygons and of what they share, as numbers of points of a grid over both."""
+    low, high = np.minimum(first.min(axis=0), second.min(axis=0)), np.maximum(first.max(axis=0), second.max(axis=0))
+    axes = [
+        np.linspace(a, b, samples, endpoint=False) + (b - a) / (2 * samples) for a, b in zip(low, high, strict=True)
+    ]
+    points = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 2)
+    in_first, in_second = (np.array([inside(polygon, point) for point in points]) for polygon in (first, second))
+    return int(in_first.sum()), int(in_second.sum()), int((in_first & in_second).sum())
+
+
 def distance_to_outline(polygon: Array, point: Array) -> float:
     """Distance of (2,) ``point`` from the nearest edge of (N, 2) ``polygon``."""
     edges = np.roll(polygon, -1, axis=0) - polygon

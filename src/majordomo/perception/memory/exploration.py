@@ -4,28 +4,10 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from majordomo.scene_graph.edges import IntentionStatus
+from majordomo.perception.crossing import nothing_left
 from majordomo.scene_graph.memory import WorkingMemory
-from majordomo.scene_graph.nodes import CrossingStatus, DoorNode, RoomNode, RoomStatus
-from majordomo.scene_graph.snapshot import Snapshot
 
-_OPEN = frozenset({IntentionStatus.PROPOSED, IntentionStatus.GRANTED, IntentionStatus.REVOKED})
 _QUIET_S = 4.0
-_TASK_PREFIX = "task:"
-
-
-def nothing_left(snapshot: Snapshot) -> bool:
-    """Whether every door is crossed or given up, every room stands, and nobody but tasks wants the robot.
-
-    The agent that looks around in rooms asks for it by an intention, so an open one keeps the building unexplored.
-    """
-    rooms, doors = snapshot.of_type(RoomNode), snapshot.of_type(DoorNode)
-    return (
-        len(rooms) > 0
-        and all(room.status is not RoomStatus.TEMPORARY for room in rooms)
-        and all(not door.provisional and door.crossing is not CrossingStatus.UNCROSSED for door in doors)
-        and not any(edge.status in _OPEN and not edge.agent.startswith(_TASK_PREFIX) for edge in snapshot.intentions())
-    )
 
 
 class ExplorationJudge:

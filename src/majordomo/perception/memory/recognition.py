@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from majordomo.perception.crossing import match_of
 from majordomo.perception.localization.doorways import Doorway, DoorwayModel, doorway_model
-from majordomo.perception.localization.landmarks import RoomModel, inside, room_model
+from majordomo.perception.localization.landmarks import RoomModel, room_model, shared_area
 from majordomo.perception.localization.planar import Pose2, planar_covariance, wrap
 from majordomo.perception.localization.relocalization import (
     KnownRoom,
@@ -235,10 +235,5 @@ def _places(snapshot: Snapshot, room_id: str, kind: type[DoorNode | ObjectNode])
 
 def overlap(room: RoomModel, polygon: Array) -> float:
     """Shared area of a room and a polygon in its frame, over the area of both together; by sampling."""
-    low = np.minimum(room.polygon.min(axis=0), polygon.min(axis=0))
-    high = np.maximum(room.polygon.max(axis=0), polygon.max(axis=0))
-    axes = [np.linspace(a, b, 32, endpoint=False) + (b - a) / 64 for a, b in zip(low, high, strict=True)]
-    points = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 2)
-    in_room = np.array([inside(room.polygon, point) for point in points])
-    in_other = np.array([inside(polygon, point) for point in points])
-    return float((in_room & in_other).sum() / max((in_room | in_other).sum(), 1))
+    area, other, shared = shared_area(room.polygon, polygon)
+    return shared / max(area + other - shared, 1)

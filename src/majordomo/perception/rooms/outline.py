@@ -204,12 +204,10 @@ def _measure(
     facets = facets_by_axis[across].near(nominal, 1.5 * settings.gate_m).between(low, high)
     seen = facets.seen(low, high)
     stations = low + (np.arange(len(seen)) + 0.5) * (high - low) / len(seen)
-    for one in passed:
-        if one.axis == across and abs(one.offset_m - nominal) < settings.separation_m:
-            seen &= (stations < one.low_m) | (stations > one.high_m)
-    for portal in portals:
-        if portal.axis == across and abs(portal.offset_m - nominal) < settings.separation_m:
-            seen |= (stations > portal.low_m - STATION_STEP_M) & (stations < portal.high_m + STATION_STEP_M)
+    for one in _on_line(passed, across, nominal, settings):
+        seen &= (stations < one.low_m) | (stations > one.high_m)
+    for portal in _on_line(portals, across, nominal, settings):
+        seen |= (stations > portal.low_m - STATION_STEP_M) & (stations < portal.high_m + STATION_STEP_M)
     first, count = longest_gap(seen)
     bin_m = (high - low) / len(seen)
     gap_station = low + (first + count / 2.0) * bin_m
@@ -223,6 +221,11 @@ def _measure(
         gap_m=count * bin_m,
         gap_center=(nominal, gap_station) if across == 0 else (gap_station, nominal),
     )
+
+
+def _on_line(stretches: Sequence[Portal], axis: int, offset_m: float, settings: ArrangementSettings) -> list[Portal]:
+    """Those of the stretches that lie on a line."""
+    return [one for one in stretches if one.axis == axis and abs(one.offset_m - offset_m) < settings.separation_m]
 
 
 def _intersections(polygon: Array, walls: list[_MeasuredWall]) -> Array:

@@ -66,12 +66,11 @@ class OutlineFitness:
     @property
     def recent(self) -> float:
         """Share of the places on the outline at which rays lately ended as they should, of those that tell."""
-        return self._share(0)
-
-    @property
-    def usual(self) -> float:
-        """The same in the long run."""
-        return self._share(1)
+        told = self._ended[0] + self._passed[0]
+        asked = told >= 1.0
+        if not asked.any():
+            return 1.0
+        return float((self._ended[0][asked] >= _LEAST_MATCHED * told[asked]).mean())
 
     def add(self, scan: OutlineScan, T_room_base: Pose2) -> bool:
         """Take in a scan, unless the robot has not moved since the last; whether it was taken in."""
@@ -100,13 +99,6 @@ class OutlineFitness:
         clearance[incidence < 0.0] = np.nan
         with np.errstate(invalid="ignore"):
             return np.abs(clearance) <= gate_m, clearance > 2.0 * gate_m
-
-    def _share(self, row: int) -> float:
-        told = self._ended[row] + self._passed[row]
-        asked = told >= 1.0
-        if not asked.any():
-            return 1.0
-        return float((self._ended[row][asked] >= _LEAST_MATCHED * told[asked]).mean())
 
     def contradicted(self) -> list[Stretch]:
         """Stretches of wall that most rays pass, seen from enough places to be sure."""

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from majordomo.perception.crossing import cross_affordance, match_of, move_robot
 from majordomo.perception.doors.hanging import doors_in
 from majordomo.perception.doors.insertion import WIDEST_DOOR_M
-from majordomo.perception.localization.landmarks import inside
+from majordomo.perception.localization.landmarks import shared_area
 from majordomo.perception.localization.planar import Pose2, diagonal_covariance, spatial_covariance
 from majordomo.perception.rooms.insertion import withdraw
 from majordomo.perception.rooms.instance import MeasuredRoom, room_elements
@@ -32,7 +32,6 @@ Array = NDArray[np.float64]
 _SAME_WALL_M = 0.3
 _PARALLEL = 0.95
 _CORNER_M = 0.35
-_SAMPLES = 40
 _SHARED = 0.6
 
 
@@ -86,13 +85,8 @@ def same_place(before: RoomNode, measured: MeasuredRoom) -> bool:
     The smaller of the two must be mostly within the other: a part may turn out to be missing, or to have been missed.
     """
     old, new = np.array(before.polygon_m), measured.T_parent_room.apply(measured.polygon)
-    low, high = np.minimum(old.min(axis=0), new.min(axis=0)), np.maximum(old.max(axis=0), new.max(axis=0))
-    axes = [
-        np.linspace(a, b, _SAMPLES, endpoint=False) + (b - a) / (2.0 * _SAMPLES) for a, b in zip(low, high, strict=True)
-    ]
-    points = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 2)
-    in_old, in_new = (np.array([inside(polygon, point) for point in points]) for polygon in (old, new))
-    return bool((in_old & in_new).sum() > _SHARED * max(1, min(in_old.sum(), in_new.sum())))
+    before_area, area, shared = shared_area(old, new)
+    return shared > _SHARED * max(1, min(before_area, area))
 
 
 def let_stand(tx: Transaction, room: RoomNode) -> None:

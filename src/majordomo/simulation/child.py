@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 MAX_BURST_S = 0.05
 """Most simulated time between two looks at the requests; beyond it simulated time falls behind the wall clock."""
-CLOSE = "close"
+ADVANCE, CLOSE = "advance", "close"
 STEP_S = 1.0 / 240.0
 """Duration of a physics step."""
 
@@ -61,11 +61,13 @@ def _serve(connection: Connection, engine: Engine, start: Start) -> None:
 
 
 def _answer(engine: Engine, request: Request) -> Reply:
+    for command in request.before:
+        getattr(engine, command.method)(*command.args)
     try:
         value = getattr(engine, request.method)(*request.args)
     except DisturbError as error:
         return Reply(problem=str(error), now_s=engine.now_s)
-    return Reply(value=value, now_s=engine.now_s)
+    return Reply(value=value, now_s=engine.now_s, readings=engine.readings() if request.method == ADVANCE else None)
 
 
 class _Pace:

@@ -7,15 +7,16 @@ import contextlib
 import multiprocessing
 import time
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 from multiprocessing.connection import Connection
 from multiprocessing.process import BaseProcess
 from typing import Any
 
 from majordomo.perception.ports import JointState, LidarScan, Odometry, RgbdFrame
-from majordomo.simulation.child import CLOSE, run
+from majordomo.simulation.child import ADVANCE, CLOSE, run
 from majordomo.simulation.errors import DisturbError, HouseError, SimulatorDied
 from majordomo.simulation.house import load_house
-from majordomo.simulation.messages import Mode, Reply, Request, Segment, Start
+from majordomo.simulation.messages import Mode, Readings, Reply, Request, Segment, Start
 from majordomo.skills.ports import ArmGeometry, ArmTarget, BodyLimits, BodyState
 
 START_TIMEOUT_S = 60.0
@@ -26,7 +27,8 @@ class SimulatedRobot:
     """``SensorPort`` and ``BodyPort`` of the simulated robot. Make one with ``await SimulatedRobot.start(...)``.
 
     Requests go one at a time, in the order of their calls, through one thread, so the event loop never waits. The stop
-    does not queue: it is a flag in shared memory that the simulator reads before every physics step.
+    does not queue: it is a flag in shared memory that the simulator reads before every physics step. In lockstep
+    nothing moves until time does: commands travel with the next call, and what the body measured comes with the time.
     """
 
     def __init__(self, start: Start) -> None:
@@ -37,6 +39,8 @@ class SimulatedRobot:
         self._process: BaseProcess | None = None
         self._connection: Connection | None = None
         self._now_s, self._heard_at = 0.0, time.monotonic()
+        self._pending: list[Request] = []
+        self._readings: Readings | None = None
 
     @classmethod
     async def start(cls, house: str, *, seed: int = 0, mode: str = "lockstep", speed: float = 1.0) -> SimulatedRobot:
@@ -85,6 +89,8 @@ class SimulatedRobot:
 
     async def odometry(self) -> Odometry:
         """Newest odometry."""
+        if self._readings is not None:
+            return self._readings.odometry
         measured: Odometry = await self._call("odometry")
         return measured
 
@@ -100,29 +106,33 @@ class SimulatedRobot:
 
     async def joints(self) -> JointState:
         """Newest joint and gripper state."""
+        if self._readings is not None:
+            return self._readings.joints
         measured: JointState = await self._call("joints")
         return measured
 
     async def state(self) -> BodyState:
         """The body as measured."""
+        if self._readings is not None:
+            return replace(self._readings.state, stopped=self.stopped)
         measured: BodyState = await self._call("body_state")
         return measured
 
     async def drive(self, linear_mps: float, angular_radps: float) -> None:
         """Command the base; lapses after the dead-man timeout."""
-        await self._call("drive", linear_mps, angular_radps)
+        await self._command("drive", linear_mps, angular_radps)
 
     async def look(self, pan_rad: float, tilt_rad: float) -> None:
         """Aim the camera."""
-        await self._call("look", pan_rad, tilt_rad)
+        await self._command("look", pan_rad, tilt_rad)
 
     async def move_arm(self, target: ArmTarget) -> None:
         """Move the arm."""
-        await self._call("move_arm", target)
+        await self._command("move_arm", target)
 
     async def grip(self, opening_m: float, effort_n: float = 15.0) -> None:
         """Move the fingers."""
-        await self._call("grip", opening_m, effort_n)
+        await self._command("grip", opening_m, effort_n)
 
     def stop(self) -> None:
         """Latch the stop; in force at the next physics step."""
@@ -134,7 +144,7 @@ class SimulatedRobot:
 
     async def advance(self, duration_s: float) -> float:
         """Advance simulated time (lockstep); the new time in seconds."""
-        now_s: float = await self._call("advance", duration_s)
+        now_s: float = await self._call(ADVANCE, duration_s)
         return now_s
 
     async def segmentation(self, stamp_s: float) -> tuple[Segment, ...]:
@@ -154,6 +164,7 @@ class SimulatedRobot:
             DisturbError: it cannot happen; says why.
         """
         await self._call("disturb", event)
+        self._readings = None
 
     async def restart(self) -> None:
         """End what is left of the simulator and start a fresh one: same house, same seed."""
@@ -183,12 +194,23 @@ class SimulatedRobot:
         self._process, self._connection = process, ours
         return self._receive(START_TIMEOUT_S)
 
+    async def _command(self, method: str, *args: Any) -> None:
+        if self._start.mode is not Mode.LOCKSTEP:
+            await self._call(method, *args)
+        elif self._connection is None:
+            raise SimulatorDied("it was closed")
+        else:
+            self._pending.append(Request(method=method, args=args))
+
     async def _call(self, method: str, *args: Any) -> Any:
-        request = Request(method=method, args=args)
+        request = Request(method=method, args=args, before=tuple(self._pending))
+        self._pending.clear()
         reply: Reply = await asyncio.get_running_loop().run_in_executor(self._thread, self._exchange, request)
         if reply.problem:
             path, _, problem = reply.problem.rpartition(": ")
             raise DisturbError(path, problem)
+        if self._start.mode is Mode.LOCKSTEP and reply.readings is not None:
+            self._readings = reply.readings
         return reply.value
 
     def _exchange(self, request: Request) -> Reply:
@@ -224,7 +246,8 @@ class SimulatedRobot:
 
     def _bury(self) -> None:
         process, connection = self._process, self._connection
-        self._process = self._connection = None
+        self._process = self._connection = self._readings = None
+        self._pending.clear()
         if connection is not None:
             with contextlib.suppress(OSError):
                 connection.send(Request(method=CLOSE))

@@ -14,7 +14,7 @@ from majordomo.simulation.camera import INTRINSICS, Picture, T_base_camera, rend
 from majordomo.simulation.child import STEP_S
 from majordomo.simulation.house import House, parse_disturbance
 from majordomo.simulation.lidar import AZIMUTHS_RAD, ELEVATIONS_RAD, scan_ranges
-from majordomo.simulation.messages import Segment
+from majordomo.simulation.messages import Readings, Segment
 from majordomo.simulation.noise import NoisyOdometry, noisy_depth, noisy_ranges
 from majordomo.simulation.robot import RobotBody, T_base_gripper
 from majordomo.simulation.segmentation import segments
@@ -122,26 +122,12 @@ class Engine:
 
     def body_state(self) -> BodyState:
         """The same for skills."""
+        return self._body_state(self.joints())
+
+    def readings(self) -> Readings:
+        """All that the body measures by itself."""
         joints = self.joints()
-        linear, angular = self._robot.velocity
-        return BodyState(
-            stamp_s=joints.stamp_s,
-            linear_mps=linear,
-            angular_radps=angular,
-            arm=ArmTarget(
-                lift_m=joints.lift_m,
-                extension_m=joints.extension_m,
-                wrist_pitch_rad=joints.wrist_pitch_rad,
-                wrist_roll_rad=joints.wrist_roll_rad,
-            ),
-            gripper_opening_m=joints.gripper_opening_m,
-            finger_contacts=joints.finger_contacts,
-            pan_rad=joints.pan_rad,
-            tilt_rad=joints.tilt_rad,
-            bumped=bool(self._colliding),
-            stopped=self._stop_latched(),
-            T_base_gripper=joints.T_base_gripper,
-        )
+        return Readings(odometry=self.odometry(), joints=joints, state=self._body_state(joints))
 
     def drive(self, linear_mps: float, angular_radps: float) -> None:
         """Set the base's velocity."""
@@ -176,6 +162,27 @@ class Engine:
     def close(self) -> None:
         """Release the physics client."""
         p.disconnect(physicsClientId=self._client)
+
+    def _body_state(self, joints: JointState) -> BodyState:
+        linear, angular = self._robot.velocity
+        return BodyState(
+            stamp_s=joints.stamp_s,
+            linear_mps=linear,
+            angular_radps=angular,
+            arm=ArmTarget(
+                lift_m=joints.lift_m,
+                extension_m=joints.extension_m,
+                wrist_pitch_rad=joints.wrist_pitch_rad,
+                wrist_roll_rad=joints.wrist_roll_rad,
+            ),
+            gripper_opening_m=joints.gripper_opening_m,
+            finger_contacts=joints.finger_contacts,
+            pan_rad=joints.pan_rad,
+            tilt_rad=joints.tilt_rad,
+            bumped=bool(self._colliding),
+            stopped=self._stop_latched(),
+            T_base_gripper=joints.T_base_gripper,
+        )
 
     def _carry(self, pose: tuple[float, float, float]) -> None:
         self._robot.set_pose(pose)

@@ -9,6 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from majordomo.perception.ports import JointState, Odometry
+from majordomo.skills.ports import BodyState
+
 
 class Mode(StrEnum):
     """``lockstep``: time moves only when told. ``real``: the simulator follows the wall clock."""
@@ -29,19 +32,33 @@ class Start:
 
 @dataclass(frozen=True, kw_only=True)
 class Request:
-    """Call ``method`` of the engine."""
+    """Call ``method`` of the engine, after the commands that were given ``before``."""
 
     method: str
     args: tuple[Any, ...] = ()
+    before: tuple[Request, ...] = ()
+
+
+@dataclass(frozen=True, kw_only=True)
+class Readings:
+    """What the robot's body measures at one instant: true until time moves or something is moved by hand."""
+
+    odometry: Odometry
+    joints: JointState
+    state: BodyState
 
 
 @dataclass(frozen=True, kw_only=True)
 class Reply:
-    """What came of it. ``problem`` is set, and ``value`` is not, when the engine refused."""
+    """What came of it. ``problem`` is set, and ``value`` is not, when the engine refused.
+
+    ``readings``: with every advance, so that asking for them costs no further message.
+    """
 
     value: Any = None
     problem: str = ""
     now_s: float = 0.0
+    readings: Readings | None = None
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

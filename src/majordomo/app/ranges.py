@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from majordomo.perception.range_noise import calmed
-from majordomo.perception.sensing import SensorBuffer, scan_points_base
+from majordomo.perception.sensing import SensorBuffer, scan_points_between
 
 USUAL_NOISE_M = 0.026
 """Noise of the ranges up to which they are taken as they are; more would fill doorways and floors with obstacles."""
@@ -31,8 +31,7 @@ class ScanRanges:
         scan = self._buffer.scan
         if scan is not None and scan.stamp_s != self._stamp_s:
             ranges_m = calmed(scan.ranges_m.astype(np.float64), USUAL_NOISE_M).astype(np.float32)
-            points = scan_points_base(replace(scan, ranges_m=ranges_m))
-            height_m, distance_m = points[:, 2], np.hypot(points[:, 0], points[:, 1])
-            near = (height_m > FLOOR_M) & (height_m < self._robot_height_m) & (distance_m < self._reach_m)
-            self._points, self._stamp_s = points[near], scan.stamp_s
+            points = scan_points_between(replace(scan, ranges_m=ranges_m), FLOOR_M, self._robot_height_m)
+            self._points = points[np.hypot(points[:, 0], points[:, 1]) < self._reach_m]
+            self._stamp_s = scan.stamp_s
         return self._points

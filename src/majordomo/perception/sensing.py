@@ -58,6 +58,16 @@ def scan_points_base(scan: LidarScan) -> NDArray[np.float64]:
     return np.asarray(points, dtype=np.float64)
 
 
+def scan_points_between(scan: LidarScan, low_m: float, high_m: float) -> NDArray[np.float64]:
+    """(N, 3) points of the rays that returned between two heights above the floor, base frame at ``scan.stamp_s``."""
+    directions, origin = ray_directions_base(scan), scan.T_base_lidar.translation_m
+    ranges_m = scan.ranges_m.astype(np.float64)
+    with np.errstate(invalid="ignore"):
+        height_m = origin[2] + ranges_m * directions[..., 2]
+    between = (height_m > low_m) & (height_m < high_m)
+    return np.asarray(directions[between] * ranges_m[between][:, None] + origin, dtype=np.float64)
+
+
 class SensorBuffer:
     """Newest measurement of each sensor, a short history of odometry, and which sensors are silent.
 

@@ -84,7 +84,7 @@ class AlignmentSettings:
     """Gates and floors.
 
     ``gates_m``: how far from a wall a return may be, per iteration. ``floor_m``, ``floor_rad``: errors that averaging
-    over a scan does not remove. ``returns``: at most this many are used.
+    over a scan does not remove. ``returns``: at most this many are used in all iterations but the last.
     """
 
     gates_m: tuple[float, ...] = (0.25, 0.15, 0.10, 0.08)
@@ -93,7 +93,7 @@ class AlignmentSettings:
     least_sigma_m: float = 0.01
     floor_m: float = 0.002
     floor_rad: float = 0.0004
-    returns: int = 600
+    returns: int = 300
 
 
 def align(
@@ -106,10 +106,10 @@ def align(
     """Most probable pose given the scan and a ``guess`` with its (3, 3) covariance; ``None`` when nothing matches."""
     settings = settings or AlignmentSettings()
     guess_information = np.asarray(np.linalg.inv(guess_covariance))
-    points = points_base[:: max(1, len(points_base) // settings.returns)]
+    some = points_base[:: max(1, len(points_base) // settings.returns)]
     pose = guess
     normal_matrix, matched, sigma_m = np.zeros((3, 3)), 0.0, settings.least_sigma_m
-    for gate_m in settings.gates_m:
+    for points, gate_m in zip([some] * (len(settings.gates_m) - 1) + [points_base], settings.gates_m, strict=True):
         facing = walls.facing(pose.position_m, settings.behind_m)
         residual, jacobian = _residuals(points, pose, facing, gate_m, settings.end_margin_m)
         if len(residual) < 6:

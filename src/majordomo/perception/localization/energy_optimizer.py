@@ -36,6 +36,8 @@ Array = NDArray[np.float64]
 logger = logging.getLogger(__name__)
 
 _LEAST_MATCHED = 0.25
+_WIDE_GATE_M = 0.2
+_LAST_GATES_M = (0.12, 0.08)
 _DOORSTEP_M = 0.05
 _INNOVATION_GATE = 30.0  # chi-square, three degrees of freedom, far beyond 99.99 %
 _START_STD = np.array([1e-3, 1e-3, 1e-3])
@@ -116,7 +118,7 @@ class EnergyOptimizer:
         if len(outline.points_base) < 20:
             return None, []
         reach_m = float(np.clip(4.0 * np.sqrt(np.trace(covariance[:2, :2])), 0.2, 0.8))
-        settings = AlignmentSettings(gates_m=(reach_m, 0.6 * reach_m, 0.12, 0.08, 0.08), floor_m=0.004)
+        settings = AlignmentSettings(gates_m=_narrowing(reach_m), floor_m=0.004)
         found = align(outline.points_base, model.walls, predicted, covariance, settings)
         if found is None or found.matched < _LEAST_MATCHED or not _plausible(found, predicted, covariance):
             return None, []
@@ -147,6 +149,14 @@ def _expected_lines(model: RoomModel, pose: Pose2) -> tuple[Array, Array]:
     """Normals (K, 2) and offsets (K,) of the room's walls, in the base frame at ``pose``."""
     normals = model.walls.normal @ pose.rotation()
     return normals, model.walls.offset_m - model.walls.normal @ pose.position_m
+
+
+def _narrowing(reach_m: float) -> tuple[float, ...]:
+    """Gates in meters from how far off the pose may be down to what noise explains."""
+    gates_m = [reach_m]
+    while gates_m[-1] > _WIDE_GATE_M:
+        gates_m.append(0.6 * gates_m[-1])
+    return (*gates_m, *_LAST_GATES_M)
 
 
 def _plausible(found: Alignment, predicted: Pose2, covariance: Array) -> bool:

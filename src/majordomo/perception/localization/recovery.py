@@ -82,7 +82,7 @@ class Relocalization:
         *,
         settings: RecoverySettings | None = None,
         slicer: OutlineSlicer | None = None,
-        period_s: float = 0.1,
+        period_s: float = 0.2,
     ) -> None:
         self.period_s = period_s
         self.found: list[Hypothesis] = []

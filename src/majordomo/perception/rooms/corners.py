@@ -89,7 +89,8 @@ def detect_lines(points: Array, settings: CornerSettings | None = None) -> list[
         for (rho, theta), close in zip(candidates, near, strict=True):
             if np.count_nonzero(close & free) < settings.fewest_votes:
                 continue
-            line, claimed = _fit(points, free, np.array([np.cos(theta), np.sin(theta)]), rho, settings)
+            normal = np.array([np.cos(theta), np.sin(theta)])
+            line, claimed = _fit(points, free, normal, rho, settings, narrowing=(2.0, 1.0, 1.0))
             if line is not None:
                 lines.append(line)
                 free &= ~claimed
@@ -109,7 +110,7 @@ def confirm_lines(
     free = np.ones(len(points), dtype=bool)
     lines: list[WallLine] = []
     for normal, offset in zip(normals, offsets, strict=True):
-        line, claimed = _fit(points, free, normal, float(offset), settings)
+        line, claimed = _fit(points, free, normal, float(offset), settings, narrowing=(1.0, 1.0))
         if line is not None:
             lines.append(line)
             free &= ~claimed
@@ -144,21 +145,28 @@ def _near(points: Array, candidates: Array, gate_m: float) -> NDArray[np.bool_]:
 
 
 def _fit(
-    points: Array, free: NDArray[np.bool_], normal: Array, offset: float, settings: CornerSettings
+    points: Array,
+    free: NDArray[np.bool_],
+    normal: Array,
+    offset: float,
+    settings: CornerSettings,
+    *,
+    narrowing: tuple[float, ...],
 ) -> tuple[WallLine | None, NDArray[np.bool_]]:
-    """Fit the returns near a candidate, twice, with a narrowing gate; keep its longest unbroken run."""
-    inliers = np.zeros(len(points), dtype=bool)
-    for gate_m in (2.0 * settings.gate_m, settings.gate_m, settings.gate_m):
-        inliers = free & (np.abs(points @ normal - offset) < gate_m)
-        if inliers.sum() < settings.fewest_votes:
-            return None, inliers
+    """Fit the returns near a candidate with gates of ``narrowing`` times the usual; keep its longest unbroken run."""
+    claimed = np.zeros(len(points), dtype=bool)
+    for factor in narrowing:
+        inliers = np.flatnonzero(free & (np.abs(points @ normal - offset) < factor * settings.gate_m))
+        if len(inliers) < settings.fewest_votes:
+            return None, claimed
         normal, offset = fit_line(points[inliers])
-    inliers = _longest_run(points, inliers, normal, offset, settings.widest_gap_m)
-    if inliers.sum() < settings.fewest_votes:
-        return None, inliers
+    inliers = inliers[_longest_run(points[inliers], normal, offset, settings.widest_gap_m)]
+    if len(inliers) < settings.fewest_votes:
+        return None, claimed
     normal, offset = fit_line(points[inliers])
     line = _measured_line(points[inliers], normal, offset)
-    return (line if line.length_m >= settings.shortest_line_m else None), inliers
+    claimed[inliers] = True
+    return (line if line.length_m >= settings.shortest_line_m else None), claimed
 
 
 def fit_line(points: Array) -> tuple[Array, float]:
@@ -170,19 +178,13 @@ def fit_line(points: Array) -> tuple[Array, float]:
     return normal, float(normal[0] * x + normal[1] * y)
 
 
-def _longest_run(
-    points: Array, inliers: NDArray[np.bool_], normal: Array, offset: float, widest_gap_m: float
-) -> NDArray[np.bool_]:
-    """The inliers of the longest run without a gap wider than the spacing of rays at that place explains."""
-    index = np.flatnonzero(inliers)
-    stations = points[index] @ np.array([-normal[1], normal[0]])
+def _longest_run(points: Array, normal: Array, offset: float, widest_gap_m: float) -> NDArray[np.intp]:
+    """Which of a line's points are its longest run without a gap wider than the spacing of rays there explains."""
+    stations = points @ np.array([-normal[1], normal[0]])
     order = np.argsort(stations, kind="stable")
     breaks = np.flatnonzero(np.diff(stations[order]) > _widest_gap(stations[order], offset, widest_gap_m)) + 1
     runs = np.split(order, breaks)
-    longest = max(runs, key=lambda run: float(stations[run[-1]] - stations[run[0]]))
-    kept = np.zeros(len(points), dtype=bool)
-    kept[index[longest]] = True
-    return kept
+    return max(runs, key=lambda run: float(stations[run[-1]] - stations[run[0]]))
 
 
 def _widest_gap(stations: Array, offset: float, widest_gap_m: float) -> Array:

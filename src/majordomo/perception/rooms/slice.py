@@ -126,7 +126,7 @@ class OutlineSlicer:
         ceiling = _ceiling(heights)
         if ceiling is not None:
             self.ceiling_m = ceiling
-        top = float(np.quantile(returned, 0.999))
+        top = _quantile(returned, 0.999)
         self.wall_top_m = top if self.wall_top_m is None else max(self.wall_top_m, top)
 
     def _limits(self) -> tuple[float, float]:
@@ -144,10 +144,16 @@ def _ceiling(heights: Array, *, tolerance_m: float = 0.04, share: float = 0.2) -
         returned = ring[np.isfinite(ring)]
         if returned.size < 20:
             continue
-        height = float(np.quantile(returned, 0.9))
+        height = _quantile(returned, 0.9)
         if height > 2.1 and float((np.abs(returned - height) < tolerance_m).mean()) > share:
             found.append(height)
     found.sort()
     if len(found) >= 2 and found[-1] - found[-2] < tolerance_m:
         return (found[-1] + found[-2]) / 2.0
     return None
+
+
+def _quantile(values: Array, share: float) -> float:
+    """The value that ``share`` of (N,) values do not exceed; faster than interpolating between two."""
+    place = int(share * (len(values) - 1))
+    return float(np.partition(values, place)[place])

@@ -15,7 +15,7 @@ from majordomo.scene_graph.se3 import SE3
 from majordomo.skills.geometry import Point2, Points
 
 CELL_M = 0.04
-PATCH_M = 0.12
+PATCH_CELLS = 3
 _OFFSET = 1 << 20
 
 
@@ -31,9 +31,6 @@ class SurroundingsConfig:
     fade_low_s: float = 20.0
     fade_tall_s: float = 0.7
     min_hits: int = 2
-
-
-_NEIGHBORS = np.array([(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1)])
 
 
 @dataclass(kw_only=True)
@@ -75,7 +72,8 @@ class Surroundings:
         self._keep(np.zeros(len(self._keys), dtype=bool))
         if T_new_old is not None and len(old):
             moved = T_new_old.apply(np.column_stack([old, np.zeros(len(old))]))[:, :2]
-            self._merge(_keys(moved), seen_s, tall)
+            keys, first = np.unique(_keys(moved), return_index=True)
+            self._merge(keys, seen_s[first], tall[first])
 
     def forget(self) -> None:
         """Drop everything, for instance after the robot was carried away."""
@@ -94,38 +92,59 @@ class Surroundings:
         points = points[keep]
         if not len(points):
             return np.zeros(0, dtype=np.int64), np.zeros(0, dtype=bool)
-        cells = np.floor(T_frame_base.apply(points)[:, :2] / CELL_M).astype(np.int64)
+        placed = points @ T_frame_base.rotation()[:2].T + T_frame_base.translation_m[:2]
+        cells = np.floor(placed / CELL_M).astype(np.int64)
         corner = cells.min(axis=0)
         columns, rows = cells.max(axis=0) - corner + 1
         index = (cells[:, 0] - corner[0]) * rows + cells[:, 1] - corner[1]
         counts = np.bincount(index, minlength=columns * rows)
         hit = np.flatnonzero(counts)
-        keys = _packed(np.stack([hit // rows, hit % rows], axis=1) + corner)
+        cells = np.stack([hit // rows, hit % rows], axis=1) + corner
         tall = np.bincount(index[points[:, 2] > config.tall_m], minlength=columns * rows)[hit] > 0
-        solid = (counts[hit] >= config.min_hits) | np.isin(keys, self._keys)
-        keys = keys[solid]
-        return keys, _beside_tall(_centers(keys), tall[solid])
+        keys = _packed(cells)
+        solid = (counts[hit] >= config.min_hits) | _found(keys, self._keys)[1]
+        return keys[solid], _beside_tall(cells[solid], tall[solid])
 
     def _merge(self, keys: NDArray[np.int64], seen_s: Points, tall: NDArray[np.bool_]) -> None:
-        both = np.concatenate([keys, self._keys])
-        self._keys, newest = np.unique(both, return_index=True)
-        self._seen_s = np.concatenate([seen_s, self._seen_s])[newest]
-        self._tall = np.concatenate([tall, self._tall])[newest]
+        """Take in what was seen of ``keys``, sorted and each once."""
+        place, known = _found(keys, self._keys)
+        self._seen_s[place[known]], self._tall[place[known]] = seen_s[known], tall[known]
+        at = place[~known]
+        self._keys = np.insert(self._keys, at, keys[~known])
+        self._seen_s = np.insert(self._seen_s, at, seen_s[~known])
+        self._tall = np.insert(self._tall, at, tall[~known])
 
     def _keep(self, mask: NDArray[np.bool_]) -> None:
         if not mask.all():
             self._keys, self._seen_s, self._tall = self._keys[mask], self._seen_s[mask], self._tall[mask]
 
 
-def _beside_tall(points: Points, tall: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Which cells are part of something tall: those that are, and those in or next to a patch that has one.
+def _beside_tall(cells: NDArray[np.int64], tall: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Which of (N, 2) cells are part of something tall: those that are, and those in or next to a patch that has one.
 
     A person's feet are seen beside the torso; they must fade with it, or every step would leave an obstacle behind.
     """
-    patches = np.floor(points / PATCH_M).astype(np.int64)
-    high = np.unique(patches[tall], axis=0)
-    around = np.concatenate([high + step for step in _NEIGHBORS])
-    return np.asarray(tall | np.isin(_packed(patches), _packed(around)))
+    if not tall.any():
+        return tall
+    patches = cells // PATCH_CELLS
+    patches -= patches.min(axis=0) - 1
+    high = np.zeros(patches.max(axis=0) + 2, dtype=bool)
+    high[*patches[tall].T] = True
+    rows = high.copy()
+    rows[1:] |= high[:-1]
+    rows[:-1] |= high[1:]
+    around = rows.copy()
+    around[:, 1:] |= rows[:, :-1]
+    around[:, :-1] |= rows[:, 1:]
+    return np.asarray(tall | around[*patches.T])
+
+
+def _found(keys: NDArray[np.int64], among: NDArray[np.int64]) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:
+    """Where ``keys`` belong in sorted others, and which are there already."""
+    place = np.searchsorted(among, keys)
+    known = place < len(among)
+    known[known] = among[place[known]] == keys[known]
+    return place, known
 
 
 def _centers(keys: NDArray[np.int64]) -> Points:

@@ -8,9 +8,11 @@ import numpy as np
 import pytest
 
 from majordomo.perception.localization.planar import Pose2
+from majordomo.perception.localization.robot_pose import RobotPose
 from majordomo.perception.rooms.hypotheses import OutlineHypotheses
 from majordomo.perception.rooms.measurement import Fit, RoomMeasurement
 from majordomo.perception.rooms.slice import OutlineSlicer
+from majordomo.perception.rooms.survey import Survey
 from majordomo.perception.rooms.views import View
 from unit.perception.lidar_house import Array, House, cast, l_shape, rectangle
 
@@ -80,3 +82,63 @@ def test_without_any_outline_there_is_no_best() -> None:
     hypotheses = OutlineHypotheses()
     hypotheses.weigh(survey_of(rectangle(5.0, 3.0))[1])
     assert hypotheses.best is None
+    assert not hypotheses.decided
+
+
+def test_evidence_has_decided_once_one_outline_explains_the_views_far_better() -> None:
+    right, views = survey_of(l_shape())
+    hypotheses = OutlineHypotheses()
+    hypotheses.add(right)
+    hypotheses.weigh(views)
+    assert hypotheses.decided
+    hypotheses.add(believed(right, rectangle(6.0, 2.5)))
+    hypotheses.weigh(views)
+    assert hypotheses.decided
+
+
+def test_outlines_that_explain_the_views_as_well_as_each_other_are_both_kept_until_more_is_seen() -> None:
+    right, views = survey_of(rectangle(6.0, 2.5))
+    hypotheses = OutlineHypotheses()
+    hypotheses.add(right)
+    hypotheses.add(
+        believed(right, np.array([[0, 0], [6, 0], [6, 2.5], [3.1, 2.5], [3.0, 2.5], [0, 2.5]], dtype=np.float64))
+    )
+    hypotheses.weigh(views)
+    assert len(hypotheses.particles) == 2
+    assert not hypotheses.decided
+
+
+def surveyed(polygon: Array) -> Survey:
+    """A survey of a room from its inside, solved as often as the room concept would."""
+    rng, house, survey, slicer = np.random.default_rng(0), House(rooms={"a": polygon}), Survey(), OutlineSlicer()
+    for step in range(14):
+        pose = Pose2(1.0 + 0.3 * step, 1.2, 0.05)
+        survey.add(
+            slicer.cut(cast(house, pose, rng)),
+            RobotPose(parent="root", T_parent_base=pose, T_odom_base=pose, covariance=np.eye(3) * 1e-6),
+        )
+        if step >= 3:
+            survey.solve(0.5 * step)
+    return survey
+
+
+def test_a_survey_suffices_once_its_fits_agree_and_nothing_else_is_as_likely() -> None:
+    survey = surveyed(rectangle(6.0, 2.5))
+    assert survey.sufficient
+    assert survey.fit is not None
+    survey.hypotheses.add(
+        believed(survey.fit, np.array([[0, 0], [6, 0], [6, 2.5], [3.1, 2.5], [3.0, 2.5], [0, 2.5]], dtype=np.float64))
+    )
+    survey.solve(99.0)
+    assert not survey.sufficient
+
+
+def test_a_survey_ends_with_the_outline_that_all_its_views_speak_for_not_with_the_newest() -> None:
+    survey = surveyed(l_shape())
+    right = survey.fit
+    assert right is not None
+    survey.fit = believed(right, rectangle(6.0, 2.5))
+    survey.hypotheses.add(survey.fit)
+    survey.decide()
+    assert survey.fit is not None
+    assert survey.fit.outline.polygon.shape == right.outline.polygon.shape

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.ndimage import maximum_filter1d, minimum_filter1d
 
 from majordomo.perception.localization.alignment import Walls
 from majordomo.perception.localization.planar import Pose2
@@ -125,9 +126,9 @@ def expected_ranges(walls: Walls, origin: Array, azimuths_rad: Array) -> tuple[A
     no wall is met; azimuths are evenly spaced, all around.
     """
     ranges, incidence = wall_ranges(walls, origin, azimuths_rad)
-    steps = int(np.ceil(_WINDOW_RAD * len(azimuths_rad) / (2.0 * np.pi)))
-    shifted = np.stack([np.roll(ranges, shift) for shift in range(-steps, steps + 1)])
-    return shifted.min(axis=0), shifted.max(axis=0), incidence
+    window = 2 * int(np.ceil(_WINDOW_RAD * len(azimuths_rad) / (2.0 * np.pi))) + 1
+    nearest, farthest = minimum_filter1d(ranges, window, mode="wrap"), maximum_filter1d(ranges, window, mode="wrap")
+    return nearest, farthest, incidence
 
 
 def wall_ranges(walls: Walls, origin: Array, azimuths_rad: Array) -> tuple[Array, Array]:

@@ -83,13 +83,19 @@ def match_corners(
 
 
 def inside(polygon: Array, point: Array) -> bool:
-    """Whether (2,) ``point`` lies in (N, 2) ``polygon``: even number of crossings to the right means outside."""
+    """Whether (2,) ``point`` lies in (N, 2) ``polygon``."""
+    return bool(points_inside(polygon, point[None])[0])
+
+
+def points_inside(polygon: Array, points: Array) -> NDArray[np.bool_]:
+    """(P,) which of (P, 2) ``points`` lie in (N, 2) ``polygon``: as many edges to the right as make an odd number."""
     x, y = polygon[:, 0], polygon[:, 1]
-    x_next, y_next = np.roll(x, -1), np.roll(y, -1)
-    straddles = (y > point[1]) != (y_next > point[1])
+    x_next, y_next = np.append(x[1:], x[0]), np.append(y[1:], y[0])
+    right, up = points[:, :1], points[:, 1:]
+    straddles = (y > up) != (y_next > up)
     with np.errstate(divide="ignore", invalid="ignore"):
-        crossing = x + (point[1] - y) / (y_next - y) * (x_next - x)
-    return bool(np.count_nonzero(straddles & (point[0] < crossing)) % 2)
+        crossing = x + (up - y) / (y_next - y) * (x_next - x)
+    return np.asarray(np.count_nonzero(straddles & (right < crossing), axis=1) % 2 == 1)
 
 
 def shared_area(first: Array, second: Array, *, samples: int = 32) -> tuple[int, int, int]:
@@ -99,13 +105,13 @@ def shared_area(first: Array, second: Array, *, samples: int = 32) -> tuple[int,
         np.linspace(a, b, samples, endpoint=False) + (b - a) / (2 * samples) for a, b in zip(low, high, strict=True)
     ]
     points = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 2)
-    in_first, in_second = (np.array([inside(polygon, point) for point in points]) for polygon in (first, second))
+    in_first, in_second = points_inside(first, points), points_inside(second, points)
     return int(in_first.sum()), int(in_second.sum()), int((in_first & in_second).sum())
 
 
 def distance_to_outline(polygon: Array, point: Array) -> float:
     """Distance of (2,) ``point`` from the nearest edge of (N, 2) ``polygon``."""
-    edges = np.roll(polygon, -1, axis=0) - polygon
+    edges = np.concatenate([polygon[1:], polygon[:1]]) - polygon
     offset = point - polygon
     station = np.clip((offset * edges).sum(axis=1) / (edges**2).sum(axis=1), 0.0, 1.0)
     return float(np.linalg.norm(offset - station[:, None] * edges, axis=1).min())

@@ -23,6 +23,7 @@ class HypothesesSettings:
     """``judges``: views that every hypothesis must explain. ``sharpness``: of the weights, per view fully explained.
     ``closed``: head start of an outline with walls all around, as a share of one view. ``alike_m``: outlines whose
     corners are nearer are one. ``kept``: particles at most; those of less than ``least`` weight are dropped.
+    ``clear``: how many times likelier than the next one the most likely must be for the evidence to have decided.
     """
 
     judges: int = 6
@@ -31,6 +32,7 @@ class HypothesesSettings:
     alike_m: float = 0.15
     kept: int = 6
     least: float = 0.005
+    clear: float = 5.0
 
 
 @dataclass(kw_only=True)
@@ -57,6 +59,13 @@ class OutlineHypotheses:
     def crowded(self) -> bool:
         """Whether there are more particles than are kept, so that it is time to weigh them."""
         return len(self.particles) > self.settings.kept
+
+    @property
+    def decided(self) -> bool:
+        """Whether the evidence singled one outline out when they were last weighed."""
+        return bool(self.particles) and all(
+            one.weight * self.settings.clear < self.particles[0].weight for one in self.particles[1:]
+        )
 
     def add(self, fit: Fit) -> None:
         """Take in a new solution: it renews the particle that it is like, or is one more."""

@@ -208,6 +208,7 @@ class RoomConcept:
 
     def _conclude(self, snapshot: Snapshot, pose: RobotPose) -> Verdict:
         """The room stands, as permanent when it is closed, else as partial; nothing at all gives the door up."""
+        self._survey.decide()
         room, doubted = self._survey.measured(pose), taken_back(snapshot)
         if doubted is not None:
             return self._revise(doubted, room)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from majordomo.perception.localization.landmarks import RoomModel, inside
+from majordomo.perception.localization.landmarks import RoomModel, inside, shared_area
 from majordomo.perception.localization.planar import Pose2
 from majordomo.perception.localization.robot_pose import RobotPose
 from majordomo.perception.rooms.hypotheses import OutlineHypotheses
@@ -46,7 +46,7 @@ class Survey:
     """Collects views of the room that the robot stands in and judges them.
 
     Attributes:
-        fit: newest fit that is plausible, in the frame of the first view.
+        fit: newest fit that is plausible, or what ``decide`` chose, in the frame of the first view.
         hypotheses: what the room may look like, with weights.
         places: vantage points proposed so far, same frame.
         known: the room that the robot came from, in its parent frame.
@@ -58,7 +58,7 @@ class Survey:
         self.known: RoomModel | None = None
         self.places: list[Array] = []
         self.hypotheses = OutlineHypotheses()
-        self._previous: Fit | None = None
+        self._settled = False
         self._measurement = RoomMeasurement()
         self._first: RobotPose | None = None
         self._solved_s = -np.inf
@@ -92,11 +92,12 @@ class Survey:
         """Fit all views (tens to hundreds of milliseconds)."""
         self._solved_s, self._solved_views = stamp_s, self._added
         fit = self._measurement.solve()
-        self._previous = self.fit
+        previous = self.fit
         self.fit = fit if fit is not None and self._plausible(fit) else None
         if self.fit is not None:
             self.hypotheses.add(self.fit)
-        if self.fit is None or self.hypotheses.crowded:
+        self._settled = self._agrees_with(previous)
+        if self.fit is None or self._settled or self.hypotheses.crowded:
             self.hypotheses.weigh(self._measurement.views)
 
     def _plausible(self, fit: Fit) -> bool:
@@ -112,13 +113,9 @@ class Survey:
         """Whether the outline takes in the room that the robot came from; from under a lintel both look like one."""
         if self.known is None:
             return False
-        polygon = self.known.polygon
-        low, high = polygon.min(axis=0), polygon.max(axis=0)
-        axes = [np.linspace(a, b, 8, endpoint=False) + (b - a) / 16.0 for a, b in zip(low, high, strict=True)]
-        grid = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 2)
-        grid = grid[[inside(polygon, point) for point in grid]]
-        placed = (fit.views[-1].T_frame_base @ fit.in_parent[-1].inverse()).apply(grid)
-        return float(np.mean([inside(fit.outline.polygon, point) for point in placed])) > self.settings.shared
+        placed = (fit.views[-1].T_frame_base @ fit.in_parent[-1].inverse()).apply(self.known.polygon)
+        known, _, both = shared_area(placed, fit.outline.polygon)
+        return both > self.settings.shared * known
 
     @property
     def closed(self) -> bool:
@@ -127,14 +124,24 @@ class Survey:
 
     @property
     def sufficient(self) -> bool:
-        """Whether going on would not make the room better: closed, sharp, and the same as last time."""
-        if self.fit is None or self._previous is None or not self.closed:
+        """Whether going on would not make the room better: the fits agree, and no other outline is as likely."""
+        return self._settled and self.hypotheses.decided and self.hypotheses.best is self.fit
+
+    def _agrees_with(self, previous: Fit | None) -> bool:
+        """Whether the newest fit is closed, sharp, and the same as the one before."""
+        if self.fit is None or previous is None or not self.closed:
             return False
-        now, before = self.fit.outline.polygon, self._previous.outline.polygon
+        now, before = self.fit.outline.polygon, previous.outline.polygon
         if now.shape != before.shape:
             return False
         change = np.linalg.norm(now[:, None] - before[None], axis=2).min(axis=1).max()
         return bool(change < self.settings.agree_m and self.fit.outline.offset_std_m.max() < self.settings.wall_std_m)
+
+    def decide(self) -> None:
+        """Let all views decide between the outlines that are possible; the newest stays unless another is clearer."""
+        self.hypotheses.weigh(self._measurement.views)
+        if self.fit is None or self.hypotheses.decided:
+            self.fit = self.hypotheses.best
 
     @property
     def outdoors(self) -> bool:
@@ -166,8 +173,8 @@ class Survey:
         return Pose2(float(place[0]), float(place[1]), 0.0)
 
     def measured(self, pose: RobotPose) -> MeasuredRoom | None:
-        """The most likely room in its own frame, with the robot at ``pose`` in it."""
-        fit = self.fit or self.hypotheses.best
+        """The room in its own frame, with the robot at ``pose`` in it."""
+        fit = self.fit
         if fit is None or self._first is None:
             return None
         T_view_base = fit.views[-1].T_odom_base.inverse() @ pose.T_odom_base

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from majordomo.perception.localization.landmarks import distance_to_outline, inside
+from majordomo.perception.localization.landmarks import distance_to_outline, inside, points_inside
 from majordomo.perception.rooms.outline import Outline
 
 Array = NDArray[np.float64]
@@ -71,7 +71,7 @@ def _middle(polygon: Array) -> Array:
     if inside(polygon, center) and distance_to_outline(polygon, center) > 2.0 * _CLEARANCE_M:
         return np.asarray(center)
     grid = np.stack(np.meshgrid(*np.linspace(low, high, 15).T, indexing="ij"), axis=-1).reshape(-1, 2)
-    room = [point for point in grid if inside(polygon, point)]
+    room = grid[points_inside(polygon, grid)]
     return np.asarray(max(room, key=lambda point: distance_to_outline(polygon, point), default=center))
 
 

@@ -84,7 +84,7 @@ def edge_value_violations(key: EdgeKey, edge: Edge) -> Iterator[Violation]:
     match edge:
         case RtEdge():
             yield from _covariance_violations(key, edge)
-            numbers: tuple[float, ...] = (edge.stamp_s,)
+            numbers: tuple[float, ...] = (edge.stamp_s, *edge.wall_shifts_m)
         case RelationEdge():
             if not 0.0 <= edge.probability <= 1.0:
                 message = f"probability of {edge_name(key)} is no probability: {edge.probability}"

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import logging
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from itertools import zip_longest
 
 import numpy as np
 
@@ -17,6 +19,7 @@ from majordomo.perception.localization.planar import (
 from majordomo.perception.memory.dual import back_to_back, root_pose
 from majordomo.perception.memory.layout import Passage, PlacedRoom, lay_out
 from majordomo.scene_graph.edges import EdgeKey, EdgeType, MatchEdge, RtEdge
+from majordomo.scene_graph.identifiers import wall_id_of
 from majordomo.scene_graph.memory import WorkingMemory
 from majordomo.scene_graph.nodes import ROOT_ID, DoorNode
 from majordomo.scene_graph.snapshot import Snapshot
@@ -26,7 +29,9 @@ logger = logging.getLogger(__name__)
 LAYOUT_AGENT = "long_term_memory"
 WALKED_STD_M = 0.012
 UNWALKED_STD_M = 0.05
-_POST_STD_M = 0.006
+_STATION_FLOOR_M = 0.003
+_WALL_FLOOR_M = 0.001
+_UNKNOWN_WALL_STD_M = 0.01
 _PARALLEL_STD_RAD = float(np.deg2rad(0.15))
 _NOT_PARALLEL_RAD = float(np.deg2rad(4.0))
 _WELL_MEASURED = 0.9
@@ -72,9 +77,9 @@ class RoomLayout:
             PlacedRoom(T_root_room=root_pose(snapshot, first), covariance=covariance),
             {room: root_pose(snapshot, room) for room in rooms},
             passages,
+            {wall: _wall_std_m(snapshot, *wall) for passage in passages for wall in passage.walls() or ()},
         )
-        placed.pop(first)
-        self._write(snapshot, placed, stamp_s)
+        self._write(snapshot, placed, stamp_s, anchor=first)
 
     def _changed(self, snapshot: Snapshot) -> bool:
         """Whether a door was joined or measured anew; rooms that come and go with their doors change nothing."""
@@ -94,7 +99,8 @@ class RoomLayout:
             between, covariance = walked, diagonal_covariance(walk.std_m, walk.std_m, 0.01)
         else:
             between = back_to_back(-walked.y_m)
-            covariance = diagonal_covariance(_POST_STD_M, walk.std_m, _PARALLEL_STD_RAD)
+            along_m = float(np.hypot(_station_std_m(snapshot, door_id), _station_std_m(snapshot, other_id)))
+            covariance = diagonal_covariance(along_m, walk.std_m, _PARALLEL_STD_RAD)
         return Passage(
             first=near,
             second=far,
@@ -102,6 +108,8 @@ class RoomLayout:
             T_second_other=T_far_other,
             T_door_other=between,
             covariance=covariance,
+            first_wall=_wall_of(snapshot, door_id),
+            second_wall=_wall_of(snapshot, other_id),
         )
 
     def _walk(self, snapshot: Snapshot, door_id: str, other_id: str, near: str, far: str) -> _Walk:
@@ -115,22 +123,62 @@ class RoomLayout:
         self.remember(door_id, other_id, T_near_far)
         return self._walks[(door_id, other_id)]
 
-    def _write(self, snapshot: Snapshot, placed: dict[str, PlacedRoom], stamp_s: float) -> None:
+    def _write(self, snapshot: Snapshot, placed: Mapping[str, PlacedRoom], stamp_s: float, *, anchor: str) -> None:
+        """Say in the graph where rooms lie and how far their walls are shifted; of the anchor, only the latter."""
         with self._memory.edit(LAYOUT_AGENT, stamp_s) as tx:
             for room, place in placed.items():
-                change = root_pose(snapshot, room).inverse() @ place.T_root_room
-                if np.hypot(change.x_m, change.y_m) < _WORTH_WRITING_M and abs(change.yaw_rad) < _WORTH_WRITING_RAD:
+                before = snapshot.parent(room)
+                if before is None:
                     continue
-                logger.debug("%s moved by %.1f mm in the layout", room, 1e3 * np.hypot(change.x_m, change.y_m))
-                tx.put(
-                    RtEdge(
-                        source=ROOT_ID,
-                        target=room,
-                        T_source_target=place.T_root_room.to_se3(),
-                        covariance=spatial_covariance(place.covariance),
-                        stamp_s=stamp_s,
-                    )
-                )
+                moved = replace(before, stamp_s=stamp_s, wall_shifts_m=_all_shifts(snapshot, room, place.wall_shifts_m))
+                if room != anchor:
+                    covariance = spatial_covariance(place.covariance)
+                    moved = replace(moved, T_source_target=place.T_root_room.to_se3(), covariance=covariance)
+                if _worth_writing(before, moved):
+                    tx.put(moved)
+
+
+def _worth_writing(before: RtEdge, after: RtEdge) -> bool:
+    """Whether a room, or a wall of it, lies elsewhere than before by more than what does not matter."""
+    change = Pose2.from_se3(before.T_source_target.inverse() @ after.T_source_target)
+    way_m = float(np.hypot(change.x_m, change.y_m))
+    shift_m = max(_difference_m(before.wall_shifts_m, after.wall_shifts_m), default=0.0)
+    logger.debug("%s moves by %.1f mm in the layout, a wall by %.1f mm", after.target, 1e3 * way_m, 1e3 * shift_m)
+    return max(way_m, shift_m) >= _WORTH_WRITING_M or abs(change.yaw_rad) >= _WORTH_WRITING_RAD
+
+
+def _all_shifts(snapshot: Snapshot, room: str, shifts_m: Mapping[int, float]) -> tuple[float, ...]:
+    """One shift for every wall of a room; none at all where nothing that matters is shifted."""
+    if max(map(abs, shifts_m.values()), default=0.0) < _WORTH_WRITING_M:
+        return ()
+    return tuple(shifts_m.get(wall, 0.0) for wall in range(len(snapshot.room(room).polygon_m)))
+
+
+def _difference_m(before_m: tuple[float, ...], after_m: tuple[float, ...]) -> list[float]:
+    return [abs(before - after) for before, after in zip_longest(before_m, after_m, fillvalue=0.0)]
+
+
+def _wall_of(snapshot: Snapshot, door_id: str) -> int | None:
+    """Index of the wall that a door hangs from; ``None`` when it hangs from the room itself."""
+    edge, room = snapshot.parent(door_id), snapshot.door(door_id).rooms[0]
+    walls = [wall_id_of(room, wall) for wall in range(len(snapshot.room(room).polygon_m))]
+    return walls.index(edge.source) if edge is not None and edge.source in walls else None
+
+
+def _wall_std_m(snapshot: Snapshot, room: str, wall: int) -> float:
+    """How well a wall's offset was measured, by its ``rt`` edge; where that says nothing, as a wall in a room that is
+    not rectilinear, which is the least that the room concept vouches for.
+    """
+    edge = snapshot.parent(wall_id_of(room, wall))
+    std_m = float(np.sqrt(edge.covariance[1, 1])) if edge is not None else 0.0
+    return max(std_m, _WALL_FLOOR_M) if std_m > 0.0 else _UNKNOWN_WALL_STD_M
+
+
+def _station_std_m(snapshot: Snapshot, door_id: str) -> float:
+    """How well a door's station along its wall was measured, by its ``rt`` edge."""
+    edge = snapshot.parent(door_id)
+    std_m = float(np.sqrt(edge.covariance[0, 0])) if edge is not None else 0.0
+    return float(np.hypot(std_m, _STATION_FLOOR_M))
 
 
 def _matches(snapshot: Snapshot) -> list[MatchEdge]:

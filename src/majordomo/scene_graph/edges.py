@@ -145,10 +145,16 @@ class ConnectsEdge:
 
 @dataclass(frozen=True, kw_only=True)
 class MatchEdge:
-    """Two door nodes in two rooms are the same physical door; stored once, source < target."""
+    """Two door nodes in two rooms are the same physical door; stored once, source < target.
+
+    ``walked``: (x, y, yaw) of the target's room in the frame of the source's, in meters and radians, as the robot drove
+    from one into the other; ``walked_std_m`` of its translation. ``None`` where nobody has told.
+    """
 
     source: str
     target: str
+    walked: tuple[float, float, float] | None = None
+    walked_std_m: float = 0.0
 
     @property
     def key(self) -> EdgeKey:

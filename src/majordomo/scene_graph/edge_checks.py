@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from majordomo.scene_graph.edges import Edge, EdgeKey, EdgeType, HasIntentionEdge, RelationEdge, RtEdge
+from majordomo.scene_graph.edges import Edge, EdgeKey, EdgeType, HasIntentionEdge, MatchEdge, RelationEdge, RtEdge
 from majordomo.scene_graph.errors import Violation, ViolationKind, edge_name
 from majordomo.scene_graph.nodes import DoorNode, NodeType, node_type
 from majordomo.scene_graph.snapshot import Snapshot
@@ -84,12 +84,14 @@ def edge_value_violations(key: EdgeKey, edge: Edge) -> Iterator[Violation]:
     match edge:
         case RtEdge():
             yield from _covariance_violations(key, edge)
-            numbers: tuple[float, ...] = (edge.stamp_s,)
+            numbers: tuple[float, ...] = (edge.stamp_s, *edge.wall_shifts_m)
         case RelationEdge():
             if not 0.0 <= edge.probability <= 1.0:
                 message = f"probability of {edge_name(key)} is no probability: {edge.probability}"
                 yield Violation(kind=ViolationKind.NOT_A_PROBABILITY, subject=edge_name(key), message=message)
             numbers = (edge.stamp_s,)
+        case MatchEdge():
+            numbers = (edge.walked_std_m, *(edge.walked or ()))
         case HasIntentionEdge():
             numbers = (edge.standoff_m, edge.proposed_s, edge.priority)
         case _:

@@ -67,7 +67,9 @@ class RtEdge:
     """Rigid transform from parent (source) to child (target) frame.
 
     ``T_source_target`` maps child coordinates into the parent. ``covariance`` is 6x6, order (x, y, z, rot x, rot y,
-    rot z), expressed in the child frame (right perturbation), read-only.
+    rot z), expressed in the child frame (right perturbation), read-only. ``wall_shifts_m``, of the edge from the root
+    to a room: how far the layout shifts each of its walls along the normal, positive into the room, so that loops of
+    doors close; empty where it shifts none. The room itself stays as it was measured.
     """
 
     source: str
@@ -75,6 +77,7 @@ class RtEdge:
     T_source_target: SE3
     covariance: NDArray[np.float64] = field(default_factory=lambda: np.zeros((6, 6)))
     stamp_s: float = 0.0
+    wall_shifts_m: tuple[float, ...] = ()
 
     def __post_init__(self) -> None:
         matrix = np.array(self.covariance, dtype=np.float64)
@@ -93,6 +96,7 @@ class RtEdge:
             and self.key == other.key
             and self.stamp_s == other.stamp_s
             and self.T_source_target == other.T_source_target
+            and self.wall_shifts_m == other.wall_shifts_m
             and np.array_equal(self.covariance, other.covariance)
         )
 
@@ -141,10 +145,16 @@ class ConnectsEdge:
 
 @dataclass(frozen=True, kw_only=True)
 class MatchEdge:
-    """Two door nodes in two rooms are the same physical door; stored once, source < target."""
+    """Two door nodes in two rooms are the same physical door; stored once, source < target.
+
+    ``walked``: (x, y, yaw) of the target's room in the frame of the source's, in meters and radians, as the robot drove
+    from one into the other; ``walked_std_m`` of its translation. ``None`` where nobody has told.
+    """
 
     source: str
     target: str
+    walked: tuple[float, float, float] | None = None
+    walked_std_m: float = 0.0
 
     @property
     def key(self) -> EdgeKey:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from majordomo.scene_graph.doors import PhysicalDoor, physical_doors
 from majordomo.scene_graph.edges import Edge, EdgeType, HasIntentionEdge, RelationEdge
 from majordomo.scene_graph.errors import UnknownLayer
+from majordomo.scene_graph.laid_out import laid_out
 from majordomo.scene_graph.nodes import (
     NODE_CLASSES,
     AffordanceNode,
@@ -56,11 +57,12 @@ def layers_named(layers: Collection[str] | None) -> frozenset[NodeType]:
 class SceneWriter:
     """Writes the nodes and edges of one snapshot.
 
-    In the map, a physical door is one node in the middle of its wall, and everything that refers to its other node
-    refers to it.
+    In the map, rooms are as the layout has them, a physical door is one node in the middle of its wall, and everything
+    that refers to its other node refers to it.
     """
 
     def __init__(self, snapshot: Snapshot, frame: Frame, layers: frozenset[NodeType]) -> None:
+        snapshot = laid_out(snapshot) if frame == "map" else snapshot
         self._snapshot = snapshot
         self._frame = frame
         self._layers = layers
@@ -105,8 +107,8 @@ class SceneWriter:
         anchor = self._anchor(node)
         room = self._snapshot.room_of(anchor)
         pose = self._region_pose(node.id) if isinstance(node, RegionNode) else self._pose(anchor, room)
-        if faces := self._faces(anchor):
-            pose = SE3(pose.quat_wxyz, sum(faces) / len(faces))
+        if (shared := self._shared_point(anchor)) is not None:
+            pose = SE3(pose.quat_wxyz, shared)
         return {
             "id": node.id,
             "type": node_type(node).value,
@@ -133,11 +135,25 @@ class SceneWriter:
         T_map_room = self._poses.pose(room) if room is not None and self._frame == "room" else None
         return T_map_room.inverse() @ T_map_node if T_map_room else T_map_node
 
-    def _faces(self, node_id: str) -> list[NDArray[np.float64]]:
-        """Where a physical door meets each of its two rooms, in the map; empty unless it is known from both."""
+    def _shared_point(self, node_id: str) -> NDArray[np.float64] | None:
+        """(3,) where a physical door is in the map; None unless it is known from both its rooms.
+
+        Midway between the two faces of its wall; along them, where its two stations agree best, each weighed by how
+        well it was measured.
+        """
         door = self._doors.get(node_id)
         poses = [self._poses.pose(member.id) for member in door.members] if door else []
-        return [pose.translation_m for pose in poses if pose is not None] if len(poses) == 2 else []
+        if door is None or len(poses) != 2 or poses[0] is None or poses[1] is None:
+            return None
+        first, second = (self._station_variance(member.id) for member in door.members)
+        share = first / (first + second) if first + second > 0.0 else 0.5
+        x_m, y_m, z_m = (poses[0].inverse() @ poses[1]).translation_m
+        return poses[0].apply((share * x_m, y_m / 2.0, z_m / 2.0))
+
+    def _station_variance(self, door_id: str) -> float:
+        """Square meters, along the wall that a door hangs from."""
+        edge = self._snapshot.parent(door_id)
+        return float(edge.covariance[0, 0]) if edge is not None else 0.0
 
     def _region_pose(self, region: str) -> SE3:
         """In the middle of its rooms."""

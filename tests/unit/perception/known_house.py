@@ -9,6 +9,7 @@ from majordomo.perception.doors.insertion import hang, wall_id_of
 from majordomo.perception.doors.posts import MeasuredGap
 from majordomo.perception.localization.alignment import Walls
 from majordomo.perception.localization.planar import Pose2
+from majordomo.perception.memory.dual import root_pose
 from majordomo.perception.memory.joining import join
 from majordomo.scene_graph.edges import RtEdge
 from majordomo.scene_graph.memory import Transaction, WorkingMemory
@@ -89,7 +90,8 @@ def _join_doors(tx: Transaction) -> None:
         for second in doors:
             near = places[first.id].distance_m(places[second.id]) < 0.5
             if first.id < second.id and first.rooms[0] != second.rooms[0] and near:
-                join(tx, first, second)
+                T_near_far = root_pose(tx.snapshot, first.rooms[0]).inverse() @ root_pose(tx.snapshot, second.rooms[0])
+                join(tx, first, second, T_near_far)
 
 
 def put_robot(memory: WorkingMemory, house: House, name: str, T_house_base: Pose2, stamp_s: float = 0.0) -> None:

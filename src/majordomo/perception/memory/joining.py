@@ -10,6 +10,7 @@ from majordomo.perception.crossing import cross_affordance, match_key
 from majordomo.perception.doors.insertion import door_label, free_door_id, hang
 from majordomo.perception.doors.posts import MeasuredGap
 from majordomo.perception.localization.landmarks import RoomModel
+from majordomo.perception.localization.planar import Pose2
 from majordomo.perception.memory.dual import SeenFrom
 from majordomo.scene_graph.edges import ConnectsEdge, EdgeType, HasEdge, MatchEdge
 from majordomo.scene_graph.identifiers import wall_id_of
@@ -17,6 +18,8 @@ from majordomo.scene_graph.memory import Transaction
 from majordomo.scene_graph.nodes import AffordanceKind, AffordanceNode, CrossingStatus, DoorNode
 from majordomo.scene_graph.snapshot import Snapshot
 
+WALKED_STD_M = 0.012
+UNWALKED_STD_M = 0.05
 PREDICTED_CONFIDENCE = 0.7
 _PREDICTED_STD_M = 0.03
 
@@ -47,8 +50,12 @@ def put_dual(tx: Transaction, door: DoorNode, room: RoomModel, place: SeenFrom, 
     return dual
 
 
-def join(tx: Transaction, first: DoorNode, second: DoorNode) -> None:
-    """Two door nodes are one physical door, and its two rooms are known."""
+def join(tx: Transaction, first: DoorNode, second: DoorNode, T_near_far: Pose2, *, std_m: float = WALKED_STD_M) -> None:
+    """Two door nodes are one physical door, and its two rooms are known.
+
+    ``T_near_far``: how the room of ``second`` lies in that of ``first`` by what was driven between them, with the
+    standard deviation of its translation; it gives the thickness of the wall, each time that the rooms are laid out.
+    """
     for door, other in ((first, second), (second, first)):
         near, far = door.rooms[0], other.rooms[0]
         tx.put(
@@ -57,7 +64,14 @@ def join(tx: Transaction, first: DoorNode, second: DoorNode) -> None:
             ConnectsEdge(source=door.id, target=far),
         )
     key = match_key(first.id, second.id)
-    tx.put(MatchEdge(source=key.source, target=key.target))
+    walked = T_near_far if key.source == first.id else T_near_far.inverse()
+    tx.put(walked_match(MatchEdge(source=key.source, target=key.target), walked, std_m))
+
+
+def walked_match(match: MatchEdge, T_source_target: Pose2, std_m: float) -> MatchEdge:
+    """The match, with the target's room in the source's as it was driven."""
+    walked = (T_source_target.x_m, T_source_target.y_m, T_source_target.yaw_rad)
+    return replace(match, walked=walked, walked_std_m=std_m)
 
 
 def remove_room(tx: Transaction, room_id: str) -> None:

@@ -32,7 +32,7 @@ class LongTermMemory:
     ) -> None:
         self.period_s = period_s
         self._layout = RoomLayout(memory)
-        self._transit = Transit(self.name, memory, buffer, self._layout, slicer=slicer)
+        self._transit = Transit(self.name, memory, buffer, slicer=slicer)
         self._working_set = WorkingSet(self.name, memory, settings)
         self._judge = ExplorationJudge(memory)
 

@@ -19,8 +19,7 @@ from majordomo.perception.localization.planar import Pose2
 from majordomo.perception.localization.relocalization import Sight
 from majordomo.perception.localization.robot_pose import RobotPose, robot_pose_at
 from majordomo.perception.memory.dual import place_in, root_pose, same_door, through_door, unmatched_doors
-from majordomo.perception.memory.joining import join, put_dual, remove_room
-from majordomo.perception.memory.mapping import UNWALKED_STD_M, RoomLayout
+from majordomo.perception.memory.joining import UNWALKED_STD_M, join, put_dual, remove_room
 from majordomo.perception.memory.recognition import recognize, same_room
 from majordomo.perception.rooms.slice import OutlineSlicer
 from majordomo.perception.sensing import SensorBuffer
@@ -45,14 +44,12 @@ class Transit:
         agent: str,
         memory: WorkingMemory,
         buffer: SensorBuffer,
-        layout: RoomLayout,
         *,
         slicer: OutlineSlicer | None = None,
     ) -> None:
         self._agent = agent
         self._memory = memory
         self._buffer = buffer
-        self._layout = layout
         self._slicer = slicer or OutlineSlicer()
         self._stamp_s = 0.0
         self._stayed: dict[str, int] = {}
@@ -167,8 +164,7 @@ class Transit:
             tx.put(given_up(door, "no wall of the room behind it has this door"))
             return
         dual = _door_at(snapshot, room_id, T_room_door, door.width_m) or put_dual(tx, door, room, place, self._stamp_s)
-        join(tx, door, dual)
-        self._layout.remember(door.id, dual.id, T_room_near.inverse())
+        join(tx, door, dual, T_room_near.inverse())
 
     def _match_doors(self) -> None:
         """Two doors found from two rooms may be the two sides of one, though nobody went through it."""
@@ -181,10 +177,9 @@ class Transit:
                     continue
                 poses = root_pose(snapshot, first.id), root_pose(snapshot, second.id)
                 if same_door(*poses, (first.width_m, second.width_m)):
-                    with self._memory.edit(self._agent, self._stamp_s) as tx:
-                        join(tx, first, second)
                     T_near_far = root_pose(snapshot, first.rooms[0]).inverse() @ root_pose(snapshot, second.rooms[0])
-                    self._layout.remember(first.id, second.id, T_near_far, std_m=UNWALKED_STD_M)
+                    with self._memory.edit(self._agent, self._stamp_s) as tx:
+                        join(tx, first, second, T_near_far, std_m=UNWALKED_STD_M)
                     logger.info("%s and %s are one door", first.id, second.id, extra={"door": first.id})
                     return
 

@@ -98,7 +98,10 @@ def let_stand(tx: Transaction, room: RoomNode) -> None:
 def revise_room(
     tx: Transaction, measured: MeasuredRoom, room_id: str, *, status: RoomStatus, height_m: float, stamp_s: float
 ) -> None:
-    """Replace the outline of a room that was taken back. ``measured.T_parent_room`` is relative to its old frame."""
+    """Replace the outline of a room that was taken back. ``measured.T_parent_room`` is relative to its old frame.
+
+    What the layout shifted of the old outline says nothing about the new one.
+    """
     withdraw(tx)
     snapshot = tx.snapshot
     before = snapshot.room(room_id)
@@ -113,6 +116,9 @@ def revise_room(
         for door, _ in doors_in(snapshot, wall_id)
     ]
     tx.put(*(_like(before, element) if isinstance(element, RoomNode) else element for element in elements))
+    place = snapshot.parent(room_id)
+    if place is not None and place.wall_shifts_m:
+        tx.put(replace(place, wall_shifts_m=()))
     for door, T_room_door in doors:
         _rehang(tx, door, T_room_door, renewed.polygon, room_id, written, stamp_s)
     for wall_id in walls:

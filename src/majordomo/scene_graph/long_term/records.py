@@ -61,6 +61,7 @@ def edge_record(edge: Edge) -> Record:
         "translation_m": edge.T_source_target.translation_m.tolist(),
         "covariance": edge.covariance.tolist() if edge.covariance.any() else None,
         "stamp_s": edge.stamp_s,
+        **({"wall_shifts_m": list(edge.wall_shifts_m)} if edge.wall_shifts_m else {}),
     }
 
 
@@ -119,6 +120,7 @@ def _read_rt(values: Mapping[str, Any], path: str) -> RtEdge:
             T_source_target=SE3(values["quat_wxyz"], values["translation_m"]),
             covariance=np.zeros((6, 6)) if covariance is None else _matrix(covariance),
             stamp_s=float(values["stamp_s"]),
+            wall_shifts_m=tuple(map(float, values.get("wall_shifts_m", ()))),
         )
     except (TypeError, ValueError) as error:
         raise SceneFormatError(path, str(error)) from error

@@ -243,9 +243,7 @@ def wandering(
     seconds: float,
     unlike: tuple[tuple[float, float], ...] | None = None,
 ) -> Exploration:
-    """A robot that drives from place to place in a room that it believes to be another one, at most until its outline is
-    ``unlike`` this one.
-    """
+    """A robot that drives about a room that it believes to be another, until its outline is ``unlike`` this one."""
     run = Exploration.of(actual, pose, 0, agents)
     known = known_house(believed).snapshot()
     with run.memory.edit("test", 0.0) as tx:

@@ -4,7 +4,8 @@ That a wall is off, or that the robot's pose is, looks the same in one scan. Vie
 solved together: one shift per wall along its normal and a small correction of each view's pose. What remains open is
 where the outline as a whole lies in the room's frame. There the walls' own covariances decide, and that as few walls as
 possible are off (Huber's cost): of three parallel walls the odd one moves; of two alike, both by half, so that the
-frame stays in the middle; and when all seem shifted in the same way it is the pose that was, and none moves.
+frame stays in the middle; and when all seem shifted in the same way it is the pose that was, and none moves. Limit:
+furniture that reaches the ceiling and hides four fifths of a wall from all sides is taken for the wall.
 """
 
 from __future__ import annotations

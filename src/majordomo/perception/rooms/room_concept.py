@@ -10,16 +10,18 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from majordomo.perception.crossing import door_being_crossed, given_up, is_lost, uncrossed
+from majordomo.perception.crossing import door_being_crossed, given_up, in_doubt, is_lost, move_robot, uncrossed
 from majordomo.perception.lifecycle import LifeCycle, Verdict
-from majordomo.perception.localization.landmarks import room_model
+from majordomo.perception.localization.landmarks import RoomModel, room_model
 from majordomo.perception.localization.planar import Pose2
 from majordomo.perception.localization.robot_pose import RobotPose, robot_pose_at
+from majordomo.perception.rooms.adjustment import LocalAdjustment
 from majordomo.perception.rooms.insertion import insert_room, propose_visit, withdraw
 from majordomo.perception.rooms.instance import MeasuredRoom
 from majordomo.perception.rooms.outline_fitness import OutlineFitness, Stretch
 from majordomo.perception.rooms.revision import let_stand, missing_walls, revise_room, same_place, take_back, taken_back
-from majordomo.perception.rooms.slice import OutlineSlicer
+from majordomo.perception.rooms.shifted_walls import shift_walls, wall_stds
+from majordomo.perception.rooms.slice import OutlineScan, OutlineSlicer
 from majordomo.perception.rooms.survey import Survey, SurveySettings
 from majordomo.perception.sensing import SensorBuffer, scan_points_base
 from majordomo.scene_graph.edges import HasIntentionEdge, IntentionStatus
@@ -40,6 +42,7 @@ _RETURNS = 4
 _WELL_INSIDE_M = 0.35
 _REVISIONS = 2
 _WORTH_WRITING = 0.05
+_MOVED_STD_M = 0.01
 
 
 class RoomConcept:
@@ -67,6 +70,7 @@ class RoomConcept:
         self._arrived_s: dict[float, float] = {}
         self._returns: dict[str, int] = {}
         self._fitness: dict[str, OutlineFitness] = {}
+        self._adjustment = LocalAdjustment()
         self._revised: dict[str, int] = {}
         self._judge = False
         self._life = LifeCycle(
@@ -108,6 +112,25 @@ class RoomConcept:
             if fitness is None or not np.array_equal(fitness.polygon, model.polygon):
                 fitness = self._fitness[model.room_id] = OutlineFitness(model.polygon)
             self._judge |= fitness.add(self._slicer.cut(scan), pose.T_parent_base)
+            self._adjust(snapshot, model, self._slicer.cut(scan), pose)
+
+    def _adjust(self, snapshot: Snapshot, model: RoomModel, scan: OutlineScan, pose: RobotPose) -> None:
+        """Move walls of the room that are surely not quite where they are believed to be."""
+        if in_doubt(snapshot) or snapshot.room(model.room_id).status is not RoomStatus.PERMANENT:
+            self._adjustment.doubt()
+            return
+        if not self._adjustment.add(model, scan, pose):
+            return
+        shifts = self._adjustment.solve(wall_stds(snapshot, model))
+        if shifts is None:
+            return
+        self._adjustment.reset()
+        with self._memory.edit(self.name, self._stamp_s) as tx:
+            moved = shift_walls(tx, model, shifts, self._stamp_s)
+            if moved:
+                move_robot(tx, model.room_id, pose.T_parent_base @ shifts.T_base_moved, scan.stamp_s, _MOVED_STD_M)
+        if moved:
+            logger.info("adjusted %s: %s", model.room_id, shifts, extra={"room": model.room_id})
 
     # The four stages of the life cycle.
 

@@ -52,6 +52,14 @@ def test_what_cannot_be_done_is_said_in_a_sentence(tmp_path, arguments):
     assert "Traceback" not in outcome.stderr
 
 
+def test_asking_where_no_service_is_names_the_folder_and_the_option_that_chooses_it(tmp_path):
+    folder = tmp_path / "a folder whose name is longer than a line of eighty characters in a terminal is"
+    outcome = majordomo("ask", "where is the cup?", "--data", str(folder))
+    assert outcome.returncode == 2
+    assert f"{folder}:" in outcome.stderr
+    assert "--data" in outcome.stderr
+
+
 def test_the_doctor_finds_this_machine_healthy():
     outcome = majordomo("doctor")
     assert outcome.returncode == 0, outcome.stdout

@@ -45,7 +45,10 @@ def find_service(url: str | None, token: str | None, data: Path) -> Service:
     try:
         known = json.loads((data / "service.json").read_text(encoding="ascii"))
     except (OSError, json.JSONDecodeError):
-        raise NoService("no service is running here: start one with 'majordomo serve'") from None
+        raise NoService(
+            f"no service has left its address in {data}: start one with 'majordomo serve', or, if one runs with "
+            "another data folder, name that folder with --data"
+        ) from None
     return Service(address=known["address"], token=known["token"])
 
 

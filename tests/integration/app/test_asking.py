@@ -77,7 +77,9 @@ def test_the_service_is_found_by_its_address_or_where_it_left_it(tmp_path):
     assert found == Service(address="http://127.0.0.1:8642", token="abc")
     with pytest.raises(NoService, match="no token"):
         find_service("http://127.0.0.1:8642/", None, tmp_path)
-    with pytest.raises(NoService, match="majordomo serve"):
+    with pytest.raises(NoService, match="majordomo serve") as refusal:
         find_service(None, None, tmp_path)
+    assert f"in {tmp_path}:" in str(refusal.value)
+    assert "with --data" in str(refusal.value)
     (tmp_path / "service.json").write_text(json.dumps({"address": "http://127.0.0.1:1", "token": "t", "pid": 1}))
     assert find_service(None, None, tmp_path).address == "http://127.0.0.1:1"

@@ -3,14 +3,25 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
 
 import pytest
 
-from service_process import majordomo
+from service_process import majordomo, serving
+
+GRAPH = Path(__file__).parents[1] / "data" / "flat_graph.json"
 
 ROOM = {"id": "a", "label": "kitchen", "polygon": [[0, 0], [4, 0], [4, 3], [0, 3]]}
 DOOR = {"id": "d", "rooms": ["a", "outside"], "center": [4.1, 1.5], "width": 0.9}
 HOUSE = {"rooms": [ROOM], "doors": [DOOR], "robot": {"pose": [1, 1, 0]}}
+
+
+@pytest.fixture(scope="module")
+def graph_service(tmp_path_factory):
+    """Data folder of a service over a stored graph."""
+    folder = tmp_path_factory.mktemp("service")
+    with serving(folder, "--graph", str(GRAPH)):
+        yield folder
 
 
 def house_with(**changes):
@@ -42,6 +53,9 @@ def test_a_faulty_house_is_refused_with_the_field_that_is_wrong(tmp_path, text, 
         ("serve", "--house", "castle"),
         ("serve", "--speed", "max"),
         ("serve", "--llm", "nonsense"),
+        ("serve", "--house", ""),
+        ("serve", "--host", ""),
+        ("serve", "--host", b"\xff"),
         ("ask", "where is the cup?"),
     ],
 )
@@ -50,6 +64,36 @@ def test_what_cannot_be_done_is_said_in_a_sentence(tmp_path, arguments):
     assert outcome.returncode == 2
     assert outcome.stderr.strip()
     assert "Traceback" not in outcome.stderr
+
+
+def test_asking_where_no_service_is_names_the_folder_and_the_option_that_chooses_it(tmp_path):
+    folder = tmp_path / "a folder whose name is longer than a line of eighty characters in a terminal is"
+    outcome = majordomo("ask", "where is the cup?", "--data", str(folder))
+    assert outcome.returncode == 2
+    assert f"{folder}:" in outcome.stderr
+    assert "--data" in outcome.stderr
+
+
+@pytest.mark.parametrize(
+    ("request_text", "said"),
+    [
+        ("", "The request is empty. Please say in plain words what you want.\n"),
+        (" \n", "The request is empty. Please say in plain words what you want.\n"),
+        (b"bring \xff\xfe cup", "I cannot read this as text (UTF-8). Please type it again.\n"),
+    ],
+)
+def test_a_request_that_says_nothing_ends_with_a_sentence_and_exit_code_2(graph_service, request_text, said):
+    outcome = majordomo("ask", request_text, "--data", str(graph_service))
+    assert (outcome.returncode, outcome.stdout, outcome.stderr) == (2, "", said)
+
+
+def test_an_answer_from_a_pipe_that_is_no_text_is_refused_and_the_task_waits(graph_service, tmp_path):
+    (tmp_path / "answer").write_bytes(b"\xff\xfe\n")
+    with (tmp_path / "answer").open() as answer:
+        outcome = majordomo("ask", "bring the cup to the bench", "--data", str(graph_service), stdin=answer)
+    assert outcome.returncode == 2
+    assert "I cannot read this as text" in outcome.stdout
+    assert "the task waits" in outcome.stderr
 
 
 def test_the_doctor_finds_this_machine_healthy():

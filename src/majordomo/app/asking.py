@@ -16,6 +16,8 @@ from rich.text import Text
 
 ENDED = frozenset({"succeeded", "failed", "cancelled", "refused"})
 UNDECIDED = frozenset({"awaiting_answer", "awaiting_approval"})
+MAX_PORT = 65535
+NO_TEXT = "I cannot read this as text (UTF-8). Please type it again."
 
 
 class NoService(RuntimeError):
@@ -37,16 +39,30 @@ def find_service(url: str | None, token: str | None, data: Path) -> Service:
         NoService: saying how to start one.
     """
     if url is not None:
-        parsed = httpx.URL(url)
-        offered = token or parsed.params.get("token")
-        if not offered:
-            raise NoService("the address holds no token: pass it with --token")
-        return Service(address=str(parsed.copy_with(query=None, path="/")).rstrip("/"), token=offered)
+        return _service_at(url, token)
     try:
         known = json.loads((data / "service.json").read_text(encoding="ascii"))
-    except (OSError, json.JSONDecodeError):
-        raise NoService("no service is running here: start one with 'majordomo serve'") from None
-    return Service(address=known["address"], token=known["token"])
+        return Service(address=known["address"], token=known["token"])
+    except (OSError, ValueError, LookupError, TypeError):
+        raise NoService(
+            f"no service has left its address in {data}: start one with 'majordomo serve', or, if one runs with "
+            "another data folder, name that folder with --data"
+        ) from None
+
+
+def _service_at(url: str, token: str | None) -> Service:
+    try:
+        parsed = httpx.URL(url)
+    except httpx.InvalidURL as error:
+        raise NoService(f"the address {url!r} cannot be used: {error}") from None
+    if parsed.port is not None and parsed.port > MAX_PORT:
+        raise NoService(f"the address {url!r} cannot be used: ports end at {MAX_PORT}")
+    offered = token or parsed.params.get("token")
+    if not offered:
+        raise NoService("the address holds no token: pass it with --token")
+    if not offered.isascii():
+        raise NoService("the token holds characters that no token has: copy it from the printed address")
+    return Service(address=str(parsed.copy_with(query=None, path="/")).rstrip("/"), token=offered)
 
 
 async def ask_service(service: Service, request: str, console: Console) -> bool:
@@ -55,6 +71,8 @@ async def ask_service(service: Service, request: str, console: Console) -> bool:
     Raises:
         NoService: the service cannot be reached, or refuses.
     """
+    if not _is_text(request):
+        raise NoService(NO_TEXT)
     headers = {"Authorization": f"Bearer {service.token}"}
     try:
         async with httpx.AsyncClient(base_url=service.address, headers=headers, timeout=10.0) as client:
@@ -101,18 +119,38 @@ async def _decide(task: dict[str, Any], client: httpx.AsyncClient, console: Cons
     """
     path = f"/v1/tasks/{task['id']}"
     if task["status"] == "awaiting_answer":
-        answer = ""
-        while not answer:
-            answer = _typed(console, f"{task['reply']} > ").strip()
-        _checked(await client.post(f"{path}/answer", json={"answer": answer}))
+        while refusal := await _refusal(_typed(console, f"{task['reply']} > "), path, client):
+            console.print(refusal, markup=False, highlight=False)
     elif task["status"] == "awaiting_approval":
         agreed = _typed(console, f"{task['explanation']} [y/N] ").strip().lower() in {"y", "yes"}
         _checked(await client.post(f"{path}/{'approve' if agreed else 'reject'}"))
 
 
+async def _refusal(answer: str, path: str, client: httpx.AsyncClient) -> str | None:
+    """Give an answer; why it cannot be taken, if it cannot."""
+    if not _is_text(answer):
+        return NO_TEXT
+    response = await client.post(f"{path}/answer", json={"answer": answer})
+    if response.status_code == httpx.codes.UNPROCESSABLE_ENTITY:
+        return str(response.json()["detail"])
+    _checked(response)
+    return None
+
+
+def _is_text(typed: str) -> bool:
+    """Whether what was typed is Unicode text; Python smuggles other bytes in as lone surrogates."""
+    try:
+        typed.encode()
+    except UnicodeEncodeError:
+        return False
+    return True
+
+
 def _typed(console: Console, prompt: str) -> str:
     try:
         return console.input(Text(prompt))
+    except UnicodeDecodeError as error:
+        return error.object.decode(errors="surrogateescape")
     except EOFError:
         raise NoService("nobody is there to answer; the task waits, and the page shows its question") from None
 

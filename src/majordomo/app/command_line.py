@@ -134,7 +134,7 @@ def ask(
         service = find_service(url, token, data.expanduser())
         succeeded = asyncio.run(ask_service(service, request, console))
     except NoService as error:
-        complaints.print(str(error), style="red", markup=False)
+        complaints.print(str(error), style="red", markup=False, highlight=False, soft_wrap=True)
         raise typer.Exit(2) from None
     raise typer.Exit(0 if succeeded else 1)
 

@@ -12,19 +12,14 @@ from collections.abc import Sequence
 import numpy as np
 
 from majordomo.app.event_log import EventLog
+from majordomo.app.mapping_agents import mapping_agents
 from majordomo.app.ranges import ScanRanges
 from majordomo.app.remembering import Remembering, building_folder
 from majordomo.app.scheduler import Agent
 from majordomo.app.settings import ClockMode, Settings
-from majordomo.perception.doors.door_concept import DoorConcept
 from majordomo.perception.labels import RoomLabels
-from majordomo.perception.localization.energy_optimizer import EnergyOptimizer
-from majordomo.perception.localization.recovery import Relocalization
-from majordomo.perception.memory.long_term_memory import LongTermMemory
 from majordomo.perception.objects.agent import ObjectMemory
 from majordomo.perception.preview import WatchedModel, preview_jpeg
-from majordomo.perception.rooms.room_concept import RoomConcept
-from majordomo.perception.rooms.slice import OutlineSlicer
 from majordomo.perception.sensing import Sensing, SensorBuffer
 from majordomo.planner.arbiter import Arbiter
 from majordomo.planner.crew import Crew
@@ -90,15 +85,10 @@ class RobotStack:
         planner = TaskPlanner(
             CommandGrammar(), verifier, model, journal=lambda entry: log.write(self.now(), "model", entry)
         )
-        slicer = OutlineSlicer()
         seeing: list[Agent] = [self._objects, RoomLabels(self.memory)] if self._objects is not None else []
         self.agents: Sequence[Agent] = [
             Sensing(buffer, camera_period_s=0.2 if settings.camera else None),
-            EnergyOptimizer(self.memory, buffer, slicer=slicer),
-            Relocalization(self.memory, buffer, slicer=slicer),
-            RoomConcept(self.memory, buffer, slicer=slicer),
-            DoorConcept(self.memory, buffer),
-            LongTermMemory(self.memory, buffer, slicer=slicer),
+            *mapping_agents(self.memory, buffer),
             *seeing,
             Arbiter(self.memory, stopped=lambda: self.stopped, exploration_enabled=settings.explore),
             Mission(crew, planner),

@@ -28,15 +28,18 @@ def bind(settings: Settings) -> socket.socket:
     Raises:
         RefusedToBind: the port is taken, or the host is not this machine's.
     """
+    if not settings.host.strip():
+        raise RefusedToBind("there is no address to listen on: name one with --host, or leave the option away")
     family = socket.AF_INET6 if ":" in settings.host else socket.AF_INET
     listener = socket.socket(family, socket.SOCK_STREAM, socket.IPPROTO_TCP)
     listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
     listener.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)  # connections inherit it: no 40 ms for a late ACK
     try:
         listener.bind((settings.host, settings.port))
-    except OSError as error:
+    except (OSError, TypeError) as error:  # what cannot be encoded as a host's name is a TypeError
         listener.close()
-        raise RefusedToBind(f"cannot listen on {settings.host}:{settings.port}: {error.strerror or error}") from error
+        reason = getattr(error, "strerror", None) or error
+        raise RefusedToBind(f"cannot listen on {settings.host}:{settings.port}: {reason}") from error
     listener.listen(128)
     return listener
 

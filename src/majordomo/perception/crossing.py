@@ -18,8 +18,6 @@ from majordomo.scene_graph.snapshot import Snapshot
 BEING_CROSSED = "being crossed"
 CLOSED_REASON = "closed"
 DOOR_AGENT = "door_concept"
-_OPEN = frozenset({IntentionStatus.PROPOSED, IntentionStatus.GRANTED, IntentionStatus.REVOKED})
-_TASK_PREFIX = "task:"
 LOST_STD = 1.0
 """Meters and radians: how far off the guess of a lost robot may be, as far as the covariance has to say it."""
 
@@ -39,7 +37,7 @@ def nothing_left(snapshot: Snapshot) -> bool:
         len(rooms) > 0
         and all(room.status is not RoomStatus.TEMPORARY for room in rooms)
         and all(not door.provisional and door.crossing is not CrossingStatus.UNCROSSED for door in doors)
-        and not any(edge.status in _OPEN and not edge.agent.startswith(_TASK_PREFIX) for edge in snapshot.intentions())
+        and not any(edge.is_open and edge.explores for edge in snapshot.intentions())
     )
 
 

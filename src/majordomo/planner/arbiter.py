@@ -19,7 +19,6 @@ from majordomo.scene_graph.nodes import ROBOT_ID, AffordanceNode
 from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.scene_graph.topology import Topology
 
-OPEN = (IntentionStatus.PROPOSED, IntentionStatus.GRANTED, IntentionStatus.REVOKED)
 DOORWAY_M = 1.0
 """A robot this close to the door it crosses finishes crossing before anything but the stop."""
 
@@ -72,8 +71,7 @@ def choose(
     candidates = [
         edge
         for edge in snapshot.intentions()
-        if edge.status in OPEN
-        and (looks_around(edge) if lost else exploration_enabled or edge.priority >= Priority.REQUEST)
+        if edge.is_open and (looks_around(edge) if lost else exploration_enabled or edge.priority >= Priority.REQUEST)
     ]
     if not candidates:
         return None

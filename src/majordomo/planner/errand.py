@@ -18,6 +18,7 @@ from majordomo.planner.progress import Progress
 from majordomo.planner.recovery import Recoveries
 from majordomo.planner.replanner import Hunt, Replanner
 from majordomo.planner.tasks import TaskStatus
+from majordomo.scene_graph.edges import TASK_AGENT
 from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.skills.action import Action, RobotContext
 from majordomo.skills.failures import Evidence, Failure, FailureCode
@@ -252,4 +253,4 @@ class Errand:
 
 def agent_of(task_id: str) -> str:
     """Name of the intention under which a task has the robot."""
-    return f"task:{task_id}"
+    return f"{TASK_AGENT}{task_id}"

@@ -21,7 +21,7 @@ Applied = tuple[Step, float, PlanState]
 
 
 class Operators:
-    """Grounded skills. What is in the way is put down where the robot stands: no other place costs less.
+    """Grounded skills. What is in the way is put down where the robot stands: to get rid of it, no place costs less.
 
     Costs of ways are remembered, so use one for one problem.
     """
@@ -30,9 +30,14 @@ class Operators:
         self._skills = skills
         self._legs_s: dict[tuple[str, str], float] = {}
 
-    def applicable(self, goal: Goal, state: PlanState, unmet: dict[str, None]) -> Iterator[Applied]:
-        """Steps towards ``goal`` whose conditions hold; the conditions that do not are added to ``unmet``."""
-        for step in self._worth_trying(goal, state):
+    def applicable(
+        self, goal: Goal, state: PlanState, unmet: dict[str, None], to_find: Sequence[str] = ()
+    ) -> Iterator[Applied]:
+        """Steps towards ``goal`` whose conditions hold; the conditions that do not are added to ``unmet``.
+
+        ``to_find``: objects that are to be found, by this goal or later ones.
+        """
+        for step in self._steps(goal, state, to_find):
             skill = self._skills[step.skill]
             failed = skill.conditions(state, step.args)
             if failed:
@@ -41,26 +46,42 @@ class Operators:
                 yield step, skill.cost_s(state, step.args), skill.effects(state, step.args)
 
     def at_least_s(self, goals: Sequence[Goal], state: PlanState) -> float:
-        """Seconds that ``goals`` take at least from ``state``.
+        """Seconds that ``goals``, none of which holds, take at least from ``state``.
 
         Every object that must move is picked up once, carried once and put down once, one after the other; the robot
-        must first come to one of them, and in the end to everywhere it is sent.
+        must first come to one of them, and in the end to everywhere it is sent. What is to be near something that moves
+        itself may not have to. A room counts as far only for the goal whose turn it is: on the way to something else in
+        it, its edge is enough.
         """
         first: dict[str, Goal] = {}
+        moving = {goal.object_id for goal in goals}
         sent_s = 0.0
         for goal in goals:
             if goal.object_id is None or goal.predicate is Predicate.FOUND:
                 sent_s = max(sent_s, self._sent_s(goal, state, is_next=goal is goals[0]))
-            else:
+            elif goal.predicate is not Predicate.NEAR or goal.args[1] not in moving:
                 first.setdefault(goal.args[0], goal)
         handling_s, approaches_s = 0.0, [inf]
         for object_id, goal in first.items():
-            handling_s += self._handling_s(goal, state)
+            handling_s += self._handling_s(goal, state, is_next=goal is goals[0])
             if state.holding in goal.args or state.is_at(object_id):
                 approaches_s.append(0.0)
             else:
                 approaches_s.append(self._leg_s(state, None, object_id))
         return max(sent_s, handling_s + (min(approaches_s) if first else 0.0))
+
+    def _steps(self, goal: Goal, state: PlanState, to_find: Sequence[str]) -> Iterator[Step]:
+        """Going to what is to be found, where the goal's object or place is in reach too, saves an approach."""
+        for step in self._worth_trying(goal, state):
+            yield step
+            if step.skill == GOTO:
+                beside = (thing for thing in to_find if thing != step.args[0])
+                yield from (Step(skill=GOTO, args=(x,)) for x in beside if self._in_reach(step.args[0], x, state))
+
+    def _in_reach(self, target: str, beside: str, state: PlanState) -> bool:
+        """Whether the robot can go to ``beside``, and stands at ``target`` there too."""
+        goto = self._skills[GOTO]
+        return not goto.conditions(state, (beside,)) and goto.effects(state, (beside,)).is_at(target)
 
     def _worth_trying(self, goal: Goal, state: PlanState) -> Iterator[Step]:
         if goal.object_id is None or (goal.predicate is Predicate.FOUND and state.holding != goal.args[0]):
@@ -93,7 +114,7 @@ class Operators:
         if state.robot_at != target:
             yield Step(skill=GOTO, args=(target,))
 
-    def _handling_s(self, goal: Goal, state: PlanState) -> float:
+    def _handling_s(self, goal: Goal, state: PlanState, *, is_next: bool) -> float:
         """Seconds to pick up (unless held), carry and put down the goal's object, without the way to it."""
         object_id = goal.args[0]
         if goal.predicate is Predicate.NEAR and state.holding == goal.args[1]:
@@ -103,22 +124,25 @@ class Operators:
         if goal.predicate is Predicate.HOLDING:
             return pick_s
         costs_s = [
-            self._carry_s(state, object_id, place) + self._skills[PLACE].cost_s(state, (object_id, place))
+            self._carry_s(state, object_id, place, is_next=is_next) + self._put_s(state, object_id, place)
             for place in self.places(goal, state)
         ]
         return pick_s + min(costs_s, default=0.0)
 
+    def _put_s(self, state: PlanState, object_id: str, place: str) -> float:
+        return self._skills[PLACE].cost_s(state, (object_id, place))
+
     def _sent_s(self, goal: Goal, state: PlanState, *, is_next: bool) -> float:
-        """The way to where the robot is sent. A room is reached at its edge on the way to something else in it."""
+        """The way to where the robot is sent."""
         target = goal.args[-1]
-        if state.is_at(target) or (not is_next and state.world.things[target].kind == "room"):
+        if state.is_at(target) or (not is_next and _is_room(target, state)):
             return 0.0
         return self._leg_s(state, None, target)
 
-    def _carry_s(self, state: PlanState, object_id: str, place: str) -> float:
+    def _carry_s(self, state: PlanState, object_id: str, place: str, *, is_next: bool) -> float:
         here = state.holding == object_id or state.is_at(object_id)
         together = place == state.room_of(object_id) or state.anchor(object_id) == state.anchor(place)
-        if together or (here and state.is_at(place)):
+        if together or (here and state.is_at(place)) or (not is_next and _is_room(place, state)):
             return 0.0
         from_robot_s = self._leg_s(state, None, place) if here else inf
         return from_robot_s if state.holding == object_id else min(from_robot_s, self._leg_s(state, object_id, place))
@@ -131,6 +155,10 @@ class Operators:
             there = state.after(robot_at=key[0], robot_room=state.room_of(key[0]), near=frozenset())
             self._legs_s[key] = self._skills[GOTO].cost_s(there, (key[1],))
         return self._legs_s[key]
+
+
+def _is_room(node_id: str, state: PlanState) -> bool:
+    return state.world.things[node_id].kind == "room"
 
 
 def _out_of_the_way(goal: Goal, state: PlanState) -> tuple[str, ...]:

@@ -8,7 +8,15 @@ from majordomo.planner.grammar.syntax import NounPhrase, Pronoun, Quantity
 from majordomo.planner.matching import nodes_of, similar
 from majordomo.planner.naming import at, listed, name_of
 from majordomo.planner.vocabulary import is_plural, normal, singular
-from majordomo.scene_graph.nodes import CrossingStatus, DoorNode, ObjectNode, ObjectState, PersonNode, RoomNode
+from majordomo.scene_graph.nodes import (
+    CrossingStatus,
+    DoorNode,
+    ObjectNode,
+    ObjectState,
+    PersonNode,
+    RoomNode,
+    RoomStatus,
+)
 from majordomo.scene_graph.snapshot import Snapshot
 
 MAX_LISTED = 5
@@ -78,10 +86,12 @@ def alternatives(phrase: NounPhrase, same: Sequence[str], snapshot: Snapshot) ->
 
 
 def _parts_unseen(snapshot: Snapshot) -> bool:
-    """Whether there is a door that nobody went through yet, or not even a room."""
-    doors = snapshot.of_type(DoorNode)
+    """Whether exploration goes on: a door that nobody went through yet, something to look at, or not even a room."""
+    doors, rooms = snapshot.of_type(DoorNode), snapshot.of_type(RoomNode)
     ahead = any(door.rooms[1] is None and door.crossing is CrossingStatus.UNCROSSED for door in doors)
-    return not snapshot.root.explored and (ahead or not snapshot.of_type(RoomNode))
+    unmeasured = not rooms or any(room.status is RoomStatus.TEMPORARY for room in rooms)
+    wanted = any(edge.is_open and edge.explores for edge in snapshot.intentions())
+    return not snapshot.root.explored and (ahead or unmeasured or wanted)
 
 
 def _alternatives(phrase: NounPhrase, same: Sequence[str], snapshot: Snapshot) -> str:

@@ -12,7 +12,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import count
 
-from majordomo.planner.goals import Goal, holds, lasting
+from majordomo.planner.goals import Goal, Predicate, holds, lasting
 from majordomo.planner.operators import Operators
 from majordomo.planner.plan import Step
 from majordomo.skills.skill import Skill
@@ -69,7 +69,7 @@ class Search:
         """The cheapest steps from ``start``; deterministic."""
         first = _Node(start, self.tick(start, 0), 0.0, None, None)
         order = count()
-        queue = [(self._estimate(first), next(order), first)]
+        queue = [(self.at_least_s(start, first.ticked), next(order), first)]
         best = {(start, first.ticked): 0.0}
         expanded = 0
         unmet: dict[str, None] = {}
@@ -84,7 +84,8 @@ class Search:
                 key = (after.state, after.ticked)
                 if after.cost_s < best.get(key, float("inf")):
                     best[key] = after.cost_s
-                    heapq.heappush(queue, (after.cost_s + self._estimate(after), next(order), after))
+                    least_s = after.cost_s + self.at_least_s(after.state, after.ticked)
+                    heapq.heappush(queue, (least_s, next(order), after))
         return Exhausted(expanded=expanded, out_of_budget=bool(queue), unmet=tuple(unmet))
 
     def tick(self, state: PlanState, ticked: int) -> int:
@@ -103,12 +104,21 @@ class Search:
             return self._goals[ticked]
         return next(goal for goal in self._lasting if not holds(goal, state))
 
+    def at_least_s(self, state: PlanState, ticked: int) -> float:
+        """Seconds that the remaining goals take at least: admissible, zero at the end.
+
+        A goal that holds before its turn may cost nothing.
+        """
+        left = self._goals[ticked:] or self._lasting
+        return self._operators.at_least_s([goal for goal in left if not holds(goal, state)], state)
+
     def _successors(self, node: _Node, unmet: dict[str, None]) -> Iterator[_Node]:
         goal = self.pending(node.state, node.ticked)
-        for step, cost_s, state in self._operators.applicable(goal, node.state, unmet):
+        to_find = self._to_find(node.ticked)
+        for step, cost_s, state in self._operators.applicable(goal, node.state, unmet, to_find):
             yield _Node(state, self.tick(state, node.ticked), node.cost_s + cost_s, step, node)
 
-    def _estimate(self, node: _Node) -> float:
-        """Seconds that the remaining goals take at least: admissible, zero at the end."""
-        left = self._goals[node.ticked :] or tuple(goal for goal in self._lasting if not holds(goal, node.state))
-        return self._operators.at_least_s(left, node.state)
+    def _to_find(self, ticked: int) -> tuple[str, ...]:
+        """What is still to be found when ``ticked`` goals are ticked off, each once."""
+        left = self._goals[ticked:] or self._lasting
+        return tuple(dict.fromkeys(goal.args[0] for goal in left if goal.predicate is Predicate.FOUND))

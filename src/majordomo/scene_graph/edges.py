@@ -52,6 +52,11 @@ class IntentionStatus(StrEnum):
     REVOKED = "revoked"
 
 
+OPEN_INTENTION = frozenset({IntentionStatus.PROPOSED, IntentionStatus.GRANTED, IntentionStatus.REVOKED})
+TASK_AGENT = "task:"
+"""How the names begin under which tasks ask for the robot; all others explore."""
+
+
 class Priority(IntEnum):
     """Who goes first when several intentions compete; a request outranks exploration."""
 
@@ -195,6 +200,16 @@ class HasIntentionEdge:
     @property
     def key(self) -> EdgeKey:
         return EdgeKey(EdgeType.HAS_INTENTION, self.source, self.target, self.agent)
+
+    @property
+    def is_open(self) -> bool:
+        """Whether it is neither done nor failed."""
+        return self.status in OPEN_INTENTION
+
+    @property
+    def explores(self) -> bool:
+        """Whether an agent asks in order to know the building better, and not a task."""
+        return not self.agent.startswith(TASK_AGENT)
 
 
 Edge = RtEdge | InEdge | RelationEdge | ConnectsEdge | MatchEdge | HasEdge | HasIntentionEdge

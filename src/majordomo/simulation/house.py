@@ -172,7 +172,10 @@ def load_house(path_or_name: str | Path) -> House:
     except (OSError, UnicodeDecodeError) as error:
         reason = error.strerror if isinstance(error, OSError) and error.strerror else "not a text file"
         known = ", ".join(builtin_houses())
-        raise HouseError(name, f"cannot be read ({reason}), and no house has that name; built in: {known}") from error
+        raise HouseError(
+            name if name.strip() else repr(name),
+            f"cannot be read ({reason}), and no house has that name; built in: {known}",
+        ) from error
     return parse_house(text)
 
 

@@ -138,6 +138,28 @@ async def test_a_malformed_request_is_refused_and_names_its_field(service, body)
 
 
 @pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (" \n ", "The request is empty. Please say in plain words what you want."),
+        (
+            "x" * 10_001,
+            "The request has 10001 characters, and I read at most 10000. Please say it in fewer words.",
+        ),
+    ],
+)
+async def test_words_that_cannot_be_taken_are_refused_in_a_sentence(service, words, said):
+    problem = await refused(await service.client.post("/v1/tasks", json={"request": words}), 422, "invalid_request")
+    assert problem["detail"] == said
+    assert problem["fields"] == [{"field": "request", "message": said}]
+
+
+async def test_the_documentation_tells_how_long_a_request_may_be(service):
+    documents = (await service.client.get("/openapi.json")).json()["components"]["schemas"]
+    for text in (documents["TaskRequest"]["properties"]["request"], documents["Answer"]["properties"]["answer"]):
+        assert (text["type"], text["minLength"], text["maxLength"]) == ("string", 1, 10_000)
+
+
+@pytest.mark.parametrize(
     "content", [b"", b"{", b'{"request": "go"', b"\xff\xfe", b'{"request": "\\ud800"}', b"[" * 30_000, b"\x00"]
 )
 async def test_bytes_that_are_not_json_text_are_refused(service, content):

@@ -30,6 +30,13 @@ def test_rates_that_are_held_by_agents_that_all_get_their_turns():
     assert (held["overdue"], held["overdue_s"]) == ("room_concept", pytest.approx(0.3))
 
 
+def test_at_twice_the_pace_a_turn_is_overdue_after_half_the_period():
+    twice = summary("from memory", 20.0, 10.0, 200, turns(room_concept=0.4), speed=2.0)
+    assert (twice["overdue"], twice["overdue_s"]) == ("room_concept", pytest.approx(0.35))
+    assert not summary("from memory", 20.0, 10.0, 200, turns(room_concept=1.06), speed=2.0)["held"]
+    assert summary("from memory", 20.0, 10.0, 200, turns(room_concept=1.06))["held"]
+
+
 @pytest.mark.parametrize(
     ("seconds", "scans", "longest_wait_s"),
     [(10.0, 150, 0.2), (30.0, 600, 0.2), (10.0, 200, 1.3)],

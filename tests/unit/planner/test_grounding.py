@@ -12,8 +12,8 @@ from majordomo.planner.plan import Dialogue, Kind
 from majordomo.planner.sketch import Sketch, flat
 from majordomo.planner.task_planner import TaskPlanner
 from majordomo.planner.verifier import Verifier
-from majordomo.scene_graph.edges import RtEdge
-from majordomo.scene_graph.nodes import DoorNode, DoorState, ObjectState
+from majordomo.scene_graph.edges import HasIntentionEdge, IntentionAction, IntentionStatus, Priority, RtEdge
+from majordomo.scene_graph.nodes import DoorNode, DoorState, ObjectState, RoomStatus
 from majordomo.scene_graph.se3 import SE3
 from majordomo.skills.registry import load_registry
 
@@ -51,6 +51,36 @@ def test_while_doors_are_left_to_go_through_what_is_unknown_may_still_be_found()
     reply = read("bring me the green bottle", memory.snapshot()).reply
     assert reply.startswith("I know of no green bottle.")
     assert reply.endswith("I have not seen the whole building yet.")
+
+
+@pytest.mark.parametrize(
+    ("agent", "status", "explored", "said"),
+    [
+        ("objects", IntentionStatus.PROPOSED, False, True),
+        ("objects", IntentionStatus.GRANTED, False, True),
+        ("objects", IntentionStatus.REVOKED, False, True),
+        ("objects", IntentionStatus.FAILED, False, False),
+        ("task:task_1", IntentionStatus.GRANTED, False, False),
+        ("objects", IntentionStatus.PROPOSED, True, False),
+    ],
+)
+def test_while_an_agent_has_something_left_to_look_at_what_is_unknown_may_still_be_found(agent, status, explored, said):
+    memory = flat().memory(robot_in="room_2", at=(4.2, 0.0))
+    look = HasIntentionEdge(
+        source="robot", target="table_1", agent=agent, action=IntentionAction.LOOK, priority=Priority.LOOK_AROUND
+    )
+    with memory.edit("test", 100.0) as tx:
+        tx.put(replace(look, status=status), replace(tx.snapshot.root, explored=explored))
+    reply = read("bring me the green bottle", memory.building()).reply
+    assert reply.startswith("I know of no green bottle.")
+    assert reply.endswith("I have not seen the whole building yet.") == said
+
+
+def test_while_a_room_is_being_measured_what_is_unknown_may_still_be_found():
+    memory = flat().memory(robot_in="room_2", at=(4.2, 0.0))
+    with memory.edit("test", 100.0) as tx:
+        tx.put(replace(tx.snapshot.room("room_3"), status=RoomStatus.TEMPORARY))
+    assert "not seen the whole building yet" in read("bring me the green bottle", memory.building()).reply
 
 
 def test_a_misspelled_word_suggests_the_label():

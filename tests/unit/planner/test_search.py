@@ -5,12 +5,11 @@ from __future__ import annotations
 import heapq
 from itertools import count, product
 
-from hypothesis import HealthCheck, assume, given, settings
+from hypothesis import HealthCheck, assume, example, given, settings
 from hypothesis import strategies as st
 
 from majordomo.planner.flaws import goal_flaws
 from majordomo.planner.goals import PLACING, goal, holds
-from majordomo.planner.operators import Operators
 from majordomo.planner.plan import Step
 from majordomo.planner.search import Exhausted, Found, Search
 from majordomo.planner.sketch import Sketch
@@ -59,22 +58,32 @@ def brute_force_s(goals, start):
     return None
 
 
-@st.composite
-def small_worlds(draw, in_hand=(None, None, "cup_1", "cup_2")):
-    """Two rooms, two tables, two things, a person; the robot somewhere, perhaps with something in its hand."""
-    coordinate = st.floats(-1.5, 1.5).map(lambda x: round(x, 2))
+def small_world(*, tables=((0.0, 1.5), (0.0, 1.5)), cups_on=(1, 1), person=(0.0, 0.0), robot_in=1, holding=None):
+    """Two rooms, a table in each, two cups, a person in the second room. Places are meters from the room's middle."""
+    middle_x = {1: 0.0, 2: 4.2}
     sketch = (
         Sketch().room("room_1", at=(0.0, 0.0)).room("room_2", at=(4.2, 0.0)).door("room_1", "room_2", at=(2.1, 0.0))
     )
-    for number, room in ((1, 0.0), (2, 4.2)):
-        place = (room + draw(coordinate), draw(coordinate))
-        sketch.furniture(f"table_{number}", "table", f"room_{number}", at=place)
-    for number in (1, 2):
-        sketch.thing(f"cup_{number}", "cup", on=f"table_{draw(st.sampled_from([1, 2]))}")
-    sketch.person("person_1", "Anna", "room_2", at=(4.2 + draw(coordinate), draw(coordinate)))
-    holding = draw(st.sampled_from(in_hand))
-    room = draw(st.sampled_from([("room_1", 0.0), ("room_2", 4.2)]))
-    return sketch.snapshot(robot_in=room[0], at=(room[1], 0.0), holding=holding)
+    for number, (x, y) in enumerate(tables, start=1):
+        sketch.furniture(f"table_{number}", "table", f"room_{number}", at=(middle_x[number] + x, y))
+    for number, table in enumerate(cups_on, start=1):
+        sketch.thing(f"cup_{number}", "cup", on=f"table_{table}")
+    sketch.person("person_1", "Anna", "room_2", at=(middle_x[2] + person[0], person[1]))
+    return sketch.snapshot(robot_in=f"room_{robot_in}", at=(middle_x[robot_in], 0.0), holding=holding)
+
+
+def small_worlds(in_hand=(None, None, "cup_1", "cup_2")):
+    """Small worlds of all kinds; the robot in the middle of a room, perhaps with something in its hand."""
+    coordinate = st.floats(-1.5, 1.5).map(lambda x: round(x, 2))
+    place, number = st.tuples(coordinate, coordinate), st.sampled_from([1, 2])
+    return st.builds(
+        small_world,
+        tables=st.tuples(place, place),
+        cups_on=st.tuples(number, number),
+        person=place,
+        robot_in=number,
+        holding=st.sampled_from(in_hand),
+    )
 
 
 cups = st.sampled_from(["cup_1", "cup_2"])
@@ -100,6 +109,9 @@ some_goal = st.one_of(pointed_goal, in_a_room, near)
 
 @settings(max_examples=30, deadline=None, suppress_health_check=list(HealthCheck))
 @given(small_worlds(in_hand=(None,)), st.lists(pointed_goal, min_size=1, max_size=2))
+@example(small_world(), [goal("holding", "cup_1"), goal("found", "cup_2")])
+@example(small_world(cups_on=(2, 1)), [goal("on", "cup_1", "table_1"), goal("found", "cup_2")])
+@example(small_world(), [goal("robot_at", "table_1"), goal("found", "cup_1")])
 def test_with_an_empty_hand_no_way_is_cheaper_than_the_one_found(snapshot, goals):
     start = PlanState.from_snapshot(snapshot)
     assume(not goal_flaws(goals, snapshot, start))
@@ -109,6 +121,13 @@ def test_with_an_empty_hand_no_way_is_cheaper_than_the_one_found(snapshot, goals
         return
     assert least_s is not None
     assert abs(found.cost_s - least_s) < 1e-6, (found.steps, found.cost_s, least_s)
+
+
+def test_what_is_to_be_found_later_is_approached_at_once_where_the_first_thing_is_in_reach_too():
+    start = PlanState.from_snapshot(small_world())
+    found = Search([goal("holding", "cup_1"), goal("found", "cup_2")], SKILLS).run(start)
+    assert found.steps == (Step(skill="GOTO", args=("cup_2",)), Step(skill="PICK", args=("cup_1",)))
+    assert abs(found.cost_s - (6.0 + 1.5 / 0.35 + 30.0)) < 1e-6
 
 
 def test_what_is_found_within_reach_and_wanted_later_is_picked_up_without_another_approach():
@@ -140,19 +159,20 @@ def test_the_steps_found_can_be_carried_out_and_reach_every_goal_in_turn(snapsho
 
 @settings(max_examples=60, deadline=None, suppress_health_check=list(HealthCheck))
 @given(small_worlds(), st.lists(some_goal, min_size=1, max_size=3))
+@example(small_world(cups_on=(2, 1)), [goal("holding", "cup_1"), goal("on", "cup_2", "table_1")])
+@example(small_world(cups_on=(1, 2)), [goal("on", "cup_2", "table_1"), goal("near", "cup_1", "cup_2")])
 def test_the_estimate_never_exceeds_the_true_cost(snapshot, goals):
-    start = PlanState.from_snapshot(snapshot)
-    found = Search(goals, SKILLS).run(start)
+    state, search = PlanState.from_snapshot(snapshot), Search(goals, SKILLS)
+    found = search.run(state)
     if not isinstance(found, Found):
         return
-    state, spent_s, search = start, 0.0, Search(goals, SKILLS)
-    ticked = search.tick(start, 0)
+    spent_s, ticked = 0.0, search.tick(state, 0)
     for step in found.steps:
-        left = [g for g in goals[ticked:] if not holds(g, state)]
-        assert Operators(SKILLS).at_least_s(left[:1], state) <= found.cost_s - spent_s + 1e-6
+        assert search.at_least_s(state, ticked) <= found.cost_s - spent_s + 1e-6
         spent_s += SKILLS[step.skill].cost_s(state, step.args)
         state = SKILLS[step.skill].effects(state, step.args)
         ticked = search.tick(state, ticked)
+    assert search.at_least_s(state, ticked) == 0.0
 
 
 def test_first_and_then_mean_what_they_say():

@@ -24,17 +24,12 @@ from rich.table import Table
 from majordomo.app.evaluations.exploration import service_in_lockstep, until_explored
 from majordomo.app.evaluations.pool import run_all
 from majordomo.app.evaluations.wandering import Wanderer
+from majordomo.app.mapping_agents import mapping_agents
 from majordomo.app.runtime import Runtime
-from majordomo.app.scheduler import Agent, RealTimeScheduler, Turns
+from majordomo.app.scheduler import RealTimeScheduler, Turns
 from majordomo.app.settings import ClockMode, Settings
-from majordomo.perception.doors.door_concept import DoorConcept
 from majordomo.perception.errors import SensorSilent
-from majordomo.perception.localization.energy_optimizer import EnergyOptimizer
-from majordomo.perception.localization.recovery import Relocalization
-from majordomo.perception.memory.long_term_memory import LongTermMemory
 from majordomo.perception.ports import JointState, LidarScan, Odometry, RgbdFrame
-from majordomo.perception.rooms.room_concept import RoomConcept
-from majordomo.perception.rooms.slice import OutlineSlicer
 from majordomo.perception.sensing import Sensing, SensorBuffer
 from majordomo.scene_graph.long_term.long_term_store import LongTermStore
 from majordomo.scene_graph.memory import WorkingMemory
@@ -70,19 +65,12 @@ async def _replayed(house: str, seconds: float) -> dict[str, Any]:
     recording = await record(house, seconds * REPLAY_LIDAR_HZ / SIMULATED_LIDAR_HZ)
     robot = _RecordedRobot(recording, speed=REPLAY_LIDAR_HZ / SIMULATED_LIDAR_HZ)
     memory = WorkingMemory(recording.building, long_term=LongTermStore())
-    buffer, slicer = SensorBuffer(robot), OutlineSlicer()
-    agents: list[Agent] = [
-        Sensing(buffer, camera_period_s=None),
-        EnergyOptimizer(memory, buffer, slicer=slicer),
-        Relocalization(memory, buffer, slicer=slicer),
-        RoomConcept(memory, buffer, slicer=slicer),
-        DoorConcept(memory, buffer),
-        LongTermMemory(memory, buffer, slicer=slicer),
-    ]
+    buffer = SensorBuffer(robot)
+    agents = [Sensing(buffer, camera_period_s=None), *mapping_agents(memory, buffer)]
     scheduler = RealTimeScheduler(agents, lambda: robot.now_s, speed=robot.speed)
     robot.start()
     await _for(seconds, asyncio.create_task(scheduler.run()))
-    return summary("from memory", REPLAY_LIDAR_HZ, seconds, buffer.scans, scheduler.turns)
+    return summary("from memory", REPLAY_LIDAR_HZ, seconds, buffer.scans, scheduler.turns, speed=robot.speed)
 
 
 async def _beside_simulator(house: str, seconds: float) -> dict[str, Any]:
@@ -120,16 +108,19 @@ def summary(
     scans: int,
     turns: Sequence[Turns],
     turns_before: Mapping[str, int] | None = None,
+    *,
+    speed: float = 1.0,
 ) -> dict[str, Any]:
     """What was held. ``scans``: that arrived within ``seconds``. ``turns_before``: that agents had taken before.
 
-    A turn is overdue when it comes later than a period after the one before.
+    A turn is overdue when it comes later than a period after the one before; at ``speed``, robot seconds per wall
+    second, a period is so much shorter. All seconds that are told are those on the wall.
     """
     before = turns_before or {}
     agents = {
         one.agent.name: {
             "rate_hz": (one.taken - before.get(one.agent.name, 0)) / seconds,
-            "overdue_s": max(0.0, one.longest_wait_s - one.agent.period_s),
+            "overdue_s": max(0.0, one.longest_wait_s - one.agent.period_s / speed),
             "restarts": one.restarts,
         }
         for one in turns

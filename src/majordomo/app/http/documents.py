@@ -4,13 +4,44 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal, Self
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, Field, StringConstraints, model_validator
+from pydantic import (
+    AfterValidator,
+    BaseModel,
+    ConfigDict,
+    Field,
+    StringConstraints,
+    ValidationInfo,
+    WithJsonSchema,
+    model_validator,
+)
+from pydantic_core import PydanticCustomError
 
+from majordomo.app.http.problems import WHOLE_SENTENCE
 from majordomo.planner.tasks import Approval
 
 MAX_REQUEST_CHARACTERS = 10_000
 
-RequestText = Annotated[str, StringConstraints(strip_whitespace=True, min_length=1, max_length=MAX_REQUEST_CHARACTERS)]
+
+def _sayable(text: str, info: ValidationInfo) -> str:
+    said = {"what": info.field_name, "length": len(text), "most": MAX_REQUEST_CHARACTERS}
+    if not text:
+        raise PydanticCustomError(WHOLE_SENTENCE, "The {what} is empty. Please say in plain words what you want.", said)
+    if len(text) > MAX_REQUEST_CHARACTERS:
+        raise PydanticCustomError(
+            WHOLE_SENTENCE,
+            "The {what} has {length} characters, and I read at most {most}. Please say it in fewer words.",
+            said,
+        )
+    return text
+
+
+RequestText = Annotated[
+    str,
+    StringConstraints(strip_whitespace=True),
+    AfterValidator(_sayable),
+    WithJsonSchema({"type": "string", "minLength": 1, "maxLength": MAX_REQUEST_CHARACTERS}),
+]
+"""What a person says to the robot; what is wrong with it is said in the robot's own words."""
 
 
 def _one_line(text: str) -> str:

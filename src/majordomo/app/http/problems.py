@@ -15,6 +15,8 @@ from starlette.exceptions import HTTPException
 logger = logging.getLogger(__name__)
 
 MEDIA_TYPE = "application/problem+json"
+WHOLE_SENTENCE = "whole_sentence"
+"""Type of flaws that are told in a sentence which says what it is about."""
 
 
 class Problem(Exception):
@@ -54,7 +56,7 @@ def install_problem_handlers(app: FastAPI) -> None:
     @app.exception_handler(RequestValidationError)
     async def _invalid(_: Request, error: RequestValidationError) -> JSONResponse:
         fields = [_flaw(item) for item in error.errors()]
-        detail = "; ".join(f"{item['field']}: {item['message']}" for item in fields)
+        detail = "; ".join(_told(item["type"], flaw) for item, flaw in zip(error.errors(), fields, strict=True))
         return problem_response(Problem(422, "invalid_request", detail, fields=fields))
 
     @app.exception_handler(HTTPException)
@@ -74,6 +76,10 @@ def _flaw(item: Mapping[str, Any]) -> dict[str, str]:
     if item["type"] == "json_invalid":
         return {"field": "body", "message": f"not JSON at character {item['loc'][-1]}: {item['ctx']['error']}"}
     return {"field": _field(item["loc"]), "message": item["msg"]}
+
+
+def _told(kind: str, flaw: Mapping[str, str]) -> str:
+    return flaw["message"] if kind == WHOLE_SENTENCE else f"{flaw['field']}: {flaw['message']}"
 
 
 def _field(location: tuple[int | str, ...]) -> str:

@@ -153,35 +153,46 @@ class WallEvidence:
     def recesses(self, settings: GapSettings | None = None) -> list[Gap]:
         """Closed doors: stretches as wide as a door's leaf that lie behind the face, below wall that does not."""
         settings = settings or GapSettings()
-        rays = self._depth_rays
-        depth_m = self._depth / np.maximum(rays, 1e-9)
-        told = rays[0] >= settings.leaf_rays
-        depth_m[0] -= np.median(depth_m[0, told]) if told.any() else 0.0
-        deep = (
-            told & (depth_m[0] > settings.panel_m) & (depth_m[0] < settings.deepest_m) & (self._states(settings) != 1)
-        )
-        deep = binary_closing(deep, iterations=round(settings.bridge_m / _BIN_M / 2.0))
+        told = self._depth_rays[0] >= settings.leaf_rays
+        depth_m = self._depths_from_face(told)
         found: list[Gap] = []
-        for first, last in runs(deep):
+        for first, last in runs(self._behind_face(depth_m[0], told, settings)):
             leaf = np.arange(first, last)[told[first:last]]
             panel_m = float(np.median(depth_m[0, leaf])) if len(leaf) else 0.0
-            beside = round(settings.post_m / _BIN_M)
             flush = told & (np.abs(depth_m[0]) < settings.flush * panel_m)
-            before = np.flatnonzero(flush[max(0, first - beside) : first])
-            after = np.flatnonzero(flush[last : last + beside])
-            above = leaf[rays[1, leaf] > 0]
-            gap = Gap(
-                start_m=first * _BIN_M,
-                end_m=min(last * _BIN_M, self.length_m),
-                wall_before_m=(max(0, first - beside) + before[-1] + 1) * _BIN_M if len(before) else None,
-                wall_after_m=(last + after[0]) * _BIN_M if len(after) else None,
-                panel_m=panel_m,
-            )
-            a_leaf = settings.narrowest_leaf_m < gap.width_m < settings.widest_leaf_m and panel_m > settings.panel_m
-            below_lintel = len(above) > 0.3 * len(leaf) and np.median(depth_m[1, above]) < settings.flush * panel_m
-            if a_leaf and below_lintel and len(before) and len(after):
+            gap = self._recess(first, last, panel_m, flush, settings)
+            if _has_leaf(gap, settings) and self._below_flush_wall(leaf, depth_m[1], settings.flush * panel_m):
                 found.append(gap)
         return found
+
+    def _depths_from_face(self, told: NDArray[np.bool_]) -> Array:
+        """How deep rays end at the height of a door, and above, (2, bins) in meters, from the wall's own face."""
+        depth_m = self._depth / np.maximum(self._depth_rays, 1e-9)
+        depth_m[0] -= np.median(depth_m[0, told]) if told.any() else 0.0
+        return depth_m
+
+    def _behind_face(self, depth_m: Array, told: NDArray[np.bool_], settings: GapSettings) -> NDArray[np.bool_]:
+        """Parts of the wall where a leaf may be; short interruptions belong to it."""
+        deep = told & (depth_m > settings.panel_m) & (depth_m < settings.deepest_m) & (self._states(settings) != 1)
+        return np.asarray(binary_closing(deep, iterations=round(settings.bridge_m / _BIN_M / 2.0)))
+
+    def _recess(self, first: int, last: int, panel_m: float, flush: NDArray[np.bool_], settings: GapSettings) -> Gap:
+        """The stretch from one part of the wall to another, with the flush wall nearest beside it."""
+        beside = round(settings.post_m / _BIN_M)
+        before = np.flatnonzero(flush[max(0, first - beside) : first])
+        after = np.flatnonzero(flush[last : last + beside])
+        return Gap(
+            start_m=first * _BIN_M,
+            end_m=min(last * _BIN_M, self.length_m),
+            wall_before_m=(max(0, first - beside) + before[-1] + 1) * _BIN_M if len(before) else None,
+            wall_after_m=(last + after[0]) * _BIN_M if len(after) else None,
+            panel_m=panel_m,
+        )
+
+    def _below_flush_wall(self, leaf: NDArray[np.int64], lintel_m: Array, flush_m: float) -> bool:
+        """Whether rays above enough of a leaf end on the face. ``lintel_m``: how deep they end, for each part."""
+        above = leaf[self._depth_rays[1, leaf] > 0]
+        return len(above) > 0.3 * len(leaf) and bool(np.median(lintel_m[above]) < flush_m)
 
     def unseen(self, settings: GapSettings | None = None, explained: Sequence[tuple[float, float]] = ()) -> list[Gap]:
         """Stretches that could hide a door: not seen to be wall, and nothing stands close before them.
@@ -251,3 +262,10 @@ class WallEvidence:
             lintel_m=np.concatenate([rays.lintel_m[near] for rays, near in parts]),
             blocked_m=np.empty(0),
         )
+
+
+def _has_leaf(gap: Gap, settings: GapSettings) -> bool:
+    """Whether a recess is as wide and as deep as the leaf of a door, between wall on both sides."""
+    wide = settings.narrowest_leaf_m < gap.width_m < settings.widest_leaf_m
+    deep = gap.panel_m is not None and gap.panel_m > settings.panel_m
+    return wide and deep and gap.wall_before_m is not None and gap.wall_after_m is not None

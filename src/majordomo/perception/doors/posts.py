@@ -17,7 +17,9 @@ from majordomo.perception.doors.wall_rays import WallRays
 
 Array = NDArray[np.float64]
 
-_SHARP_M = 0.008
+SHARP_M = 0.008
+"""Standard deviation below which a post counts as measured."""
+
 _ROUGH_M = 0.05
 _CORNER_M = 0.04
 
@@ -136,12 +138,16 @@ def _residuals(candidates: Array, rays: _Mirrored, settings: PostSettings) -> Ar
 
 @dataclass(frozen=True, kw_only=True)
 class MeasuredGap:
-    """A gap between two posts, stations in meters; ``std_m`` of its center. ``posts``: how many were measured."""
+    """A gap between two posts, stations in meters; ``std_m`` of its center, ``start_std_m`` and ``end_std_m`` of the
+    posts. ``posts``: how many were measured.
+    """
 
     center_m: float
     width_m: float
     std_m: float
     posts: int
+    start_std_m: float = _ROUGH_M
+    end_std_m: float = _ROUGH_M
 
 
 def measure_gap(evidence: WallEvidence, gap: Gap) -> MeasuredGap:
@@ -155,7 +161,9 @@ def measure_gap(evidence: WallEvidence, gap: Gap) -> MeasuredGap:
         center_m=(start_m + end_m) / 2.0,
         width_m=max(end_m - start_m, 0.0),
         std_m=float(np.hypot(start_std_m, end_std_m)) / 2.0,
-        posts=int(start_std_m < _SHARP_M) + int(end_std_m < _SHARP_M),
+        posts=int(start_std_m < SHARP_M) + int(end_std_m < SHARP_M),
+        start_std_m=start_std_m,
+        end_std_m=end_std_m,
     )
 
 

@@ -72,6 +72,29 @@ def test_posts_that_count_as_measured_are_where_they_are_however_the_door_was_gl
     assert told > 0
 
 
+@pytest.mark.parametrize("covered_m", [0.3, 0.45, 0.7])
+@pytest.mark.parametrize("thickness_m", [0.2, 0.3])
+def test_a_door_half_hidden_by_furniture_right_behind_it_is_as_wide_as_it_is(
+    thickness_m: float, covered_m: float
+) -> None:
+    box = Box(center=(4.14 + thickness_m, 1.3 + 0.65 - covered_m / 2 + 0.1), size=(0.2, covered_m + 0.2, 1.9))
+    watch = watch_from(two_rooms(thickness_m, width=1.3, boxes=[box]), way_to_the_door())
+    measured = watch.measure(RIGHT_WALL, watch.gaps(RIGHT_WALL)[0])
+    assert measured.posts == 2
+    assert measured.center_m == pytest.approx(1.3, abs=0.008)
+    assert measured.width_m == pytest.approx(1.3, abs=0.008)
+
+
+@pytest.mark.parametrize("x_m", [3.2, 3.3])
+def test_a_reveal_that_is_only_seen_aslant_is_not_taken_for_the_wall_beside_the_door(x_m: float) -> None:
+    box = Box(center=(4.34, 2.135), size=(0.2, 0.65, 1.9))
+    house = two_rooms(0.2, width=1.32, center_m=1.6, boxes=[box])
+    watch = watch_from(house, [Pose2(x_m + 0.002 * k, 0.25 + 0.02 * k, 0.3) for k in range(25)])
+    measured = watch.measure(RIGHT_WALL, watch.gaps(RIGHT_WALL)[0])
+    assert measured.posts == 2
+    assert measured.width_m == pytest.approx(1.32, abs=0.01)
+
+
 def test_two_doors_in_one_wall_are_two() -> None:
     house = two_rooms(0.2, width=0.7, center_m=0.7)
     house.doors.append(replace(house.doors[0], center=(4.1, 2.2)))

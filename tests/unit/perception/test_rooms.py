@@ -10,6 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from majordomo.perception.localization.planar import Pose2
+from majordomo.perception.rooms.entrance import entrance
 from majordomo.perception.rooms.instance import MeasuredRoom, measured_room, room_elements
 from majordomo.perception.rooms.measurement import Fit, RoomMeasurement
 from majordomo.perception.rooms.outline import Outline, find_outline, signed_area, wall_lengths
@@ -78,6 +79,32 @@ def test_a_place_that_was_visited_is_not_proposed_again() -> None:
     assert first is not None
     assert np.linalg.norm(first - np.array([2.0, 1.5])) < 0.05
     assert next_vantage(outline, NOWHERE, [first], np.array([1.0, 1.0])) is None
+
+
+@pytest.mark.parametrize("angle_rad", [0.0, 0.7, -2.1])
+def test_the_lintel_that_the_robot_came_in_under_hides_no_part_of_the_room(angle_rad: float) -> None:
+    room, beside = rectangle(4.0, 3.4), rectangle(3.0, 3.4, x=-3.2)
+    door = Door(rooms=("a", "b"), center=(-0.1, 1.7), width=1.8)
+    house = turned(House(rooms={"a": room, "b": beside}, doors=[door]), angle_rad)
+    turn = Pose2(0.0, 0.0, angle_rad)
+    way = [tuple(turn.apply(np.array([x_m, 1.7]))) for x_m in (-0.15, 0.05, 0.3, 0.4)]
+    assert not outline_from(house, *way[2:]).closed
+    assert outline_from(house, *way).closed
+
+
+def test_a_wall_of_which_little_was_seen_beside_the_entrance_is_still_open() -> None:
+    rooms = {"a": rectangle(4.0, 1.2), "b": rectangle(3.0, 1.2, x=-3.2)}
+    house = House(rooms=rooms, doors=[Door(rooms=("a", "b"), center=(-0.1, 0.6), width=0.9)])
+    outline = outline_from(house, *[(x_m, 0.6) for x_m in (-0.15, 0.05, 0.35)])
+    assert outline.support.min() < 0.75
+    assert not outline.closed
+
+
+def test_an_arm_of_a_room_through_which_the_robot_came_may_still_be_part_of_it() -> None:
+    room = rectangle(4.0, 3.0)
+    assert entrance(room, np.array([[-0.2, 1.5], [0.2, 1.5]])) is not None
+    assert entrance(room, np.array([[-1.5, 1.5], [-0.2, 1.5], [0.2, 1.5]])) is None
+    assert entrance(room, np.array([[0.2, 1.5], [-0.2, 1.5], [0.2, 1.5]])) is None
 
 
 def test_a_vantage_point_keeps_clear_of_furniture() -> None:

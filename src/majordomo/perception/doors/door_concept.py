@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from majordomo.perception.crossing import DOOR_AGENT, door_being_crossed, in_doubt
+from majordomo.perception.crossing import DOOR_AGENT, door_being_crossed, in_doubt, match_of
 from majordomo.perception.doors.errands import DoorErrands
 from majordomo.perception.doors.insertion import (
     free_door_id,
@@ -17,6 +17,7 @@ from majordomo.perception.doors.insertion import (
 )
 from majordomo.perception.doors.room_watch import RoomWatch
 from majordomo.perception.doors.scene import NARROWEST_DOOR_M, Scene
+from majordomo.perception.doors.twins import better_twin
 from majordomo.perception.doors.upkeep import DoorUpkeep
 from majordomo.perception.lifecycle import LifeCycle, Verdict
 from majordomo.perception.localization.landmarks import room_model
@@ -175,13 +176,28 @@ class DoorConcept:
         return Verdict.BUSY
 
     def _maintain(self) -> Verdict:
-        """Refine doors that are not measured well yet, and watch whether known ones are open."""
+        """Refine doors that are not measured well yet, here and behind known ones, and watch whether they are open."""
         scene = self._scene()
         if scene is not None:
             self._upkeep.run(scene)
+            for room_id in sorted(_behind(scene) & self._watches.keys()):
+                left = self._scene_of(room_id)
+                if left is not None:
+                    self._upkeep.learn(left)
         return Verdict.DONE
 
     def _affordances(self) -> Verdict:
         """Follow the own intentions to their end."""
         self._errands.run(self._memory.snapshot(), self._scene_of, self._stamp_s)
         return Verdict.DONE
+
+
+def _behind(scene: Scene) -> set[str]:
+    """Rooms from which a door of this one is not measured as well as from here."""
+    rooms: set[str] = set()
+    for door, _, _ in scene.doors():
+        other_id = match_of(scene.snapshot, door.id)
+        if other_id is not None and other_id in scene.snapshot:
+            other = scene.snapshot.door(other_id)
+            rooms |= {other.rooms[0]} if better_twin(scene.snapshot, other) is not None else set()
+    return rooms

@@ -60,17 +60,19 @@ class GapSettings:
 
     ``narrowest_m``: least width that rays pass through; seen at an angle, the reveals of a thick wall take their share
     of a door. ``rays``: least number in a part of the wall that tells. ``bridge_m``: a part without rays this short is
-    like its neighbors. ``post_m``: how far beside a gap wall may be first seen: rays that end on the reveal of a thick
-    wall tell nothing. ``hiding_m``: an unseen stretch this long could hide a door, if ``dark_m`` of it showed nothing
-    at all. ``panel_m``, ``deepest_m``: how deep in the wall a door's leaf may be; ``leaf_rays``: least number in a part
-    of it; ``widest_leaf_m``: of a single leaf; ``flush``: share of the panel's depth that the wall above it, and beside
-    it, may be off its face.
+    like its neighbors. ``post_m``: how far beside a closed leaf, or a stretch that nobody saw, wall still belongs to
+    it. ``hidden_m``: how far beside a gap wall may be first seen: rays that end on the reveal of a thick wall, or on
+    what stands right behind the door, tell nothing. ``hiding_m``: an unseen stretch this long could hide a door, if
+    ``dark_m`` of it showed nothing at all. ``panel_m``, ``deepest_m``: how deep in the wall a door's leaf may be;
+    ``leaf_rays``: least number in a part of it; ``widest_leaf_m``: of a single leaf; ``flush``: share of the panel's
+    depth that the wall above it, and beside it, may be off its face.
     """
 
     narrowest_m: float = 0.35
     rays: float = 2.0
     bridge_m: float = 0.12
     post_m: float = 0.36
+    hidden_m: float = 1.0
     hiding_m: float = 0.5
     dark_m: float = 0.2
     panel_m: float = 0.014
@@ -234,11 +236,13 @@ class WallEvidence:
         return state
 
     def _wall_beside(self, state: NDArray[np.int64], edge: int, step: int, settings: GapSettings) -> float | None:
-        """Station of the wall, or its corner, seen nearest beside a gap's last open part."""
-        for distance in range(1, int(np.ceil(settings.post_m / _BIN_M)) + 1):
+        """Station of the wall, or its corner, seen nearest beside a gap's last open part; ``None`` at another gap."""
+        for distance in range(1, int(np.ceil(settings.hidden_m / _BIN_M)) + 1):
             beside = edge + step * distance
             if not 0 <= beside < len(state):
                 return 0.0 if step < 0 else self.length_m
+            if state[beside] == 1:
+                return None
             if state[beside] == -1:
                 return (beside + (0 if step > 0 else 1)) * _BIN_M
         return None

@@ -13,10 +13,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from majordomo.perception.doors.evidence import Gap, WallEvidence
+from majordomo.perception.doors.wall_rays import WallRays
 
 Array = NDArray[np.float64]
 
-_SHARP_M = 0.008
+SHARP_M = 0.008
+"""Standard deviation below which a post counts as measured."""
+
 _ROUGH_M = 0.05
 _CORNER_M = 0.04
 
@@ -26,14 +29,16 @@ class PostSettings:
     """Lengths in meters.
 
     ``window_m``: rays this near to a post count. ``slack_m``: how far the bounds may be off. ``shadow_m``: how far
-    behind where wall was first seen the post may be, for the shallow end of a reveal looks like wall. ``sigma_m``: of a
-    ray's depth. ``through_m``: how deep rays in the gap can end at most. ``thinnest_wall_m``: a ray this deep in the
-    gap may have passed the reveal and met whatever is behind.
+    behind where wall was first seen the post may be, for the shallow end of a reveal looks like wall: a ray that just
+    does not graze it (``wall_rays.RaySettings``) is deeper than ``face_m`` only this far from the post. ``sigma_m``: of
+    a ray's depth. ``through_m``: how deep rays in the gap can end at most. ``thinnest_wall_m``: a ray this deep in the
+    gap may have passed the reveal and met whatever is behind. ``rays``: least number near a post; ``rays_at_first``:
+    how many of them tell about where it is.
     """
 
     window_m: float = 0.25
     slack_m: float = 0.06
-    shadow_m: float = 0.20
+    shadow_m: float = 0.35
     coarse_m: float = 0.006
     fine_m: float = 0.001
     sigma_m: float = 0.02
@@ -41,6 +46,7 @@ class PostSettings:
     through_m: float = 0.5
     outlier: float = 9.0
     rays: int = 24
+    rays_at_first: int = 1500
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -72,15 +78,14 @@ def find_post(
     samples = evidence.samples(sign * middle_m, half_m + settings.window_m)
     if samples is None or len(samples.station_m) < settings.rays:
         return None
-    mirrored = _Mirrored(
-        station=sign * samples.station_m,
-        slope=sign * samples.slope,
-        depth=samples.depth_m,
-        weight=1.0 / np.maximum(samples.distance_m, 0.7) ** 2,
+    mirrored = _Mirrored.of(samples, sign)
+    every = 1 + len(samples.station_m) // settings.rays_at_first
+    rough, half_rough_m = _minimum(
+        mirrored.only(slice(None, None, every)), middle_m, half_m, settings.coarse_m, settings
     )
-    rough, half_rough_m = _minimum(mirrored, middle_m, half_m, settings.coarse_m, settings)
     if abs(rough - middle_m) + half_rough_m > half_m - settings.coarse_m:
         return None
+    mirrored = mirrored.only(np.abs(mirrored.station - rough) < settings.window_m + 2.0 * settings.coarse_m)
     best, half_m = _minimum(mirrored, rough, 2.0 * settings.coarse_m, settings.fine_m, settings)
     sides = mirrored.station > best
     if min(int(sides.sum()), int((~sides).sum())) < settings.rays // 4:
@@ -96,6 +101,18 @@ class _Mirrored:
     slope: Array
     depth: Array
     weight: Array
+
+    @classmethod
+    def of(cls, rays: WallRays, sign: float) -> _Mirrored:
+        """``sign``: -1 where the wall is at smaller stations."""
+        weight = 1.0 / np.maximum(rays.distance_m, 0.7) ** 2
+        return cls(station=sign * rays.station_m, slope=sign * rays.slope, depth=rays.depth_m, weight=weight)
+
+    def only(self, kept: slice | NDArray[np.bool_]) -> _Mirrored:
+        """Some of the rays."""
+        return _Mirrored(
+            station=self.station[kept], slope=self.slope[kept], depth=self.depth[kept], weight=self.weight[kept]
+        )
 
 
 def _minimum(
@@ -121,12 +138,16 @@ def _residuals(candidates: Array, rays: _Mirrored, settings: PostSettings) -> Ar
 
 @dataclass(frozen=True, kw_only=True)
 class MeasuredGap:
-    """A gap between two posts, stations in meters; ``std_m`` of its center. ``posts``: how many were measured."""
+    """A gap between two posts, stations in meters; ``std_m`` of its center, ``start_std_m`` and ``end_std_m`` of the
+    posts. ``posts``: how many were measured.
+    """
 
     center_m: float
     width_m: float
     std_m: float
     posts: int
+    start_std_m: float = _ROUGH_M
+    end_std_m: float = _ROUGH_M
 
 
 def measure_gap(evidence: WallEvidence, gap: Gap) -> MeasuredGap:
@@ -140,7 +161,9 @@ def measure_gap(evidence: WallEvidence, gap: Gap) -> MeasuredGap:
         center_m=(start_m + end_m) / 2.0,
         width_m=max(end_m - start_m, 0.0),
         std_m=float(np.hypot(start_std_m, end_std_m)) / 2.0,
-        posts=int(start_std_m < _SHARP_M) + int(end_std_m < _SHARP_M),
+        posts=int(start_std_m < SHARP_M) + int(end_std_m < SHARP_M),
+        start_std_m=start_std_m,
+        end_std_m=end_std_m,
     )
 
 

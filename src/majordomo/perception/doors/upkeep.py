@@ -10,6 +10,7 @@ from majordomo.perception.doors.insertion import door_label, hang, is_suspicion,
 from majordomo.perception.doors.posts import MeasuredGap
 from majordomo.perception.doors.room_watch import Span
 from majordomo.perception.doors.scene import NARROWEST_DOOR_M, Scene
+from majordomo.perception.doors.twins import WELL_MEASURED, better_twin, completed, seen_through
 from majordomo.scene_graph.identifiers import wall_id_of
 from majordomo.scene_graph.memory import WorkingMemory
 from majordomo.scene_graph.nodes import CrossingStatus, DoorNode, DoorState
@@ -23,14 +24,12 @@ class UpkeepSettings:
     """When a known door is written anew.
 
     ``votes``: scans in a row that change open to closed or back. ``refine_every_s``: between refinements.
-    ``changed_m``: least change worth writing. ``well_measured``: confidence from which a permanent door is left alone.
-    ``vanished_s``: how long a provisional door may show no gap.
+    ``changed_m``: least change worth writing. ``vanished_s``: how long a provisional door may show no gap.
     """
 
     votes: int = 5
     refine_every_s: float = 1.0
     changed_m: float = 0.004
-    well_measured: float = 0.9
     vanished_s: float = 4.0
 
 
@@ -43,6 +42,7 @@ class DoorUpkeep:
         self._votes: dict[str, int] = {}
         self._refined_s: dict[str, float] = {}
         self._gap_seen_s: dict[str, float] = {}
+        self._learned: dict[str, tuple[int, int, int]] = {}
 
     def run(self, scene: Scene) -> None:
         """Look after every door of the room once."""
@@ -51,10 +51,34 @@ class DoorUpkeep:
         for door, wall, span in known:
             if door.provisional and any(wall == other and place.covers(span) for other, place in standing):
                 self._remove(door, scene.stamp_s)
-            elif door.provisional or door.confidence < self._settings.well_measured:
+            elif door.provisional or door.confidence < WELL_MEASURED:
                 self._refine(scene, door, wall, span)
             if not door.provisional:
                 self._follow_state(scene, door, wall, span)
+
+    def learn(self, scene: Scene) -> None:
+        """Complete the doors of a room that the robot may have left by what is known of them from the rooms behind."""
+        for door, wall, span in scene.doors():
+            twin = better_twin(scene.snapshot, door) if not door.provisional else None
+            if twin is None:
+                continue
+            known = seen_through(scene, wall, twin)
+            told = (scene.watch.scans, round(known.center_m * 1000.0), round(known.width_m * 1000.0))
+            if self._learned.get(door.id) != told:
+                self._learned[door.id] = told
+                gap = scene.watch.gap_at(wall, span)
+                self._complete(scene, door, wall, span, scene.watch.measure(wall, gap) if gap is not None else None)
+
+    def _complete(self, scene: Scene, door: DoorNode, wall: int, span: Span, measured: MeasuredGap | None) -> None:
+        """Write what both sides together know of a permanent door, where that is more than was known."""
+        twin = better_twin(scene.snapshot, door)
+        if twin is not None:
+            measured = completed(measured, seen_through(scene, wall, twin))
+            more = measured.width_m == twin.width_m
+        else:
+            more = measured is not None and _tells_more(measured, door)
+        if measured is not None and (measured.posts == 2 or more):
+            self._write(scene, door, wall, span, measured, door.state)
 
     def _refine(self, scene: Scene, door: DoorNode, wall: int, span: Span) -> None:
         settings = self._settings
@@ -75,13 +99,17 @@ class DoorUpkeep:
         measured = scene.watch.measure(wall, gap)
         if is_suspicion(door) and measured.width_m < NARROWEST_DOOR_M:
             return
-        if door.provisional or measured.posts == 2:
-            self._write(scene, door, wall, span, measured, gap.state if door.provisional else door.state)
+        if door.provisional:
+            self._write(scene, door, wall, span, measured, gap.state)
+        else:
+            self._complete(scene, door, wall, span, measured)
 
     def _write(
         self, scene: Scene, door: DoorNode, wall: int, span: Span, measured: MeasuredGap, state: DoorState
     ) -> None:
-        confidence = 0.4 + 0.2 * measured.posts if door.provisional else measured_confidence(measured)
+        confidence = max(door.confidence, measured_confidence(measured))
+        if door.provisional:
+            confidence = 0.4 + 0.2 * measured.posts
         change_m = max(abs(measured.center_m - span.center_m), abs(measured.width_m - span.width_m))
         if change_m < self._settings.changed_m and confidence == door.confidence and state is door.state:
             return
@@ -108,6 +136,11 @@ class DoorUpkeep:
         with self._memory.edit(DOOR_AGENT, scene.stamp_s) as tx:
             for same in _both_sides(tx.snapshot, door.id):
                 tx.put(_in_state(same, seen))
+
+
+def _tells_more(measured: MeasuredGap, door: DoorNode) -> bool:
+    """Whether an opening with an unmeasured end is seen to be wider than it was thought to be: it only can be wider."""
+    return measured_confidence(measured) >= door.confidence and measured.width_m > door.width_m
 
 
 def _both_sides(snapshot: Snapshot, door_id: str) -> list[DoorNode]:

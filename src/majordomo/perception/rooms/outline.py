@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from majordomo.perception.localization.planar import Pose2
 from majordomo.perception.rooms.arrangement import Arrangement, ArrangementSettings, arrange
+from majordomo.perception.rooms.entrance import entrance
 from majordomo.perception.rooms.facets import Facets, longest_gap, sort_by_axis
 from majordomo.perception.rooms.line_profile import STATION_STEP_M
 from majordomo.perception.rooms.portals import Portal
@@ -22,6 +23,7 @@ _HARMLESS_GAP_M = 0.4
 _DEEPEST_REVEAL_M = 0.45
 _LEVEL_M = 0.1
 _VAGUE_BACK = 0.5
+_MOSTLY_SEEN = 0.75
 RECTILINEAR = 0.9
 
 
@@ -86,6 +88,16 @@ def find_outline(views: Sequence[View], settings: ArrangementSettings | None = N
         polygon, portal = _cut(polygon, reveal)
         portals.append(portal)
         walls = _refine(polygon, x_facing, y_facing, portals, passed, settings)
+    path = Pose2(0.0, 0.0, -direction_rad).apply(np.array([view.T_frame_base.position_m for view in views]))
+    came_in = entrance(polygon, path)
+    if came_in is not None:
+        opened = _refine(polygon, x_facing, y_facing, [*portals, came_in], passed, settings)
+        walls = [new if old.support > _MOSTLY_SEEN else old for old, new in zip(walls, opened, strict=True)]
+    return _outline_of(polygon, walls, direction_rad, rectilinear)
+
+
+def _outline_of(polygon: Array, walls: list[_MeasuredWall], direction_rad: float, rectilinear: float) -> Outline:
+    """The traced polygon with its measured walls, turned back into the frame of the views."""
     turn = Pose2(0.0, 0.0, direction_rad)
     return Outline(
         polygon=turn.apply(_intersections(polygon, walls)),

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from majordomo.perception.localization.landmarks import inside
+from majordomo.perception.localization.landmarks import points_inside
 from majordomo.perception.rooms.portals import Portal
 
 Array = NDArray[np.float64]
@@ -21,7 +21,7 @@ def entrance(polygon: Array, path: Array) -> Portal | None:
     ``path``: (M, 2) from where the measuring began, in the doorway. What the robot enters only later may be an arm
     of the room.
     """
-    within = [inside(polygon, point) for point in path]
+    within = points_inside(polygon, path).tolist()
     if within[0] or not any(within):
         return None
     after = within.index(True)

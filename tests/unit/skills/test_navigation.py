@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 from majordomo.scene_graph.nodes import RoomStatus
 from majordomo.scene_graph.se3 import SE3
 from majordomo.skills.geometry import Box2, Pose2, inside_polygon
+from majordomo.skills.navigation.advance import Advance
 from majordomo.skills.navigation.grid import Canvas
 from majordomo.skills.navigation.local_map import draw_map
 from majordomo.skills.navigation.pursuit import point_ahead
@@ -199,3 +200,23 @@ def test_a_wall_that_was_only_guessed_is_not_in_the_way(flat, status, free):
     grid = draw_map(snapshot, "room_1", np.zeros((0, 2)), spots, walls=walls, stamp_s=0.0, believe_furniture=False)
     beyond = [max(x for x, _ in snapshot.room("room_1").polygon_m) + 0.3, -1.0]
     assert bool(grid.clearance_at(np.array([beyond]))[0] > 0.15) is free
+
+
+def test_a_robot_sent_back_and_forth_between_two_ways_is_astray_though_each_time_it_comes_further():
+    advance, stamp_s = Advance(stamp_s=0.0), 0.0
+    for _ in range(5):
+        for start_m in (3.0, 9.0):
+            for step in range(20):
+                stamp_s += 0.1
+                advance.note(start_m - 0.05 * step, stamp_s, turning=step < 5)
+    assert advance.astray
+
+
+def test_a_long_way_around_and_the_detours_on_it_lead_nobody_astray():
+    advance, stamp_s = Advance(stamp_s=0.0), 0.0
+    for start_m, end_m in ((3.0, 2.0), (9.0, 5.0), (7.0, 3.0), (4.5, 1.0), (2.0, 0.5), (1.5, 0.0)):
+        for remaining_m in np.arange(start_m, end_m, -0.05):
+            stamp_s += 0.1
+            advance.note(float(remaining_m), stamp_s, turning=False)
+            assert not advance.astray
+    assert stamp_s - advance.stamp_s < 0.2

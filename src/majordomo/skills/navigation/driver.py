@@ -10,6 +10,7 @@ import numpy as np
 
 from majordomo.skills.action import RobotContext
 from majordomo.skills.geometry import Point2, Pose2, wrap_rad
+from majordomo.skills.navigation.advance import Advance
 from majordomo.skills.navigation.plan import Goal, GoalSource, Plan, make_plan
 from majordomo.skills.navigation.pose import look_around, planar_pose, robot_frame
 from majordomo.skills.navigation.pursuit import Pursuit, deviation_m, point_ahead, turn_rate
@@ -19,8 +20,6 @@ from majordomo.skills.navigation.safety import FAR_M, admissible
 SAFETY_MARGIN_M = 0.02
 """How much less than the planning radius must stay free while driving; that radius already exceeds the body's."""
 PASSED_RAD = 1.2
-DETOUR_M = 0.3
-ADVANCE_M = 0.04
 
 
 class Progress(Enum):
@@ -60,8 +59,7 @@ class Driver:
         self._config = config or DriverConfig()
         self._pursuit = Pursuit(context.limits)
         self._plan: Plan | None = None
-        self._tried_s, self._advanced_s = -np.inf, context.stamp_s
-        self._remaining_m = np.inf
+        self._tried_s, self._advance = -np.inf, Advance(stamp_s=context.stamp_s)
         self._turning = False
 
     @property
@@ -101,7 +99,7 @@ class Driver:
 
     @property
     def _waited_s(self) -> float:
-        return self._context.stamp_s - self._advanced_s
+        return self._context.stamp_s - self._advance.stamp_s
 
     def _present_plan(self, frame: str, pose: Pose2) -> Plan | None:
         """The plan to follow now: the last one while it is fresh, else a new one; ``None`` when there is no way."""
@@ -138,11 +136,9 @@ class Driver:
     def _judge(self, plan: Plan, pose: Pose2) -> Progress:
         """Whether the drive advances; when it does not for long, give up."""
         _, remaining_m = point_ahead(plan.path, pose.point, 0.0)
-        if self._pursuit.turning or remaining_m < self._remaining_m - ADVANCE_M:
-            self._advanced_s, self._remaining_m = self._context.stamp_s, remaining_m
-        elif remaining_m > self._remaining_m + DETOUR_M:  # a detour: count from here
-            self._remaining_m = remaining_m
-        return Progress.BLOCKED if self._waited_s > self._config.patience_s else Progress.RUNNING
+        self._advance.note(remaining_m, self._context.stamp_s, turning=self._pursuit.turning)
+        stuck = self._waited_s > self._config.patience_s or self._advance.astray
+        return Progress.BLOCKED if stuck else Progress.RUNNING
 
     def _turn(self, goal: Goal, pose: Pose2) -> Progress:
         """Turn in place to the goal's heading and come to rest."""

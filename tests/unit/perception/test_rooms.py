@@ -115,6 +115,17 @@ def test_a_vantage_point_keeps_clear_of_furniture() -> None:
     assert np.linalg.norm(table - place, axis=1).min() > 0.39
 
 
+def test_a_vantage_point_is_one_that_a_way_leads_to() -> None:
+    outline = outline_from(House(rooms={"a": l_shape()}), (5.5, 2.0))
+    robot = np.array([5.5, 1.2])
+    free = next_vantage(outline, NOWHERE, [], robot)
+    screen = np.column_stack([np.full(40, 4.0), np.linspace(0.1, 2.3, 40)])
+    shut_in = next_vantage(outline, screen, [], robot)
+    assert free is not None
+    assert free[0] < 3.5
+    assert shut_in is None or shut_in[0] > 4.0
+
+
 @pytest.mark.parametrize("x_m", [3.3, 3.6, 3.8])
 def test_standing_in_front_of_an_open_door_does_not_join_two_rooms(x_m: float) -> None:
     house = House(

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.ndimage import distance_transform_edt, label
 
 from majordomo.perception.localization.landmarks import distance_to_outline, inside, points_inside
 from majordomo.perception.rooms.outline import Outline
@@ -15,6 +17,9 @@ Array = NDArray[np.float64]
 _CLEARANCE_M = 0.45
 _STEP_BACK_M = 0.6
 _VISITED_M = 0.5
+_CELL_M = 0.05
+_BODY_M = 0.3
+_ESCAPE_M = 0.45
 
 
 _WAYS_RAD = np.deg2rad([0, 15, -15, 30, -30, 45, -45, 60, -60, 75, -75, 90, -90, 105, -105])
@@ -38,8 +43,9 @@ def next_vantage(outline: Outline, obstacles: Array, visited: Sequence[Array], r
     else:
         wishes = [center + _STEP_BACK_M * normal for center, normal in outline.frontiers()]
         wishes.append(_middle(outline.polygon))
+    reach = _Reach.of(outline.polygon, obstacles, robot)
     for wish in wishes:
-        place = _clear_place(wish, outline.polygon, obstacles, robot)
+        place = _clear_place(wish, outline.polygon, obstacles, robot, reach)
         if place is not None and all(np.linalg.norm(place - other) > _VISITED_M for other in visited):
             return place
     return None
@@ -75,15 +81,15 @@ def _middle(polygon: Array) -> Array:
     return np.asarray(max(room, key=lambda point: distance_to_outline(polygon, point), default=center))
 
 
-def _clear_place(wish: Array, polygon: Array, obstacles: Array, robot: Array) -> Array | None:
-    """The place nearest to ``wish`` where the robot can stand; nearer to the robot first among equals."""
+def _clear_place(wish: Array, polygon: Array, obstacles: Array, robot: Array, reach: _Reach) -> Array | None:
+    """The place nearest to ``wish`` where the robot can stand and get to; nearer to the robot first among equals."""
     angles = np.arange(0.0, 2.0 * np.pi, np.pi / 6.0)
     circle = np.stack([np.cos(angles), np.sin(angles)], axis=1)
     for radius_m in (0.0, 0.3, 0.6, 0.9, 1.3):
         places = wish + radius_m * (circle if radius_m > 0.0 else np.zeros((1, 2)))
         places = places[np.argsort(np.linalg.norm(places - robot, axis=1), kind="stable")]
         for place in places:
-            if _stands(place, polygon, obstacles):
+            if reach.covers(place) and _stands(place, polygon, obstacles):
                 return np.asarray(place)
     return None
 
@@ -97,3 +103,38 @@ def _stands(place: Array, polygon: Array, obstacles: Array) -> bool:
 def _width(polygon: Array) -> float:
     """Shortest wall: in a narrow room the robot cannot keep its distance."""
     return float(np.linalg.norm(np.roll(polygon, -1, axis=0) - polygon, axis=1).min())
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class _Reach:
+    """Where the robot can get to within the outline: (nx, ny) cells of ``_CELL_M`` from the corner ``low`` (2,)."""
+
+    low: Array
+    free: NDArray[np.bool_]
+
+    @classmethod
+    def of(cls, polygon: Array, obstacles: Array, robot: Array) -> _Reach:
+        """Cells that a way leads to from ``robot`` past (N, 2) ``obstacles``; what stands too near to it now does not
+        hold it.
+        """
+        low, high = np.minimum(polygon.min(axis=0), robot), np.maximum(polygon.max(axis=0), robot)
+        count = np.maximum(np.ceil((high - low) / _CELL_M).astype(np.int64), 1) + 1
+        drawn = np.zeros(tuple(count), dtype=bool)
+        index = np.rint((obstacles - low) / _CELL_M).astype(np.int64)
+        index = index[((index >= 0) & (index < count)).all(axis=1)]
+        drawn[tuple(index.T)] = True
+        for start, end in zip(polygon, np.roll(polygon, -1, axis=0), strict=True):
+            steps = np.linspace(start, end, 2 + int(np.linalg.norm(end - start) / (0.5 * _CELL_M)))
+            drawn[tuple(np.rint((steps - low) / _CELL_M).astype(np.int64).T)] = True
+        wide = distance_transform_edt(~drawn) * _CELL_M > _BODY_M
+        cells = low + np.moveaxis(np.indices(wide.shape), 0, -1) * _CELL_M
+        wide |= np.linalg.norm(cells - robot, axis=-1) < _ESCAPE_M
+        regions, _ = label(wide, np.ones((3, 3)))
+        here = tuple(np.rint((robot - low) / _CELL_M).astype(np.int64).tolist())
+        return cls(low=low, free=np.asarray(regions == regions[here]))
+
+    def covers(self, place: Array) -> bool:
+        """Whether the robot can get to (2,) ``place``."""
+        i, j = np.rint((place - self.low) / _CELL_M).astype(np.int64).tolist()
+        within = 0 <= i < self.free.shape[0] and 0 <= j < self.free.shape[1]
+        return within and bool(self.free[i, j])

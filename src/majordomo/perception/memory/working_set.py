@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from majordomo.perception.crossing import door_being_crossed
-from majordomo.scene_graph.edges import HasIntentionEdge, IntentionStatus
+from majordomo.scene_graph.edges import HasIntentionEdge
 from majordomo.scene_graph.long_term.room_parts import keeps_in_use, unfinished
 from majordomo.scene_graph.memory import WorkingMemory
 from majordomo.scene_graph.nodes import DoorNode, RoomNode
@@ -15,8 +15,6 @@ from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.scene_graph.topology import Topology
 
 logger = logging.getLogger(__name__)
-
-_OPEN = frozenset({IntentionStatus.PROPOSED, IntentionStatus.GRANTED, IntentionStatus.REVOKED})
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -60,7 +58,7 @@ class WorkingSet:
         rooms = [here, *neighbors(snapshot, here), *self._memory.unfinished]
         rooms += [room.id for room in snapshot.of_type(RoomNode) if unfinished(room)]
         rooms += [door.rooms[0] for door in snapshot.of_type(DoorNode) if unfinished(door)]
-        asked = [edge for edge in snapshot.intentions() if edge.status in _OPEN]
+        asked = [edge for edge in snapshot.intentions() if edge.is_open]
         rooms += self._rooms_of(edge.target for edge in asked)
         rooms += sorted(self._on_the_way(here, frozenset(self._rooms_of(_named(asked)))))
         return dict.fromkeys(rooms)

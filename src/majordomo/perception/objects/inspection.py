@@ -24,7 +24,6 @@ from majordomo.scene_graph.snapshot import Snapshot
 Array = NDArray[np.float64]
 AGENT = "objects"
 _GIVEN_UP = "given up"
-_OPEN = (IntentionStatus.PROPOSED, IntentionStatus.GRANTED, IntentionStatus.REVOKED)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -130,7 +129,7 @@ class Inspection:
         if node.id in ours or node.id in self.inspected:
             return False
         room = snapshot.room_of(node.id)
-        looked = room is not None and room in ours and ours[room].status not in _OPEN
+        looked = room is not None and room in ours and not ours[room].is_open
         return looked and _worth_a_look(node) and node.observations >= self._settings.settled_hits
 
     def _standoff_m(self, node: ObjectNode) -> float:

@@ -1,0 +1,1 @@
+"""The panoptic scene graph network: any ONNX file that keeps the contract in docs/network.md."""

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import json
+import os
 from pathlib import Path
 
 import pytest
 
-from service_process import majordomo, serving
+from service_process import majordomo, serving, wait_until
 
 GRAPH = Path(__file__).parents[1] / "data" / "flat_graph.json"
+NETWORKS = Path(__file__).parents[1] / "data" / "network"
 
 ROOM = {"id": "a", "label": "kitchen", "polygon": [[0, 0], [4, 0], [4, 3], [0, 3]]}
 DOOR = {"id": "d", "rooms": ["a", "outside"], "center": [4.1, 1.5], "width": 0.9}
@@ -53,6 +55,8 @@ def test_a_faulty_house_is_refused_with_the_field_that_is_wrong(tmp_path, text, 
         ("serve", "--house", "castle"),
         ("serve", "--speed", "max"),
         ("serve", "--llm", "nonsense"),
+        ("serve", "--model", str(NETWORKS / "gray.onnx")),
+        ("serve", "--model", "nowhere.onnx"),
         ("serve", "--house", ""),
         ("serve", "--host", ""),
         ("serve", "--host", b"\xff"),
@@ -99,3 +103,19 @@ def test_an_answer_from_a_pipe_that_is_no_text_is_refused_and_the_task_waits(gra
 def test_the_doctor_finds_this_machine_healthy():
     outcome = majordomo("doctor")
     assert outcome.returncode == 0, outcome.stdout
+
+
+def test_the_doctor_says_what_a_network_file_holds_and_what_is_wrong_with_another():
+    good = majordomo("doctor", "--model", str(NETWORKS / "colors.onnx"))
+    assert good.returncode == 0, good.stdout
+    assert "3 classes, 2 predicates" in " ".join(good.stdout.split())
+    bad = majordomo("doctor", env=os.environ | {"MAJORDOMO_MODEL": str(NETWORKS / "without_boxes.onnx")})
+    assert bad.returncode == 1
+    assert "'sub_boxes', 'obj_boxes' are missing" in " ".join(bad.stdout.split())
+
+
+def test_a_service_sees_through_the_network_file_it_is_given(tmp_path):
+    with serving(tmp_path, "--model", str(NETWORKS / "colors.onnx"), "--no-explore", "--forget") as service:
+        wait_until(lambda: service.client.get("/v1/status").json()["camera"], 60.0)
+        assert service.client.get("/v1/camera.jpg").status_code == 200
+        assert service.client.get("/v1/status").json()["perception"] is None

@@ -32,19 +32,26 @@ SWITCH_INTERVAL_S = 0.001
 
 House = Annotated[str, typer.Option(help="A built-in house's name or a house file.")]
 Seed = Annotated[int, typer.Option(min=0, help="Seed of everything that is random.")]
+Network = Annotated[
+    Path | None,
+    typer.Option("--model", envvar="MAJORDOMO_MODEL", help="ONNX file of the panoptic scene graph network."),
+]
 Data = Annotated[Path, typer.Option(help="Folder of token, logs and memory.")]
 
 
 def main() -> None:
     """Entry point; expected problems end with a sentence and exit code 2, never with a stack trace."""
     from majordomo.app.server import RefusedToBind
+    from majordomo.perception.network.errors import NetworkRefused
     from majordomo.planner.errors import BadModelSpec
     from majordomo.scene_graph.errors import SceneFormatError
     from majordomo.simulation.errors import HouseError, SimulatorError
 
     try:
         application()
-    except (RefusedToBind, HouseError, SimulatorError, SceneFormatError, BadModelSpec, OSError) as error:
+    except (
+        RefusedToBind, HouseError, SimulatorError, SceneFormatError, BadModelSpec, NetworkRefused, OSError
+    ) as error:  # fmt: skip
         complaints.print(f"majordomo: {error}", style="red", markup=False, highlight=False)
         sys.exit(2)
     except KeyboardInterrupt:
@@ -62,6 +69,7 @@ def serve(
     port: Annotated[int, typer.Option(min=0, max=65535, help="0 picks a free one.")] = 8642,
     host: Annotated[str, typer.Option(help="Address to listen on.")] = "127.0.0.1",
     llm: Annotated[str | None, typer.Option(help="Language model, PROVIDER:MODEL.")] = None,
+    model: Network = None,
     data: Data = DEFAULT_DATA,
     simulation_api: Annotated[bool, typer.Option("--simulation-api", help="Offer truth and disturbances.")] = False,
     explore: Annotated[bool, typer.Option(help="Explore the building unasked.")] = True,
@@ -95,6 +103,7 @@ def serve(
         camera=camera,
         remember=remember,
         graph=graph,
+        model=model,
     )
     _log_to_stderr(verbose=verbose)
     runtime = Runtime(settings)
@@ -155,11 +164,11 @@ def make_house(
 
 
 @application.command()
-def doctor() -> None:
+def doctor(model: Network = None) -> None:
     """Check what Majordomo needs on this machine, and say what to do about what is missing."""
     from majordomo.app.doctor import examine
 
-    healthy = examine(console)
+    healthy = examine(console, model)
     raise typer.Exit(0 if healthy else 1)
 
 

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from rich.console import Console
+from rich.markup import escape
 
 LIBRARIES = (
     "numpy",
@@ -36,12 +37,12 @@ class Finding:
     text: str
 
 
-def examine(console: Console) -> bool:
-    """Run all checks and print them; whether all is well."""
-    findings = [check() for check in (_python, _libraries, _house, _disk, _model)]
+def examine(console: Console, network: Path | None = None) -> bool:
+    """Run all checks and print them; whether all is well. ``network``: file of the panoptic scene graph network."""
+    findings = [_python(), _libraries(), _house(), _disk(), _model(), _network(network)]
     for finding in findings:
         mark = "[green]ok[/]  " if finding.well else "[red]BAD[/] "
-        console.print(f"{mark} {finding.name:<10} {finding.text}", highlight=False)
+        console.print(f"{mark} {finding.name:<10} {escape(finding.text)}", highlight=False)
     return all(finding.well for finding in findings)
 
 
@@ -88,3 +89,20 @@ def _model() -> Finding:
     url = os.environ.get("MAJORDOMO_LLM_URL")
     text = f"endpoint {url}" if url else "none configured: the command grammar answers alone"
     return Finding(name="model", well=True, text=text)
+
+
+def _network(path: Path | None) -> Finding:
+    from majordomo.perception.network.errors import NetworkRefused
+
+    if path is None:
+        return Finding(name="network", well=True, text="none configured: the simulator's stand-in labels the masks")
+    try:
+        from majordomo.perception.network.model import OnnxPanopticModel
+
+        network = OnnxPanopticModel.load(path.expanduser())
+    except ImportError:
+        return Finding(name="network", well=False, text="onnxruntime cannot be imported: run make install")
+    except NetworkRefused as error:
+        return Finding(name="network", well=False, text=f"{error}: docs/network.md says what is needed")
+    known = f"{len(network.description.classes)} classes, {len(network.description.predicates)} predicates"
+    return Finding(name="network", well=True, text=f"{path}: {known}, and it runs")

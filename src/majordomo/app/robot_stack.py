@@ -18,7 +18,9 @@ from majordomo.app.remembering import Remembering, building_folder
 from majordomo.app.scheduler import Agent
 from majordomo.app.settings import ClockMode, Settings
 from majordomo.perception.labels import RoomLabels
+from majordomo.perception.network.model import OnnxPanopticModel
 from majordomo.perception.objects.agent import ObjectMemory
+from majordomo.perception.panoptic import PanopticModel
 from majordomo.perception.preview import WatchedModel, preview_jpeg
 from majordomo.perception.sensing import Sensing, SensorBuffer
 from majordomo.planner.arbiter import Arbiter
@@ -52,7 +54,9 @@ class RobotStack:
         log: EventLog,
         *,
         remembering: Remembering | None = None,
+        network: PanopticModel | None = None,
     ) -> None:
+        """``network``: what understands the camera's frames; ``None`` for the simulator's stand-in."""
         self.robot = robot
         self.memory = remembering.memory if remembering is not None else WorkingMemory(long_term=LongTermStore())
         self._remembering = remembering
@@ -67,7 +71,7 @@ class RobotStack:
             on_event=lambda event: log.write(event["stamp_s"], "executor", event),
             silent=(SimulatorDied,),
         )
-        self._eyes = WatchedModel(SegmentationStandIn(robot, np.random.default_rng(seeds[0])))
+        self._eyes = WatchedModel(network or SegmentationStandIn(robot, np.random.default_rng(seeds[0])))
         self._objects = self._object_memory(buffer, np.random.default_rng(seeds[1])) if settings.camera else None
         self._buffer = buffer
         skills = load_registry()
@@ -106,11 +110,13 @@ class RobotStack:
 
         Raises:
             HouseError: the house cannot be built.
+            NetworkRefused: the network's file does not keep its contract.
         """
+        network = await _network(settings)
         remembering = _remembering(settings, anew=anew)
         mode = "lockstep" if settings.clock is ClockMode.LOCKSTEP else "real"
         robot = await SimulatedRobot.start(settings.house, seed=settings.seed, mode=mode, speed=settings.speed or 1.0)
-        return cls(robot, settings, queue, model, log, remembering=remembering)
+        return cls(robot, settings, queue, model, log, remembering=remembering, network=network)
 
     @property
     def path_room(self) -> tuple[tuple[float, float], ...]:
@@ -179,6 +185,13 @@ class RobotStack:
         newest = {"lidar": self._buffer.scan, "camera": self._buffer.frame, "joints": self._buffer.joints}
         now_s = self.now()
         return {name: now_s - data.stamp_s for name, data in newest.items() if data is not None}
+
+
+async def _network(settings: Settings) -> PanopticModel | None:
+    """The network of the configured file, unless nothing would look through it."""
+    if settings.model is None or not settings.camera:
+        return None
+    return await asyncio.to_thread(OnnxPanopticModel.load, settings.model.expanduser())
 
 
 def _remembering(settings: Settings, *, anew: bool) -> Remembering | None:

@@ -22,6 +22,7 @@ class Settings(BaseModel):
 
     ``speed``: simulated seconds per wall second, ``None`` for as fast as the machine allows (lockstep only).
     ``llm``: ``provider:model`` or ``None`` for the command grammar alone. ``data``: folder of token, logs and memory.
+    ``model``: file of the panoptic scene graph network, ``None`` for the simulator's stand-in.
     ``remember``: take up the building that the data folder holds, and keep it there.
     """
 
@@ -42,6 +43,7 @@ class Settings(BaseModel):
     camera: bool = True
     remember: bool = False
     graph: Path | None = None
+    model: Path | None = None
     max_body_bytes: int = 65_536
 
     @property

@@ -149,3 +149,10 @@ def test_names_with_commas_between_them_are_read_as_well():
 def test_thresholds_of_the_file_replace_the_defaults():
     thresholds = read_metadata("a", METADATA | {"psg.thresholds": json.dumps({"mask": 0.85})}).thresholds
     assert (thresholds.mask, thresholds.same_iou) == (0.85, 0.5)
+
+
+def test_the_names_of_openpsg_are_133_classes_and_56_predicates():
+    names = json.loads((Path(__file__).parents[3] / "scripts" / "openpsg_names.json").read_text())
+    classes = names["things"] + names["stuff"]
+    assert (len(names["things"]), len(set(classes)), len(set(names["predicates"]))) == (80, 133, 56)
+    assert (classes[39], classes[-1], names["predicates"][3]) == ("bottle", "rug-merged", "on")

@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from majordomo.perception.errors import PerceptionError
 from majordomo.perception.network.model import OnnxPanopticModel
 from majordomo.perception.network.resize import FixedSize, ShorterSide, input_tensor, place
 from majordomo.perception.objects.agent import ObjectMemory
@@ -141,6 +142,17 @@ def test_outputs_that_are_no_numbers_are_an_error_and_the_next_frame_is_understo
     assert fragile.understand(bright).instances
 
 
+def test_shapes_that_go_wrong_later_are_an_error_that_the_agent_expects(model):
+    class Uneven:
+        def run(self, names, feed, options):
+            arrays = dict(zip(names, model._session.run(names, feed), strict=True))
+            return [arrays[name][..., :-1] if name == "obj_masks" else arrays[name] for name in names]
+
+    uneven = OnnxPanopticModel("uneven.onnx", Uneven(), model.description, model._signature)
+    with pytest.raises(PerceptionError, match=r"uneven.*'obj_masks' should be"):
+        uneven.understand(frame_of(picture()))
+
+
 def test_the_event_loop_goes_on_while_the_network_works(model):
     threads = []
 
@@ -151,7 +163,7 @@ def test_the_event_loop_goes_on_while_the_network_works(model):
             return model._session.run(names, feed, options)
 
     async def story():
-        slow = OnnxPanopticModel(Slow(), model.description, model._signature)
+        slow = OnnxPanopticModel("slow", Slow(), model.description, model._signature)
         waiting = asyncio.create_task(slow.infer(frame_of(picture())))
         turns = 0
         while not waiting.done():
@@ -177,7 +189,7 @@ def test_who_stops_waiting_ends_the_run_too(model):
             return model._session.run(names, feed)
 
     async def story():
-        endless = OnnxPanopticModel(Endless(), model.description, model._signature)
+        endless = OnnxPanopticModel("endless", Endless(), model.description, model._signature)
         waiting = asyncio.create_task(endless.infer(frame_of(picture())))
         await asyncio.to_thread(started.wait, 5.0)
         waiting.cancel()

@@ -93,7 +93,8 @@ def check_declared(file: str, image: Tensor, outputs: Sequence[Tensor], descript
         if tensor is not None:
             if tensor.type not in _FLOATS:
                 raise TensorMismatch(file, name, "floating point", tensor.type)
-            _check_shape(file, name, expected, tensor.shape, sizes)
+            if tensor.shape:  # without one, the first run shows it
+                _check_shape(file, name, expected, tensor.shape, sizes)
     return Signature(canvas=canvas, has_instances=INSTANCE_OUTPUTS[0] in by_name)
 
 
@@ -116,7 +117,7 @@ def _check_input(file: str, image: Tensor, description: Description) -> tuple[in
     if image.type != "tensor(float)":
         raise TensorMismatch(file, INPUT, f"float32 {_text(expected)}", image.type)
     _check_shape(file, INPUT, expected, image.shape, {})
-    height, width = (size if isinstance(size, int) else None for size in (image.shape or [None] * 4)[2:])
+    height, width = (size if isinstance(size, int) else None for size in image.shape[2:])
     rule = description.resize
     if isinstance(rule, FixedSize) and (height or rule.height, width or rule.width) != (rule.height, rule.width):
         asked = f"(1, 3, {rule.height}, {rule.width}) as psg.resize says"
@@ -131,9 +132,7 @@ def _check_shape(
     found: Sequence[int | str | None],
     sizes: dict[str, int],
 ) -> None:
-    """``sizes``: what the named dimensions have turned out to be so far; filled in here. No shape at all passes."""
-    if not found and name != INPUT:
-        return
+    """``sizes``: what the named dimensions have turned out to be so far; filled in here."""
     if len(found) != len(expected):
         raise TensorMismatch(file, name, f"of rank {len(expected)} {_text(expected)}", f"of rank {len(found)}")
     for wanted, size in zip(expected, found, strict=True):

@@ -43,34 +43,35 @@ class OnnxPanopticModel:
     """``PanopticModel`` of a file that keeps the contract; make one with ``load``.
 
     Attributes:
+        file: its path.
         description: what the file says of itself.
     """
 
-    def __init__(self, session: Any, description: Description, signature: Signature) -> None:
+    def __init__(self, file: str, session: Any, description: Description, signature: Signature) -> None:
+        self.file = file
         self.description = description
         self._session, self._signature = session, signature
         self._one_at_a_time = threading.Lock()
 
     @classmethod
-    def load(cls, path: Path, *, threads: int = THREADS) -> OnnxPanopticModel:
+    def load(cls, path: Path | str, *, threads: int = THREADS) -> OnnxPanopticModel:
         """Read a file, check it against the contract, and let it see one gray image, since free sizes show only then.
 
         Raises:
             NetworkRefused: it does not keep the contract; one sentence says where.
         """
         file = str(path)
-        session = _open(path, threads)
+        session = _open(Path(path), threads)
         check_names(file, session.get_inputs(), session.get_outputs())
         description = read_metadata(file, session.get_modelmeta().custom_metadata_map)
         signature = check_declared(file, session.get_inputs()[0], session.get_outputs(), description)
-        model = cls(session, description, signature)
+        model = cls(file, session, description, signature)
         placement = place(_WARM_UP_FRAME, description.resize, signature.canvas)
         gray = np.full((*_WARM_UP_FRAME, 3), 128, dtype=np.uint8)
         try:
-            results = model._run(gray, placement, onnxruntime.RunOptions())
+            model._run(gray, placement, onnxruntime.RunOptions())
         except _ORT_ERRORS as error:
             raise NetworkUnreadable(file, f"does not run on an image: {_first_line(error)}") from error
-        check_results(file, results, description)
         return model
 
     async def infer(self, frame: RgbdFrame) -> PanopticScene:
@@ -78,6 +79,7 @@ class OnnxPanopticModel:
 
         Raises:
             InferenceFailed: the frame cannot be used, or the network gave numbers that are none.
+            TensorMismatch: shapes that were right at first are wrong for this frame.
         """
         options = onnxruntime.RunOptions()
         try:
@@ -104,7 +106,9 @@ class OnnxPanopticModel:
         tensor = input_tensor(rgb, placement, self.description.mean, self.description.std)
         names = self._signature.outputs
         arrays = self._session.run(names, {INPUT: tensor}, options)
-        return {name: np.asarray(array, dtype=np.float32) for name, array in zip(names, arrays, strict=True)}
+        results = {name: np.asarray(array, dtype=np.float32) for name, array in zip(names, arrays, strict=True)}
+        check_results(self.file, results, self.description)
+        return results
 
 
 def _open(path: Path, threads: int) -> Any:

@@ -13,8 +13,17 @@ from majordomo.perception.localization.planar import Pose2
 from majordomo.perception.rooms.entrance import entrance
 from majordomo.perception.rooms.instance import MeasuredRoom, measured_room, room_elements
 from majordomo.perception.rooms.measurement import Fit, RoomMeasurement
-from majordomo.perception.rooms.outline import Outline, find_outline, signed_area, wall_lengths
+from majordomo.perception.rooms.outline import (
+    ArrangementSettings,
+    Outline,
+    _false_step,
+    _MeasuredWall,
+    _straightened,
+    find_outline,
+    wall_lengths,
+)
 from majordomo.perception.rooms.slice import OutlineSlicer
+from majordomo.perception.rooms.tracing import signed_area
 from majordomo.perception.rooms.vantage import next_vantage
 from majordomo.perception.rooms.views import View, dominant_direction
 from majordomo.scene_graph.edges import RtEdge
@@ -287,3 +296,35 @@ def test_of_a_partial_room_only_the_walls_that_were_seen_stand() -> None:
     room.wall_seen[2] = 0.1
     elements = room_elements(room, "room_1", status=RoomStatus.PARTIAL, height_m=2.5, stamp_s=0.0)
     assert [node.id for node in elements if isinstance(node, WallNode)] == ["wall_1_0", "wall_1_1", "wall_1_3"]
+
+
+def measured(polygon: Array, offsets_m: list[float]) -> list[_MeasuredWall]:
+    """Walls of an outline along the axes, found at these offsets."""
+    steps = np.roll(polygon, -1, axis=0) - polygon
+    return [
+        _MeasuredWall(
+            across=int(abs(dx) > abs(dy)),
+            offset_m=offset_m,
+            offset_std_m=0.001,
+            sigma_m=0.02,
+            support=1.0,
+            gap_m=0.0,
+            gap_center=(0.0, 0.0),
+        )
+        for (dx, dy), offset_m in zip(steps.tolist(), offsets_m, strict=True)
+    ]
+
+
+@pytest.mark.parametrize("first", range(6))
+@pytest.mark.parametrize(("found_m", "steps"), [(0.02, 1), (0.10, 0)], ids=["one surface", "a chimney breast"])
+def test_two_lines_that_turn_out_to_be_one_surface_are_one_wall_and_a_real_step_stays(
+    first: int, found_m: float, steps: int
+) -> None:
+    polygon = np.array([[0.0, 0.1], [0.3, 0.1], [0.3, 0.0], [4.0, 0.0], [4.0, 3.0], [0.0, 3.0]])
+    walls = measured(polygon, [found_m, 0.3, 0.0, 4.0, 3.0, 0.0])
+    polygon, walls = np.roll(polygon, -first, axis=0), walls[first:] + walls[:first]
+    step = _false_step(polygon, walls, ArrangementSettings())
+    assert (step is not None) == bool(steps)
+    if step is not None:
+        corners = {(round(x, 3), round(y, 3)) for x, y in _straightened(polygon, step).tolist()}
+        assert corners == {(0.0, 0.0), (4.0, 0.0), (4.0, 3.0), (0.0, 3.0)}

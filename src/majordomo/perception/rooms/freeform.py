@@ -13,7 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from majordomo.perception.rooms.corners import fit_line
-from majordomo.perception.rooms.outline import Outline, signed_area, wall_lengths
+from majordomo.perception.rooms.outline import Outline, wall_lengths
+from majordomo.perception.rooms.tracing import signed_area
 from majordomo.perception.rooms.views import View, dominant_direction
 
 Array = NDArray[np.float64]

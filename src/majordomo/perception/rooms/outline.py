@@ -9,11 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from majordomo.perception.localization.planar import Pose2
-from majordomo.perception.rooms.arrangement import Arrangement, ArrangementSettings, arrange
+from majordomo.perception.rooms.arrangement import ArrangementSettings, arrange
 from majordomo.perception.rooms.entrance import entrance
 from majordomo.perception.rooms.facets import Facets, longest_gap, sort_by_axis
 from majordomo.perception.rooms.line_profile import STATION_STEP_M
 from majordomo.perception.rooms.portals import Portal
+from majordomo.perception.rooms.tracing import trace
 from majordomo.perception.rooms.views import View, dominant_direction
 
 Array = NDArray[np.float64]
@@ -84,9 +85,14 @@ def find_outline(views: Sequence[View], settings: ArrangementSettings | None = N
     polygon, portals = trace(arrangement), list(arrangement.portals)
     passed = arrangement.passed
     walls = _refine(polygon, x_facing, y_facing, portals, passed, settings)
-    while (reveal := _reveal(polygon, walls)) is not None:
-        polygon, portal = _cut(polygon, reveal)
-        portals.append(portal)
+    while True:
+        if (step := _false_step(polygon, walls, settings)) is not None:
+            polygon = _straightened(polygon, step)
+        elif (reveal := _reveal(polygon, walls)) is not None:
+            polygon, portal = _cut(polygon, reveal)
+            portals.append(portal)
+        else:
+            break
         walls = _refine(polygon, x_facing, y_facing, portals, passed, settings)
     path = Pose2(0.0, 0.0, -direction_rad).apply(np.array([view.T_frame_base.position_m for view in views]))
     came_in = entrance(polygon, path)
@@ -109,64 +115,6 @@ def _outline_of(polygon: Array, walls: list[_MeasuredWall], direction_rad: float
         direction_rad=direction_rad,
         rectilinear=rectilinear,
     )
-
-
-def trace(arrangement: Arrangement) -> Array:
-    """Outer boundary of the inside cells, (N, 2) counter-clockwise, without corners in straight walls."""
-    following = _boundary_steps(arrangement.inside)
-    loops: list[list[tuple[int, int]]] = []
-    while following:
-        start = min(following)
-        loops.append(_walk(following, start))
-    xs, ys = arrangement.xs, arrangement.ys
-    polygons = [np.array([(xs[i], ys[j]) for i, j in _without_straight(loop)]) for loop in loops]
-    return max(polygons, key=signed_area)
-
-
-def _boundary_steps(inside: NDArray[np.bool_]) -> dict[tuple[int, int], list[tuple[int, int]]]:
-    """Directed steps between grid vertices that keep inside cells on their left."""
-    steps: dict[tuple[int, int], list[tuple[int, int]]] = {}
-    padded = np.pad(inside, 1)
-    for i, j in zip(*np.nonzero(inside), strict=True):
-        a, b = int(i), int(j)
-        if not padded[a + 1, b]:
-            steps.setdefault((a, b), []).append((a + 1, b))
-        if not padded[a + 2, b + 1]:
-            steps.setdefault((a + 1, b), []).append((a + 1, b + 1))
-        if not padded[a + 1, b + 2]:
-            steps.setdefault((a + 1, b + 1), []).append((a, b + 1))
-        if not padded[a, b + 1]:
-            steps.setdefault((a, b + 1), []).append((a, b))
-    return steps
-
-
-def _walk(following: dict[tuple[int, int], list[tuple[int, int]]], start: tuple[int, int]) -> list[tuple[int, int]]:
-    """Follow and use up steps from ``start`` until back; where two loops touch in a point, turn left."""
-    loop, here, heading = [start], start, (0, 0)
-    while True:
-        choices = following[here]
-        turns = [heading[0] * (c[1] - here[1]) - heading[1] * (c[0] - here[0]) for c in choices]
-        step = choices.pop(turns.index(max(turns)))
-        if not choices:
-            del following[here]
-        heading, here = (step[0] - here[0], step[1] - here[1]), step
-        if here == start:
-            return loop
-        loop.append(here)
-
-
-def _without_straight(loop: list[tuple[int, int]]) -> list[tuple[int, int]]:
-    kept: list[tuple[int, int]] = []
-    for before, here, after in zip(loop[-1:] + loop[:-1], loop, loop[1:] + loop[:1], strict=True):
-        if (here[0] - before[0]) * (after[1] - here[1]) != (here[1] - before[1]) * (after[0] - here[0]):
-            kept.append(here)
-    return kept
-
-
-def signed_area(polygon: Array) -> float:
-    """Area in square meters, positive when counter-clockwise."""
-    x, y = polygon[:, 0], polygon[:, 1]
-    return float(0.5 * (x * np.roll(y, -1) - np.roll(x, -1) * y).sum())
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -247,6 +195,28 @@ def _intersections(polygon: Array, walls: list[_MeasuredWall]) -> Array:
         refined[k, wall.across] = wall.offset_m
         refined[(k + 1) % len(polygon), wall.across] = wall.offset_m
     return refined
+
+
+def _false_step(polygon: Array, walls: Sequence[_MeasuredWall], settings: ArrangementSettings) -> int | None:
+    """Index of a wall that is only a step between two others which, when measured, turn out to be one surface."""
+    count = len(polygon)
+    steps = np.roll(polygon, -1, axis=0) - polygon
+    for k in range(count if count > 4 else 0):
+        before, after = k - 1, (k + 1) % count
+        onward = float(steps[before] @ steps[after]) > 0.0
+        if onward and abs(walls[before].offset_m - walls[after].offset_m) < settings.gate_m:
+            return k
+    return None
+
+
+def _straightened(polygon: Array, step: int) -> Array:
+    """The outline without the wall from corner ``step`` to the next: its neighbors are one, where the longer one is."""
+    rolled = np.roll(polygon, -step, axis=0)
+    axis = 0 if abs(rolled[-1][0] - rolled[0][0]) < abs(rolled[-1][1] - rolled[0][1]) else 1
+    before_m, after_m = np.linalg.norm(rolled[0] - rolled[-1]), np.linalg.norm(rolled[2] - rolled[1])
+    straight = rolled[2:].copy()
+    straight[0][axis] = straight[-1][axis] = (rolled[0] if before_m > after_m else rolled[1])[axis]
+    return straight
 
 
 def _reveal(polygon: Array, walls: Sequence[_MeasuredWall]) -> int | None:

@@ -20,6 +20,8 @@ from majordomo.perception.rooms.views import View, dominant_direction
 Array = NDArray[np.float64]
 
 _CORNER_CLEARANCE_M = 0.10
+_ON_WALL_M2 = 1e-9
+_NO_WALL_M = 1e-6
 _HARMLESS_GAP_M = 0.4
 _DEEPEST_REVEAL_M = 0.45
 _LEVEL_M = 0.1
@@ -88,6 +90,8 @@ def find_outline(views: Sequence[View], settings: ArrangementSettings | None = N
     while True:
         if (step := _false_step(polygon, walls, settings)) is not None:
             polygon = _straightened(polygon, step)
+            if wall_lengths(polygon).min() < _NO_WALL_M:
+                return None
         elif (reveal := _reveal(polygon, walls)) is not None:
             polygon, portal = _cut(polygon, reveal)
             portals.append(portal)
@@ -216,7 +220,17 @@ def _straightened(polygon: Array, step: int) -> Array:
     before_m, after_m = np.linalg.norm(rolled[0] - rolled[-1]), np.linalg.norm(rolled[2] - rolled[1])
     straight = rolled[2:].copy()
     straight[0][axis] = straight[-1][axis] = (rolled[0] if before_m > after_m else rolled[1])[axis]
-    return straight
+    return _without_needless(straight)
+
+
+def _without_needless(polygon: Array) -> Array:
+    """The outline without corners that lie on a wall: those of a recess whose back came to lie beside its sides."""
+    while True:
+        before, after = polygon - np.roll(polygon, 1, axis=0), np.roll(polygon, -1, axis=0) - polygon
+        turning = np.abs(before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0]) > _ON_WALL_M2
+        if turning.all() or np.count_nonzero(turning) < 4:
+            return polygon
+        polygon = np.delete(polygon, int(np.argmin(turning)), axis=0)
 
 
 def _reveal(polygon: Array, walls: Sequence[_MeasuredWall]) -> int | None:

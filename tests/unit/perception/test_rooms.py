@@ -16,6 +16,7 @@ from majordomo.perception.rooms.measurement import Fit, RoomMeasurement
 from majordomo.perception.rooms.outline import (
     ArrangementSettings,
     Outline,
+    _center,
     _false_step,
     _MeasuredWall,
     _straightened,
@@ -343,3 +344,7 @@ def test_a_recess_that_turns_out_to_be_level_with_its_wall_goes_with_both_its_st
         {(0.0, -0.1), (2.0, -0.1), (2.0, 0.0), (4.0, 0.0), (4.0, 3.0), (0.0, 3.0)},
     )
     assert wall_lengths(_straightened(polygon, step)).min() > 0.05
+
+
+def test_of_two_surfaces_as_large_as_each_other_neither_is_the_wall() -> None:
+    assert _center(np.array([-0.08] * 4 + [0.08] * 4), 0.01, 0.06) == (0.01, 0.06)

@@ -271,4 +271,6 @@ def _center(offsets: Array, nominal: float, gate_m: float) -> tuple[float, float
         return nominal, gate_m
     center = float(np.median(offsets))
     near = offsets[np.abs(offsets - center) < gate_m]
+    if not len(near):  # of two surfaces as large as each other the median is neither
+        return nominal, gate_m
     return float(near.mean()), float(near.std())

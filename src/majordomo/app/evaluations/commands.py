@@ -131,3 +131,25 @@ def evaluate_rates(
 
     good = evaluate(house=house, seconds=seconds, json_file=json_file, console=console)
     raise typer.Exit(0 if good else 1)
+
+
+@evaluations.command("tracking")
+def evaluate_tracking(
+    repetitions: Annotated[int, typer.Option(min=1, help="Runs with measurements of their own.")] = 1000,
+    measurements: Annotated[int, typer.Option(min=2, help="How often a thing at rest is seen in each.")] = 30,
+    seed: Annotated[int, typer.Option(min=0)] = 0,
+    json_file: JsonFile = None,
+    plot: Plot = None,
+) -> None:
+    """Measure how well filters tell where a thing at rest or just moved is, beside the Filtering paper's table 1."""
+    from majordomo.app.evaluations.tracking import evaluate
+
+    good = evaluate(
+        seed=seed,
+        repetitions=repetitions,
+        measurements=measurements,
+        json_file=json_file,
+        plot_file=plot,
+        console=console,
+    )
+    raise typer.Exit(0 if good else 1)

@@ -1,8 +1,9 @@
 """Where a thing is, as a cloud of particles, with named likelihoods (Filtering, section 3.1 and algorithm 1).
 
 ``paper`` is the filter of the paper: every step adds noise of the initial spread, weights are ``1 / (1 + d)``,
-nothing is resampled. ``student`` and ``gaussian`` weigh by the covariance of the measurement, carry weights on, and
-resample.
+nothing is resampled. ``paper_resampled`` reads it as a textbook does, which draws particles by their weights before
+each prediction; the paper does not say so. ``student`` and ``gaussian`` weigh by the covariance of the measurement,
+carry weights on, and resample.
 """
 
 from __future__ import annotations
@@ -23,8 +24,14 @@ class Likelihood(StrEnum):
     """How a particle is judged by a measurement."""
 
     PAPER = "paper"
+    PAPER_RESAMPLED = "paper_resampled"
     GAUSSIAN = "gaussian"
     STUDENT = "student"
+
+    @property
+    def of_the_paper(self) -> bool:
+        """Whether weights are ``1 / (1 + d)``, of the newest measurement alone."""
+        return self in {Likelihood.PAPER, Likelihood.PAPER_RESAMPLED}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -59,7 +66,7 @@ class ParticleFilter:
         """Forget the past: s_i ~ N(mu_0, Sigma_0), w_i = 1 / N."""
         N = self._settings.particles
         noise = self._random.standard_normal((N, 3))
-        if self._settings.likelihood is not Likelihood.PAPER:
+        if not self._settings.likelihood.of_the_paper:
             noise = (noise - noise.mean(axis=0)) / np.maximum(noise.std(axis=0), 1e-9)
         self._initial_root = _square_root(covariance)
         self.particles = np.asarray(position, dtype=np.float64) + noise @ self._initial_root.T
@@ -80,7 +87,7 @@ class ParticleFilter:
 
     def update(self, measurement: Array, covariance: Array) -> Array:
         """Predict, weigh by ``measurement`` (3,) with its ``covariance`` (3, 3), and return the new estimate (3,)."""
-        if self._settings.likelihood is Likelihood.PAPER:
+        if self._settings.likelihood.of_the_paper:
             return self._update_as_paper(measurement)
         self.particles = self.particles + self._settings.process_sigma_m * self._random.standard_normal(
             self.particles.shape
@@ -107,6 +114,8 @@ class ParticleFilter:
 
     def _update_as_paper(self, measurement: Array) -> Array:
         """Algorithm 1, lines 8 to 10, after the prediction s_i = T s_i + n_i; T is one in a frame that rests."""
+        if self._settings.likelihood is Likelihood.PAPER_RESAMPLED:
+            self.particles = self.particles[self._drawn_by_weight()]
         noise = self._random.standard_normal(self.particles.shape) @ self._initial_root.T
         self.particles = self.particles + noise
         distances = np.linalg.norm(self.particles - measurement, axis=1)
@@ -127,13 +136,18 @@ class ParticleFilter:
         """Systematic resampling, copies spread by a kernel that leaves mean and covariance as they are."""
         N = len(self.weights)
         root = _square_root(self.covariance)
-        positions = (np.arange(N) + self._random.random()) / N
-        chosen = np.minimum(np.searchsorted(np.cumsum(self.weights), positions), N - 1)
+        chosen = self._drawn_by_weight()
         h = self._settings.smoothing
         noise = self._random.standard_normal((N, 3)) @ root.T
         particles = mean + np.sqrt(1.0 - h * h) * (self.particles[chosen] - mean) + h * noise
         self.particles = particles + (mean - particles.mean(axis=0))
         self.weights = np.full(N, 1.0 / N)
+
+    def _drawn_by_weight(self) -> NDArray[np.intp]:
+        """(N,) indices of particles, each about as often as its weight says: systematic sampling."""
+        N = len(self.weights)
+        positions = (np.arange(N) + self._random.random()) / N
+        return np.minimum(np.searchsorted(np.cumsum(self.weights), positions), N - 1)
 
 
 def _square_root(covariance: Array) -> Array:

@@ -6,8 +6,8 @@ deviations of its column "no particle". The camera goes round meanwhile; its pos
 Its "mean of absolute error" is the distance of one run's mean position from the true one: (0.74, -0.08, 0.93) from
 (0.67, 0.10, 0.95) is (0.07, 0.18, 0.02). Errors here are those of the last estimate, in the mean over many runs; what
 the paper computed stands in a table of its own. There "no filter" is the mean of all measurements, which no filter
-betters where noise has no bias as here. The published 0.02 m is one run's: in the mean over runs no reading of the
-paper's filter comes to it, as not even the mean of 30 such measurements does (0.05 m in x).
+betters where noise has no bias as here. The published 0.02 m is one run's: in the mean over runs none of the ten
+readings tried (see ``KINDEST``) comes to it, nor does the mean of 30 such measurements (0.05 m in x).
 """
 
 from __future__ import annotations

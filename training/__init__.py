@@ -1,0 +1,1 @@
+"""From seeded random scenes to the network that ships with Majordomo: ``python -m training --help``."""

@@ -1,0 +1,67 @@
+"""Writes a trained network as an ONNX file that keeps the contract of docs/network.md."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from pathlib import Path
+
+import onnx
+import torch
+from torch import Tensor, nn
+
+from majordomo.perception.network.contract import INPUT, INSTANCE_OUTPUTS, TRIPLET_OUTPUTS
+from training.names import CLASSES, PREDICATES, THINGS
+from training.network import HEIGHT, QUERIES, TRIPLETS, WIDTH, Network
+
+MEAN, STD = (123.675, 116.28, 103.53), (58.395, 57.12, 57.375)
+
+
+class _Contract(nn.Module):
+    """Image in; the best triplets and all instances out."""
+
+    def __init__(self, network: Network) -> None:
+        super().__init__()
+        self.network = network
+
+    def forward(self, image: Tensor) -> tuple[Tensor, ...]:
+        features = self.network.features(image)
+        found = self.network.answers(features, self.network.peaks(features))
+        something = 1.0 - torch.softmax(found.classes, dim=-1)[0, :, -1]
+        related = 1.0 - torch.softmax(found.relations, dim=-1)[0, :, :, 0]
+        score = related * something[:, None] * something[None, :] * (1.0 - torch.eye(QUERIES))
+        best = score.flatten().topk(TRIPLETS).indices
+        subject, target = best // QUERIES, best % QUERIES
+        return (
+            found.classes[:, subject], found.classes[:, target],
+            found.relations.reshape(1, QUERIES * QUERIES, -1)[:, best],
+            found.boxes[:, subject], found.boxes[:, target],
+            found.masks[:, subject], found.masks[:, target],
+            found.classes, found.masks,
+        )  # fmt: skip
+
+
+def export(network: Network, file: Path, *, version: str, thresholds: Mapping[str, float]) -> None:
+    """Write ``network`` with its metadata to ``file``."""
+    network.eval()
+    names = [*TRIPLET_OUTPUTS, *INSTANCE_OUTPUTS]
+    with torch.no_grad():
+        torch.onnx.export(
+            _Contract(network).eval(), (torch.zeros(1, 3, HEIGHT, WIDTH),), str(file), input_names=[INPUT],
+            output_names=names, opset_version=17, dynamo=False,
+        )  # fmt: skip
+    model = onnx.load(str(file))
+    onnx.helper.set_model_props(
+        model,
+        {
+            "psg.classes": json.dumps(CLASSES),
+            "psg.predicates": json.dumps(PREDICATES),
+            "psg.thing_classes": json.dumps(THINGS),
+            "psg.mean": json.dumps(MEAN),
+            "psg.std": json.dumps(STD),
+            "psg.resize": json.dumps({"rule": "fixed", "height": HEIGHT, "width": WIDTH}),
+            "psg.version": version,
+            "psg.thresholds": json.dumps(dict(thresholds)),
+        },
+    )
+    onnx.save(model, str(file))

@@ -1,0 +1,120 @@
+"""Training: pictures in, a checkpoint after every pass, to go on from."""
+
+from __future__ import annotations
+
+import copy
+import math
+import time
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from pathlib import Path
+
+import torch
+from torch import Tensor
+from torch.utils.data import DataLoader
+
+from training.dataset import Batch, Lessons, batch_of
+from training.losses import losses
+from training.network import Network
+from training.shards import Examples
+
+_KEEP = 0.999
+_CLIP = 5.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class Course:
+    """How long and how fast. ``minutes``: the learning rate falls to nothing within them."""
+
+    minutes: float = 90.0
+    batch: int = 24
+    rate: float = 1.6e-3
+    weight_decay: float = 0.02
+    warm_up_steps: int = 300
+    workers: int = 1
+    seed: int = 0
+
+
+def fit(
+    shards: Callable[[], Iterable[Path]], *, checkpoint: Path, course: Course, tell: Callable[[str], None]
+) -> Network:
+    """The mean of the network over the last steps. ``shards`` is asked again before every pass.
+
+    Goes on from ``checkpoint`` where there is one, with the time that is left of the course.
+    """
+    torch.manual_seed(course.seed)
+    network = Network().to(memory_format=torch.channels_last)  # type: ignore[call-overload]
+    mean = copy.deepcopy(network)
+    optimizer = torch.optim.AdamW(network.parameters(), lr=course.rate, weight_decay=course.weight_decay, fused=True)
+    used_s, step, passes = 0.0, 0, 0
+    if checkpoint.exists():
+        kept = torch.load(checkpoint, weights_only=True)
+        network.load_state_dict(kept["network"])
+        mean.load_state_dict(kept["mean"])
+        optimizer.load_state_dict(kept["optimizer"])
+        used_s, step, passes = kept["used_s"], kept["step"], kept["passes"]
+    sums: dict[str, float] = {}
+    said, told_s = 0, time.monotonic()
+    while used_s < 60.0 * course.minutes:
+        passes += 1
+        lessons = Lessons(Examples(shards()), vary=True)
+        torch.manual_seed(course.seed * 1000 + passes)
+        loader = DataLoader(
+            lessons, course.batch, shuffle=True, drop_last=True, num_workers=course.workers, collate_fn=batch_of,
+            prefetch_factor=4 if course.workers else None,
+        )  # fmt: skip
+        last_s = time.monotonic()
+        for batch in loader:
+            progress = min(used_s / (60.0 * course.minutes), 1.0)
+            warm = min(1.0, (step + 1) / course.warm_up_steps)
+            for group in optimizer.param_groups:
+                group["lr"] = course.rate * warm * max(0.5 * (1.0 + math.cos(math.pi * progress)), 1e-3)
+            parts = _step(network, batch, optimizer)
+            step += 1
+            _follow(mean, network, min(_KEEP, (1.0 + step) / (10.0 + step)))
+            for name, value in parts.items():
+                sums[name] = sums.get(name, 0.0) + value
+            used_s, last_s = used_s + time.monotonic() - last_s, time.monotonic()
+            if time.monotonic() - told_s > 60.0:
+                rate = (step - said) * course.batch / (time.monotonic() - told_s)
+                means = "  ".join(f"{name} {value / (step - said):.3f}" for name, value in sums.items())
+                tell(f"{used_s / 60:5.1f} min, pass {passes} of {len(lessons)}, step {step}, {rate:.0f}/s: {means}")
+                sums, said, told_s = {}, step, time.monotonic()
+                _save(checkpoint, network, mean, optimizer, used_s, step, passes)
+            if used_s >= 60.0 * course.minutes:
+                break
+    _save(checkpoint, network, mean, optimizer, used_s, step, passes)
+    return mean
+
+
+def _step(network: Network, batch: Batch, optimizer: torch.optim.Optimizer) -> dict[str, float]:
+    network.train()
+    batch.image = batch.image.contiguous(memory_format=torch.channels_last)
+    with torch.autocast("cpu", torch.bfloat16):
+        parts = losses(network, batch)
+    total: Tensor = torch.stack([part.float() for part in parts.values()]).sum()
+    optimizer.zero_grad(set_to_none=True)
+    if torch.isfinite(total):
+        total.backward()  # type: ignore[no-untyped-call]
+        torch.nn.utils.clip_grad_norm_(network.parameters(), _CLIP)
+        optimizer.step()
+    return {name: float(part.detach()) for name, part in parts.items()}
+
+
+def _follow(mean: Network, network: Network, keep: float) -> None:
+    """Move the mean a little towards the network."""
+    with torch.no_grad():
+        for kept, new in zip(mean.state_dict().values(), network.state_dict().values(), strict=True):
+            if kept.is_floating_point():
+                kept.lerp_(new, 1.0 - keep)
+            else:
+                kept.copy_(new)
+
+
+def _save(
+    file: Path, network: Network, mean: Network, optimizer: torch.optim.Optimizer, used_s: float, step: int, passes: int
+) -> None:
+    part = file.with_suffix(".part")
+    state = {"network": network.state_dict(), "mean": mean.state_dict(), "optimizer": optimizer.state_dict()}
+    torch.save({**state, "used_s": used_s, "step": step, "passes": passes}, part)
+    part.replace(file)

@@ -136,7 +136,7 @@ class _Filters(nn.Module):
         y = (torch.arange(height, device=filters.device) + 0.5) * (HEIGHT / height / 64.0)
         x = (torch.arange(width, device=filters.device) + 0.5) * (WIDTH / width / 64.0)
         place = torch.stack((x[None, :].expand(height, width), y[:, None].expand(height, width)))
-        base = torch.cat((embedding, place[None].expand(batch, 2, height, width)), dim=1)
+        base = torch.cat((embedding, place[None].expand(batch, 2, height, width).float()), dim=1)
         base = base.reshape(batch, _EMBEDDING + 2, height * width)
         first = filters[..., : (_EMBEDDING + 2) * _HIDDEN].reshape(batch, count, _HIDDEN, _EMBEDDING + 2)
         towards = first[..., _EMBEDDING:] * scale[..., None]

@@ -180,3 +180,28 @@ def evaluate_tracking(
         console=console,
     )
     raise typer.Exit(0 if good else 1)
+
+
+@evaluations.command("network")
+def evaluate_network(
+    model: Annotated[
+        Path, typer.Option(exists=True, dir_okay=False, help="The network: an ONNX file, see docs/network.md.")
+    ],
+    houses: Annotated[int, typer.Option(min=1, help="How many generated houses.")] = 20,
+    first_house: Annotated[int, typer.Option(min=0, help="Seed of the first house; the others follow.")] = 0,
+    pictures: Annotated[int, typer.Option(min=1, help="Of each house.")] = 40,
+    json_file: JsonFile = None,
+    plot: Plot = None,
+) -> None:
+    """Show a network pictures of furnished houses, and count what it recognizes: things, masks, relations."""
+    from majordomo.app.evaluations.network import evaluate
+
+    good = evaluate(
+        model=model,
+        seeds=range(first_house, first_house + houses),
+        pictures=pictures,
+        json_file=json_file,
+        plot_file=plot,
+        console=console,
+    )
+    raise typer.Exit(0 if good else 1)

@@ -91,7 +91,7 @@ class OnnxPanopticModel:
     def understand(self, frame: RgbdFrame, options: Any = None) -> PanopticScene:
         """As ``infer``, in the calling thread. ``options``: onnxruntime's, to end the run early."""
         check_frame(frame)
-        placement = place(frame.rgb.shape[:2], self.description.resize, self._signature.canvas)
+        placement = self.placement(frame.rgb.shape[:2])
         if not self._one_at_a_time.acquire(timeout=_BUSY_S):
             raise InferenceFailed("the network is still busy with an earlier frame", frame.stamp_s)
         try:
@@ -101,6 +101,10 @@ class OnnxPanopticModel:
         finally:
             self._one_at_a_time.release()
         return panoptic_scene(_outputs(results, frame.stamp_s), self.description, placement, stamp_s=frame.stamp_s)
+
+    def placement(self, size: tuple[int, int]) -> Placement:
+        """Where a frame of this height and width lies in the network's input."""
+        return place(size, self.description.resize, self._signature.canvas)
 
     def _run(self, rgb: NDArray[np.uint8], placement: Placement, options: Any) -> dict[str, NDArray[np.float32]]:
         tensor = input_tensor(rgb, placement, self.description.mean, self.description.std)

@@ -23,8 +23,8 @@ benchmark: $(STAMP)  ## measurements of speed, for a machine that does nothing e
 	$(BIN)/python -m pytest -m benchmark -s tests/benchmarks $(ARGS)
 
 check: $(STAMP)  ## lint, format, types, import contracts
-	$(BIN)/ruff check src tests scripts
-	$(BIN)/ruff format --check src tests scripts
+	$(BIN)/ruff check src tests scripts training
+	$(BIN)/ruff format --check src tests scripts training
 	$(BIN)/mypy
 	$(BIN)/lint-imports
 

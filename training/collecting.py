@@ -21,15 +21,23 @@ _HOUSE_SEEDS = 1 << 30
 
 
 def collect(folder: Path, *, pictures: int, seed: int, jobs: int, houses: bool = False) -> Iterator[Path]:
-    """Pictures of random rooms, or of generated houses as the simulator shows them: files of ``SHARD_PICTURES`` pictures in ``folder``, each as it gets ready; those that are there are kept."""
+    """Pictures of random rooms, or of generated houses as the simulator shows them.
+
+    Yields files of ``SHARD_PICTURES`` pictures in ``folder``, each as it gets ready; those that are there are kept.
+    """
     folder.mkdir(parents=True, exist_ok=True)
-    files = [(folder / f"{seed}_{number:05}.npz", (seed, number)) for number in range(-(-pictures // SHARD_PICTURES))]
+    files = [(folder / f"{seed}_{number:05}.npz", (seed, number)) for number in range(shards(pictures))]
     missing = [(file, of) for file, of in files if not file.exists()]
     yield from (file for file, _ in files if file.exists())
     with ProcessPoolExecutor(jobs) as pool:
         for file, done in [(file, pool.submit(_shard, file, of, houses)) for file, of in missing]:
             done.result()
             yield file
+
+
+def shards(pictures: int) -> int:
+    """How many files hold so many pictures."""
+    return -(-pictures // SHARD_PICTURES)
 
 
 def _shard(file: Path, seed: tuple[int, int], houses: bool) -> None:

@@ -31,10 +31,11 @@ _CUT = 0.5
 
 @dataclass(kw_only=True)
 class Batch:
-    """``image`` (B, 3, H, W). ``ids`` (B, H, W): row of what is seen, 255 for nothing. For each row, of which the first
-    are stuff: ``classes`` (B, M) or ``UNKNOWN``, ``there`` (B, M), ``boxes`` (B, M, 4) center and size in pixels,
-    ``level`` (B, M), ``log_distance`` (B, M). ``relations`` (B, M, M): 0 for none. ``heats``: targets of both heat maps,
-    and ``heat_weights``.
+    """What pictures show. Rows are things; the first of them are stuff.
+
+    ``image`` (B, 3, H, W). ``ids`` (B, H, W): row of what is seen, 255 for nothing. For each row ``classes`` (B, M) or
+    ``UNKNOWN``, ``there`` (B, M), ``boxes`` (B, M, 4) center and size in pixels, ``level`` (B, M), ``log_distance``
+    (B, M). ``relations`` (B, M, M): 0 for none. ``heats``: targets of both heat maps, and ``heat_weights``.
     """
 
     image: Tensor
@@ -68,18 +69,18 @@ class Lessons(Dataset[Row]):
         if self._vary:
             rgb, ids, zoom = _cut(rgb, ids, rng)
             flipped = bool(rng.random() < 0.5)
-        rgb = cv2.resize(rgb, (WIDTH, HEIGHT), interpolation=cv2.INTER_LINEAR)
-        ids = cv2.resize(ids, (WIDTH, HEIGHT), interpolation=cv2.INTER_NEAREST)
+        rgb = cv2.resize(rgb, (WIDTH, HEIGHT), interpolation=cv2.INTER_LINEAR).astype(np.uint8, copy=False)
+        ids = cv2.resize(ids, (WIDTH, HEIGHT), interpolation=cv2.INTER_NEAREST).astype(np.uint8, copy=False)
         if flipped:
             rgb, ids = rgb[:, ::-1], ids[:, ::-1]
         if self._vary:
             curve = 255.0 * np.linspace(0.0, 1.0, 256) ** np.exp(rng.normal(0.0, 0.15))
-            rgb = cv2.LUT(np.ascontiguousarray(rgb), curve.astype(np.uint8))
+            rgb = curve.astype(np.uint8)[rgb]
         image = rgb.astype(np.float32)
         if self._vary:
             image = _disturbed(image, rng)
         targets = _targets(np.ascontiguousarray(ids), classes, distances_m / zoom, relations)
-        normalized = (image - np.float32(MEAN)) / np.float32(STD)
+        normalized = (image - np.array(MEAN, np.float32)) / np.array(STD, np.float32)
         return {"image": np.ascontiguousarray(normalized.transpose(2, 0, 1), dtype=np.float32), **targets}
 
 
@@ -113,7 +114,7 @@ def _disturbed(image: NDArray[np.float32], rng: np.random.Generator) -> NDArray[
         mean = image.mean()
         image = ((image - mean) * contrast + mean) * gain.astype(np.float32) + offset
     if rng.random() < 0.12:
-        image = cv2.GaussianBlur(image, (0, 0), float(rng.uniform(0.3, 0.9)))
+        image = np.asarray(cv2.GaussianBlur(image, (0, 0), float(rng.uniform(0.3, 0.9))), np.float32)
     if rng.random() < _NOISE:
         image = image + rng.standard_normal(image.shape, dtype=np.float32) * np.float32(rng.uniform(0.5, 8.0))
     return np.clip(image, 0.0, 255.0).astype(np.float32)
@@ -181,6 +182,6 @@ def _heat(
     weight = np.ones((height, width), np.float32)
     if which == 0 and unclear.any():
         blocks = unclear.reshape(height, stride, width, stride).any(axis=(1, 3)).astype(np.uint8)
-        weight[cv2.dilate(blocks, np.ones((3, 3), np.uint8)) > 0] = 0.0
+        weight[np.asarray(cv2.dilate(np.asarray(blocks), np.ones((3, 3), np.uint8))) > 0] = 0.0
         weight[heat > 0.5] = 1.0
     return heat, weight

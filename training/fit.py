@@ -43,7 +43,7 @@ def fit(
     Goes on from ``checkpoint`` where there is one, with the time that is left of the course.
     """
     torch.manual_seed(course.seed)
-    network = Network().to(memory_format=torch.channels_last)  # type: ignore[call-overload]
+    network = Network().to(memory_format=torch.channels_last)
     mean = copy.deepcopy(network)
     optimizer = torch.optim.AdamW(network.parameters(), lr=course.rate, weight_decay=course.weight_decay, fused=True)
     used_s, step, passes = 0.0, 0, 0
@@ -87,6 +87,13 @@ def fit(
     return mean
 
 
+def trained(checkpoint: Path) -> Network:
+    """The network of a checkpoint, the mean over its last steps."""
+    network = Network()
+    network.load_state_dict(torch.load(checkpoint, weights_only=True)["mean"])
+    return network
+
+
 def _step(network: Network, batch: Batch, optimizer: torch.optim.Optimizer) -> dict[str, float]:
     network.train()
     batch.image = batch.image.contiguous(memory_format=torch.channels_last)
@@ -95,7 +102,7 @@ def _step(network: Network, batch: Batch, optimizer: torch.optim.Optimizer) -> d
     total: Tensor = torch.stack([part.float() for part in parts.values()]).sum()
     optimizer.zero_grad(set_to_none=True)
     if torch.isfinite(total):
-        total.backward()  # type: ignore[no-untyped-call]
+        total.backward()
         torch.nn.utils.clip_grad_norm_(network.parameters(), _CLIP)
         optimizer.step()
     return {name: float(part.detach()) for name, part in parts.items()}

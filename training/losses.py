@@ -67,7 +67,7 @@ def losses(network: Network, batch: Batch) -> dict[str, Tensor]:
         cells, row_of = assigned(network.peaks(features), batch)
         standing = _standing(row_of)
     found = network.answers(features, cells, standing)
-    return {"heat": 1.0 * heat, **_of_answers(found, row_of, standing, batch)}  # type: ignore[operator]
+    return {"heat": 1.0 * heat, **_of_answers(found, row_of, standing, batch)}
 
 
 def _standing(row_of: Tensor) -> Tensor:

@@ -119,7 +119,7 @@ class _Attention(nn.Module):
 
 
 class _Filters(nn.Module):
-    """Draws a mask for each query: two layers of 1 x 1 filters over the embedding and the place relative to its center."""
+    """Draws a mask for each query: two layers of 1 x 1 filters over the embedding and the place off its center."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -160,7 +160,7 @@ class Network(nn.Module):
         self.embed = nn.Conv2d(_PYRAMID, _EMBEDDING, 1)
         self.heat_small, self.heat_large = nn.Conv2d(_PYRAMID, 1, 1), nn.Conv2d(_PYRAMID, 1, 1)
         for heat in (self.heat_small, self.heat_large):
-            nn.init.constant_(heat.bias, -4.0)  # type: ignore[arg-type]
+            nn.init.constant_(heat.bias, -4.0)
         self.begin = nn.ModuleList(
             nn.Sequential(nn.Linear(3 * _PYRAMID + 2, _DIM), nn.ReLU(), nn.Linear(_DIM, _DIM)) for _ in STRIDES
         )
@@ -188,8 +188,8 @@ class Network(nn.Module):
     def peaks(self, features: Features) -> tuple[Tensor, ...]:
         """(B, K) flat cells of the highest peaks of each heat map."""
         found = []
-        for heat, count in zip(features.heats, PEAKS, strict=True):
-            heat = heat.float()
+        for answer, count in zip(features.heats, PEAKS, strict=True):
+            heat = answer.float()
             highest = functional.max_pool2d(heat[:, None], 3, 1, 1)[:, 0]
             kept = torch.where(heat >= highest, heat, torch.full_like(heat, -30.0))
             found.append(kept.flatten(1).topk(count, dim=1).indices)
@@ -243,7 +243,7 @@ class Network(nn.Module):
 
     def _relations(self, q: Tensor, masks: Tensor, boxes: Tensor, log_distance: Tensor) -> Tensor:
         """(B, N, N, P + 1) of what each pair is like: both queries, boxes, distances, and how masks touch."""
-        batch, count = q.shape[:2]
+        count = q.shape[1]
         small = functional.avg_pool2d(torch.sigmoid(masks.float()), 2)
         area = small.sum(dim=(2, 3)) + 0.5
         touching = []
@@ -266,9 +266,7 @@ class Network(nn.Module):
 
 def _rows(tensors: tuple[Tensor, ...], chosen: Tensor) -> tuple[Tensor, ...]:
     """Of (B, N, ...) tensors the rows (B, S)."""
-    return tuple(
-        tensor[torch.arange(len(chosen), device=chosen.device)[:, None], chosen] for tensor in tensors
-    )
+    return tuple(tensor[torch.arange(len(chosen), device=chosen.device)[:, None], chosen] for tensor in tensors)
 
 
 def _gathered(features: Tensor, x: Tensor, y: Tensor, stride: int, own: int) -> Tensor:

@@ -60,7 +60,7 @@ def _worth_a_look(
     for _ in range(_TRIES):
         lens = _lens(scene, targets, rng)
         hand = _hand(lens, client, rng) if rng.random() < 0.06 else []
-        picture = _photograph(scene, bodies, lens, look, client, rng)
+        picture = _photograph(scene, bodies, lens, look, client)
         for body in hand:
             p.removeBody(body, physicsClientId=client)
         pixels = picture.pixels()[2:]
@@ -107,14 +107,15 @@ def _lens(scene: Scene, targets: list[tuple[Item, tuple[float, float, float]]], 
             eye = np.array([spot[0] + away * math.cos(angle), spot[1] + away * math.sin(angle), height])
             goal = np.array(spot) + rng.normal(0.0, 0.12, 3)
         else:
-            eye = np.array([float(rng.uniform(0.3, side - 0.3)) for side in scene.extent_m] + [height])
+            eye = np.array([*(float(rng.uniform(0.3, side - 0.3)) for side in scene.extent_m), height])
             angle, tilt = float(rng.uniform(-math.pi, math.pi)), float(rng.uniform(-0.8, 0.12))
-            goal = eye + (math.cos(angle) * math.cos(tilt), math.sin(angle) * math.cos(tilt), math.sin(tilt))
+            ahead = math.cos(angle) * math.cos(tilt), math.sin(angle) * math.cos(tilt), math.sin(tilt)
+            goal = eye + np.array(ahead)
         if _free(scene, eye):
             break
     forward = (goal - eye) / np.linalg.norm(goal - eye)
     side = np.cross(forward, (0.0, 0.0, 1.0))
-    side /= max(np.linalg.norm(side), 1e-6)
+    side /= max(float(np.linalg.norm(side)), 1e-6)
     up = np.cross(side, forward)
     up = math.cos(roll) * up + math.sin(roll) * side
     return _Lens(eye_m=eye, forward=forward, up=up, focal_px=WIDTH / 2 / math.tan(width_rad / 2))
@@ -137,7 +138,7 @@ def _hand(lens: _Lens, client: int, rng: Generator) -> list[int]:
     """An arm with two fingers before the camera, with no name."""
     side = np.cross(lens.forward, lens.up)
     level = lens.forward * (1.0, 1.0, 0.0)
-    level /= max(np.linalg.norm(level), 1e-6)
+    level /= max(float(np.linalg.norm(level)), 1e-6)
     at = lens.eye_m + level * rng.uniform(0.4, 0.9) + side * rng.uniform(-0.1, 0.1) - (0.0, 0.0, rng.uniform(0.3, 0.7))
     yaw = math.atan2(level[1], level[0])
     gray, opening = float(rng.uniform(0.1, 0.8)), float(rng.uniform(0.02, 0.1))
@@ -147,15 +148,17 @@ def _hand(lens: _Lens, client: int, rng: Generator) -> list[int]:
         *(box((0.09, s * opening / 2, 0.0), (0.1, 0.012, 0.03), (0.15, 0.15, 0.15)) for s in (-1, 1)),
     )
     arm = Item(
-        category="robot", parts=parts, bottom_m=(float(at[0]), float(at[1]), float(at[2])), size_m=(1.0, 0.2, 0.1), yaw_rad=yaw,
+        category="robot",
+        parts=parts,
+        bottom_m=(float(at[0]), float(at[1]), float(at[2])),
+        size_m=(1.0, 0.2, 0.1),
+        yaw_rad=yaw,
         furniture=False,
-    )  # fmt: skip
+    )
     return _body(arm, client)
 
 
-def _photograph(
-    scene: Scene, bodies: list[list[int]], lens: _Lens, look: _Look, client: int, rng: Generator
-) -> Photograph:
+def _photograph(scene: Scene, bodies: list[list[int]], lens: _Lens, look: _Look, client: int) -> Photograph:
     view = p.computeViewMatrix(lens.eye_m.tolist(), (lens.eye_m + lens.forward).tolist(), lens.up.tolist())
     projection = p.computeProjectionMatrixFOV(
         math.degrees(2 * math.atan(HEIGHT / 2 / lens.focal_px)), WIDTH / HEIGHT, _NEAR_M, _FAR_M
@@ -173,7 +176,9 @@ def _photograph(
     ids = of_body[np.minimum(body, len(of_body) - 1)]
     rgb = np.asarray(rgba, dtype=np.uint8).reshape(HEIGHT, WIDTH, 4)[:, :, :3]
     rgb = look.painted(rgb, ids, _points(depth_m, lens))
-    return photograph(rgb, ids, depth_m, [item.category for item in scene.items], [item.solid() for item in scene.items])
+    return photograph(
+        rgb, ids, depth_m, [item.category for item in scene.items], [item.solid() for item in scene.items]
+    )
 
 
 def _points(depth_m: NDArray[np.float64], lens: _Lens) -> NDArray[np.float32]:

@@ -85,7 +85,9 @@ class Scene:
 
 def random_scene(rng: Generator) -> Scene:
     """A furnished room with things on, in, under and beside each other."""
-    scene = Scene(extent_m=(float(rng.uniform(2.4, 7.5)), float(rng.uniform(2.4, 6.5))), height_m=float(rng.uniform(2.3, 3.0)))
+    scene = Scene(
+        extent_m=(float(rng.uniform(2.4, 7.5)), float(rng.uniform(2.4, 6.5))), height_m=float(rng.uniform(2.3, 3.0))
+    )
     _structure(scene, rng)
     _furnish(scene, rng)
     _hang(scene, rng)
@@ -131,14 +133,21 @@ def _structure(scene: Scene, rng: Generator) -> None:
             leaf = box((0.0, 0.0, height / 2), (width, float(rng.uniform(0.04, 0.1)), height), door)
             scene.add(
                 Item(
-                    category="door", parts=(leaf,), bottom_m=(x, y, 0.0), size_m=leaf.size_m, yaw_rad=yaw, furniture=True,
+                    category="door",
+                    parts=(leaf,),
+                    bottom_m=(x, y, 0.0),
+                    size_m=leaf.size_m,
+                    yaw_rad=yaw,
+                    furniture=True,
                     attached_to=0,
-                )  # fmt: skip
+                )
             )
 
 
 def _fixed(category: str, parts: tuple[Part, ...]) -> Item:
-    return Item(category=category, parts=parts, bottom_m=(0.0, 0.0, 0.0), size_m=(0.0, 0.0, 0.0), yaw_rad=0.0, furniture=True)
+    return Item(
+        category=category, parts=parts, bottom_m=(0.0, 0.0, 0.0), size_m=(0.0, 0.0, 0.0), yaw_rad=0.0, furniture=True
+    )
 
 
 def _at_wall(scene: Scene, side: int, along: float, off: float) -> tuple[float, float, float]:
@@ -264,7 +273,11 @@ def _hang(scene: Scene, rng: Generator) -> None:
             continue
         x, y, yaw = _at_wall(scene, side, along, size[1] / 2 + 0.01)
         bottom = float(rng.uniform(1.0, 1.6))
-        blocks = [o for o in scene.items[2:] if o.bottom_m[2] + o.size_m[2] > bottom and math.dist(o.bottom_m[:2], (x, y)) < o.radius_m() + size[0] / 2]
+        blocks = [
+            o
+            for o in scene.items[2:]
+            if o.bottom_m[2] + o.size_m[2] > bottom and math.dist(o.bottom_m[:2], (x, y)) < o.radius_m() + size[0] / 2
+        ]
         if not blocks:
             scene.add(replace(_made(category, size, (x, y, bottom), yaw, rng, furniture=True), attached_to=0))
 
@@ -272,14 +285,20 @@ def _hang(scene: Scene, rng: Generator) -> None:
 def _load(scene: Scene, index: int, rng: Generator) -> None:
     """Things on and in a piece of furniture."""
     item = scene.items[index]
-    if item.category not in CATEGORIES or item.attached_to is not None and item.category != "cabinet":
+    if item.category not in CATEGORIES or (item.attached_to is not None and item.category != "cabinet"):
         return
     kind = CATEGORIES[item.category]
     if not (kind.support or kind.container) or rng.random() < 0.2:
         return
     levels = kind.levels if item.category == "shelf" else kind.levels[:1]
     for level in levels:
-        most = 4 if item.category in ("shelf", "chair", "stool", "nightstand", "bin", "sink") else 11 if rng.random() < 0.3 else 6
+        most = (
+            4
+            if item.category in ("shelf", "chair", "stool", "nightstand", "bin", "sink")
+            else 11
+            if rng.random() < 0.3
+            else 6
+        )
         placed: list[Item] = []
         for _ in range(int(rng.integers(0, most))):
             thing = _small(rng)
@@ -287,8 +306,8 @@ def _load(scene: Scene, index: int, rng: Generator) -> None:
                 continue
             spot = _spot(item, level, thing, placed, rng)
             if spot is not None:
-                bearer = {"inside": index} if kind.container else {"on": index}
-                placed.append(replace(thing, bottom_m=spot, **bearer))
+                thing = replace(thing, inside=index) if kind.container else replace(thing, on=index)
+                placed.append(replace(thing, bottom_m=spot))
                 _on_top(scene, scene.add(placed[-1]), rng)
 
 
@@ -345,7 +364,11 @@ def _strew(scene: Scene, rng: Generator) -> None:
         thing = _small(rng)
         x, y = (float(rng.uniform(0.2, side - 0.2)) for side in scene.extent_m)
         item = replace(thing, bottom_m=(x, y, 0.0), on=1)
-        others = [o for o in scene.items[2:] if o.bottom_m[2] < 0.1 and o.category not in ("table", "desk", "bench", "chair", "door")]
+        others = [
+            o
+            for o in scene.items[2:]
+            if o.bottom_m[2] < 0.1 and o.category not in ("table", "desk", "bench", "chair", "door")
+        ]
         if all(math.dist((x, y), o.bottom_m[:2]) > o.radius_m() + item.radius_m() for o in others):
             scene.add(item)
 
@@ -354,7 +377,11 @@ def _people(scene: Scene, rng: Generator) -> None:
     for _ in range(int(rng.choice((0, 1, 2), p=(0.6, 0.3, 0.1)))):
         parts, size = random_person(rng)
         x, y = (float(rng.uniform(0.35, side - 0.35)) for side in scene.extent_m)
-        near = [o for o in scene.items[2:] if math.dist((x, y), o.bottom_m[:2]) < min(o.radius_m(), 0.6) + 0.35 and o.furniture]
+        near = [
+            o
+            for o in scene.items[2:]
+            if math.dist((x, y), o.bottom_m[:2]) < min(o.radius_m(), 0.6) + 0.35 and o.furniture
+        ]
         if near:
             continue
         yaw = float(rng.uniform(-math.pi, math.pi))
@@ -363,11 +390,19 @@ def _people(scene: Scene, rng: Generator) -> None:
         if holds:
             sleeve = next(part for part in parts if part.kind == "box" and abs(part.center_m[1]) > 0.15)
             parts += (box((0.18, hand * 0.24, 1.0), (0.28, 0.08, 0.08), sleeve.color),)
-        index = scene.add(Item(category="person", parts=parts, bottom_m=(x, y, 0.0), size_m=size, yaw_rad=yaw, furniture=False, on=None))
+        index = scene.add(
+            Item(
+                category="person", parts=parts, bottom_m=(x, y, 0.0), size_m=size, yaw_rad=yaw, furniture=False, on=None
+            )
+        )
         if holds:
             thing = _small(rng)
             at = to_house((x, y, yaw), (0.32, hand * 0.24))
-            scene.add(replace(thing, bottom_m=(at[0], at[1], 1.0 - float(rng.uniform(0.0, 0.5)) * thing.size_m[2]), held_by=index))
+            scene.add(
+                replace(
+                    thing, bottom_m=(at[0], at[1], 1.0 - float(rng.uniform(0.0, 0.5)) * thing.size_m[2]), held_by=index
+                )
+            )
 
 
 def visible_targets(scene: Scene) -> Iterator[tuple[Item, Size3]]:

@@ -1,6 +1,4 @@
-"""Shapes to learn from: the catalog's builders with their proportions and parts shaken, other builds of the same kinds of
-things, and things of no kind at all.
-"""
+"""Shapes to learn from: the catalog's builders with proportions and parts shaken, other builds, nameless things."""
 
 from __future__ import annotations
 
@@ -62,10 +60,10 @@ def random_size(category: str, rng: Generator) -> Size3:
 
 def random_color(rng: Generator, category: str | None = None) -> Rgb:
     """Any color; for kinds that are known by theirs, one like it."""
-    if category in _TRUE_COLORS and rng.random() < 0.93:
+    if category is not None and category in _TRUE_COLORS and rng.random() < 0.93:
         return shaken_color(color_of(str(rng.choice(_TRUE_COLORS[category]))), rng, 0.05)
     kind = rng.random()
-    if category in CATEGORIES and kind < 0.25:
+    if category is not None and category in CATEGORIES and kind < 0.25:
         return shaken_color(color_of(CATEGORIES[category].color), rng, 0.05)
     if kind < 0.6:
         base = _NAMED[int(rng.integers(len(_NAMED)))]
@@ -100,7 +98,9 @@ def random_person(rng: Generator) -> tuple[tuple[Part, ...], Size3]:
         replace(
             part,
             center_m=(part.center_m[0] * wide, part.center_m[1] * wide, part.center_m[2] * tall),
-            size_m=_size(np.array(part.size_m) * (wide, wide, tall) if part.kind != "sphere" else np.array(part.size_m)),
+            size_m=_size(
+                np.array(part.size_m) * (wide, wide, tall) if part.kind != "sphere" else np.array(part.size_m)
+            ),
             color=clothes[part.color],
         )
         for part in usual
@@ -184,7 +184,9 @@ def _cushioned_sofa(size: Size3, color: Rgb, rng: Generator) -> tuple[Part, ...]
         box((-w / 2 + 0.12 + wide * (k + 0.5), -0.08, h * 0.45), (wide - 0.02, d - 0.2, h * 0.16), light)
         for k in range(seats)
     ]
-    backs = [replace(c, center_m=(c.center_m[0], d * 0.26, h * 0.72), size_m=(wide - 0.02, 0.16, h * 0.4)) for c in cushions]
+    backs = [
+        replace(c, center_m=(c.center_m[0], d * 0.26, h * 0.72), size_m=(wide - 0.02, 0.16, h * 0.4)) for c in cushions
+    ]
     base = box((0.0, 0.0, h * 0.2), (w, d, h * 0.36), color)
     arms = [box((s * (w / 2 - 0.06), 0.0, h * 0.35), (0.12, d, h * 0.7), color) for s in (-1, 1)]
     return (base, box((0.0, d / 2 - 0.06, h * 0.45), (w, 0.12, h * 0.9), color), *arms, *cushions, *backs)
@@ -207,10 +209,16 @@ def _drawer_cabinet(size: Size3, color: Rgb, rng: Generator) -> tuple[Part, ...]
     metal = (0.55, 0.57, 0.6)
     columns = int(rng.integers(2, 4))
     fronts = [
-        box(((k + 0.5) / columns * w - w / 2, -d / 2, h * 0.5), (w / columns - 0.03, 0.008, h * 0.9), toward(color, _BLACK, 0.15))
+        box(
+            ((k + 0.5) / columns * w - w / 2, -d / 2, h * 0.5),
+            (w / columns - 0.03, 0.008, h * 0.9),
+            toward(color, _BLACK, 0.15),
+        )
         for k in range(columns)
     ]
-    knobs = [box((f.center_m[0] + 0.1 * w / columns, -d / 2 - 0.01, h * 0.6), (0.02, 0.02, 0.08), metal) for f in fronts]
+    knobs = [
+        box((f.center_m[0] + 0.1 * w / columns, -d / 2 - 0.01, h * 0.6), (0.02, 0.02, 0.08), metal) for f in fronts
+    ]
     return (box((0.0, 0.0, h / 2), size, color), *fronts, *knobs)
 
 
@@ -221,14 +229,20 @@ def _bushy_plant(size: Size3, color: Rgb, rng: Generator) -> tuple[Part, ...]:
     for _ in range(int(rng.integers(3, 7))):
         across = w * rng.uniform(0.35, 0.65)
         at = rng.uniform(-0.5, 0.5, 2) * (w - across)
-        leaves.append(sphere((at[0], at[1], rng.uniform(h * 0.5, h - across / 2)), across, shaken_color(color, rng, 0.07)))
+        leaves.append(
+            sphere((at[0], at[1], rng.uniform(h * 0.5, h - across / 2)), across, shaken_color(color, rng, 0.07))
+        )
     return (pot, cylinder(h * 0.3, 0.05, h * 0.35, (0.35, 0.25, 0.12)), *leaves)
 
 
 def _ball_lamp(size: Size3, color: Rgb, rng: Generator) -> tuple[Part, ...]:
     w, _, h = size
     metal = random_color(rng)
-    return (cylinder(0.0, w * 0.7, 0.03, metal), cylinder(0.03, 0.035, h - w * 0.9, metal), sphere((0.0, 0.0, h - w * 0.4), w * 0.8, color))
+    return (
+        cylinder(0.0, w * 0.7, 0.03, metal),
+        cylinder(0.03, 0.035, h - w * 0.9, metal),
+        sphere((0.0, 0.0, h - w * 0.4), w * 0.8, color),
+    )
 
 
 def _shouldered_bottle(size: Size3, color: Rgb, rng: Generator) -> tuple[Part, ...]:
@@ -254,7 +268,13 @@ def _sitting_teddy(size: Size3, color: Rgb, rng: Generator) -> tuple[Part, ...]:
     head = sphere((0.0, 0.0, h * 0.76), h * 0.4, color)
     ears = [sphere((s * h * 0.17, 0.0, h * 0.94), h * 0.15, color) for s in (-1, 1)]
     legs = [sphere((s * w * 0.3, -d * 0.4, h * 0.12), h * 0.22, color) for s in (-1, 1)]
-    return (sphere((0.0, 0.0, h * 0.34), h * 0.58, color), head, *ears, *legs, sphere((0.0, -h * 0.17, h * 0.72), h * 0.13, light))
+    return (
+        sphere((0.0, 0.0, h * 0.34), h * 0.58, color),
+        head,
+        *ears,
+        *legs,
+        sphere((0.0, -h * 0.17, h * 0.72), h * 0.13, light),
+    )
 
 
 def _handled_mug(size: Size3, color: Rgb, rng: Generator) -> tuple[Part, ...]:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterable, Sequence
 from pathlib import Path
+from typing import Any
 
 import cv2
 import numpy as np
@@ -17,7 +17,7 @@ from training.names import CLASSES, UNKNOWN
 
 def save_shard(file: Path, photographs: Sequence[Photograph]) -> None:
     """Write ``photographs`` at once: the file is there in full or not at all."""
-    columns = {
+    columns: dict[str, list[NDArray[np.generic]]] = {
         "rgb": [_png(photo.rgb) for photo in photographs],
         "ids": [_png(photo.ids) for photo in photographs],
         "classes": [_classes(photo) for photo in photographs],
@@ -28,15 +28,15 @@ def save_shard(file: Path, photographs: Sequence[Photograph]) -> None:
     arrays |= {f"{name}_end": np.cumsum([len(row) for row in column]) for name, column in columns.items()}
     part = file.with_suffix(".part")
     with part.open("wb") as stream:
-        np.savez(stream, **arrays)  # type: ignore[arg-type]
-    os.replace(part, file)
+        np.savez(stream, allow_pickle=False, **arrays)
+    part.replace(file)
 
 
 class Examples:
     """Labeled pictures of some shards, kept compressed in memory and unpacked one by one."""
 
     def __init__(self, files: Iterable[Path]) -> None:
-        self._rows: list[tuple[NDArray[np.uint8], ...]] = []
+        self._rows: list[tuple[Any, ...]] = []
         for file in files:
             with np.load(file) as shard:
                 parts = {
@@ -48,15 +48,17 @@ class Examples:
     def __len__(self) -> int:
         return len(self._rows)
 
-    def __getitem__(self, index: int) -> tuple[NDArray[np.uint8], NDArray[np.uint8], NDArray[np.int16], NDArray[np.float32], NDArray[np.int16]]:
+    def __getitem__(
+        self, index: int
+    ) -> tuple[NDArray[np.uint8], NDArray[np.uint8], NDArray[np.int16], NDArray[np.float32], NDArray[np.int16]]:
         """``rgb`` (H, W, 3), ``ids`` (H, W), ``classes`` (N,), ``distances_m`` (N,), ``relations`` (R, 3).
 
         Classes index ``CLASSES`` or are ``UNKNOWN``; relations are subject, predicate, object.
         """
         rgb, ids, classes, distances_m, relations = self._rows[index]
         return (
-            cv2.imdecode(rgb, cv2.IMREAD_COLOR)[:, :, ::-1],
-            cv2.imdecode(ids, cv2.IMREAD_GRAYSCALE),
+            _picture(rgb, cv2.IMREAD_COLOR)[:, :, ::-1],
+            _picture(ids, cv2.IMREAD_GRAYSCALE),
             classes,
             distances_m,
             relations.reshape(-1, 3),
@@ -67,6 +69,13 @@ def _png(picture: NDArray[np.uint8]) -> NDArray[np.uint8]:
     ordered = picture[:, :, ::-1] if picture.ndim == 3 else picture
     _, packed = cv2.imencode(".png", ordered, [cv2.IMWRITE_PNG_COMPRESSION, 3])
     return np.asarray(packed, dtype=np.uint8).ravel()
+
+
+def _picture(packed: NDArray[np.uint8], how: int) -> NDArray[np.uint8]:
+    picture = cv2.imdecode(packed, how)
+    if picture is None:
+        raise ValueError("a picture of a shard cannot be read")
+    return np.asarray(picture, dtype=np.uint8)
 
 
 def _classes(photo: Photograph) -> NDArray[np.int16]:

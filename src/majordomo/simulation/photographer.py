@@ -1,4 +1,4 @@
-"""Takes pictures of a house from where a robot could stand, with the truth about them. For scoring and training only."""
+"""Takes pictures of a house from where a robot could stand, with the truth about them: for scoring and training."""
 
 from __future__ import annotations
 

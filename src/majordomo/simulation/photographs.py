@@ -57,9 +57,7 @@ def photograph(
     )
 
 
-def _seen(
-    ids: NDArray[np.uint8], depth_m: NDArray[np.float64] | NDArray[np.float32], count: int
-) -> list[Seen | None]:
+def _seen(ids: NDArray[np.uint8], depth_m: NDArray[np.float64] | NDArray[np.float32], count: int) -> list[Seen | None]:
     places: list[Seen | None] = [None] * count
     pixels = np.bincount(ids.ravel(), minlength=256)
     for index, window in enumerate(ndimage.find_objects(ids.astype(np.int32) + 1, max_label=count)):

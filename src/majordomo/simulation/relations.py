@@ -1,8 +1,8 @@
 """What is true between the things of a picture, from geometry: for scoring networks, and for training them.
 
-Predicates: on, in, beside, in front of, over, under, attached to, holding. A pair has at most one; what carries, holds or
-contains says more than where something merely is, and comes first. *In front of* is meant from the viewer's place, as in
-the PSG dataset; the others hold from everywhere.
+Predicates: on, in, beside, in front of, over, under, attached to, holding. A pair has at most one; what carries, holds
+or contains says more than where something merely is, and comes first. *In front of* is meant from the viewer's place,
+as in the PSG dataset; the others hold from everywhere.
 """
 
 from __future__ import annotations
@@ -80,14 +80,14 @@ def true_relations(solids: Sequence[Solid], seen: Sequence[Seen | None]) -> tupl
 def _contacts(solids: Sequence[Solid], seen: Sequence[Seen | None]) -> Iterator[Relation]:
     for index, solid in enumerate(solids):
         bearers = (
-            (solid.held_by, lambda other, me: (other, "holding", me)),
-            (solid.inside, lambda other, me: (me, "in", other)),
-            (solid.on, lambda other, me: (me, "on", other)),
-            (solid.attached_to, lambda other, me: (me, "attached to", other)),
+            ("holding", solid.held_by),
+            ("in", solid.inside),
+            ("on", solid.on),
+            ("attached to", solid.attached_to),
         )
-        for other, relation in bearers:
+        for predicate, other in bearers:
             if other is not None and seen[index] is not None and seen[other] is not None:
-                yield relation(other, index)
+                yield (other, predicate, index) if predicate == "holding" else (index, predicate, other)
                 break
 
 
@@ -160,4 +160,5 @@ def _half_along(solid: Solid, axis: NDArray[np.float64]) -> float:
 
 def _turned(points: NDArray[np.float64], yaw_rad: float) -> NDArray[np.float64]:
     cos, sin = math.cos(yaw_rad), math.sin(yaw_rad)
-    return points @ np.array([[cos, sin], [-sin, cos]])
+    turned: NDArray[np.float64] = points @ np.array([[cos, sin], [-sin, cos]])
+    return turned

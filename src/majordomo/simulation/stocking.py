@@ -34,11 +34,11 @@ def stocked_house(*, seed: int) -> House:
     things = [thing for piece in furniture for thing in _load(piece, rng)]
     things += [thing for room in house.rooms for thing in _strewn(room, furniture, rng)]
     people = [person for room in house.rooms for person in _visitor(room, furniture, rng)]
-    doors = tuple(
-        door.model_copy(update={"state": "closed"}) if rng.random() < 0.2 else door for door in house.doors
-    )
+    doors = tuple(door.model_copy(update={"state": "closed"}) if rng.random() < 0.2 else door for door in house.doors)
     objects = tuple(thing.model_copy(update={"id": f"thing_{number}"}) for number, thing in enumerate(things))
-    return house.model_copy(update={"furniture": furniture, "objects": objects, "people": tuple(people), "doors": doors})
+    return house.model_copy(
+        update={"furniture": furniture, "objects": objects, "people": tuple(people), "doors": doors}
+    )
 
 
 def _another(piece: Furniture, rng: np.random.Generator) -> Furniture:

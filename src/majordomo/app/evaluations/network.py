@@ -119,7 +119,9 @@ def _print(report: dict[str, Any], console: Console) -> None:
     for name in ("relation_mean_recall_at_20", "support_recall_at_20"):
         summary.add_row(name.replace("_", " "), _share(report[name]), "")
     model = report["model"]
-    summary.add_row(f"milliseconds a frame, {model['threads']} threads", f"{model['median_ms']:.1f}", f"<= {AIM_MS:.0f}")
+    summary.add_row(
+        f"milliseconds a frame, {model['threads']} threads", f"{model['median_ms']:.1f}", f"<= {AIM_MS:.0f}"
+    )
     summary.add_row("file, MB", f"{model['megabytes']:.1f}", f"<= {AIM_MB:.0f}")
     for low, value in report["recall_by_pixels"].items():
         summary.add_row(f"recall from {low} pixels up to the next", _share(value), "")

@@ -11,7 +11,7 @@ from rich.progress import track
 
 from majordomo.perception.network.shipped import SHIPPED
 from training.collecting import collect, shards
-from training.quantities import HOUSE_PICTURES, MINUTES, ROOM_PICTURES
+from training.quantities import HOUSE_PICTURES, ROOM_PICTURES, STEPS
 
 commands = typer.Typer(help="Make the panoptic scene graph network: pictures, training, file.", no_args_is_help=True)
 console = Console()
@@ -40,7 +40,7 @@ def pictures(
 @commands.command()
 def fit(
     folder: Folder = DEFAULT,
-    minutes: Annotated[float, typer.Option(min=0.1, help="How long.")] = MINUTES,
+    steps: Annotated[int, typer.Option(min=1, help="How long.")] = STEPS,
     seed: Seed = 1,
 ) -> None:
     """Train on the pictures in the folder; an interrupted training goes on."""
@@ -50,7 +50,7 @@ def fit(
     train(
         lambda: sorted(folder.glob("*/*.npz")),
         checkpoint=folder / "checkpoint.pt",
-        course=Course(minutes=minutes, seed=seed),
+        course=Course(steps=steps, seed=seed),
         tell=console.print,
     )
 

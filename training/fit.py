@@ -1,4 +1,4 @@
-"""Training: pictures in, a checkpoint after every pass, to go on from."""
+"""Training: pictures in, a checkpoint every minute, to go on from."""
 
 from __future__ import annotations
 
@@ -24,11 +24,11 @@ _CLIP = 5.0
 
 @dataclass(frozen=True, kw_only=True)
 class Course:
-    """How long and how fast. ``minutes``: the learning rate falls to nothing within them."""
+    """How long and how fast. ``steps``: the learning rate falls to nothing within them; ``rate``: where it begins."""
 
-    minutes: float = 90.0
-    batch: int = 24
-    rate: float = 1.6e-3
+    steps: int
+    batch: int = 16
+    rate: float = 1.4e-3
     weight_decay: float = 0.02
     warm_up_steps: int = 300
     workers: int = 1
@@ -40,22 +40,22 @@ def fit(
 ) -> Network:
     """The mean of the network over the last steps. ``shards`` is asked again before every pass.
 
-    Goes on from ``checkpoint`` where there is one, with the time that is left of the course.
+    Goes on from ``checkpoint`` where there is one, with the steps that are left of the course.
     """
     torch.manual_seed(course.seed)
     network = Network().to(memory_format=torch.channels_last)
     mean = copy.deepcopy(network)
     optimizer = torch.optim.AdamW(network.parameters(), lr=course.rate, weight_decay=course.weight_decay, fused=True)
-    used_s, step, passes = 0.0, 0, 0
+    step, passes = 0, 0
     if checkpoint.exists():
         kept = torch.load(checkpoint, weights_only=True)
         network.load_state_dict(kept["network"])
         mean.load_state_dict(kept["mean"])
         optimizer.load_state_dict(kept["optimizer"])
-        used_s, step, passes = kept["used_s"], kept["step"], kept["passes"]
+        step, passes = kept["step"], kept["passes"]
     sums: dict[str, float] = {}
     said, told_s = 0, time.monotonic()
-    while used_s < 60.0 * course.minutes:
+    while step < course.steps:
         passes += 1
         lessons = Lessons(Examples(shards()), vary=True)
         torch.manual_seed(course.seed * 1000 + passes)
@@ -63,27 +63,24 @@ def fit(
             lessons, course.batch, shuffle=True, drop_last=True, num_workers=course.workers, collate_fn=batch_of,
             prefetch_factor=4 if course.workers else None,
         )  # fmt: skip
-        last_s = time.monotonic()
         for batch in loader:
-            progress = min(used_s / (60.0 * course.minutes), 1.0)
             warm = min(1.0, (step + 1) / course.warm_up_steps)
             for group in optimizer.param_groups:
-                group["lr"] = course.rate * warm * max(0.5 * (1.0 + math.cos(math.pi * progress)), 1e-3)
+                group["lr"] = course.rate * warm * 0.5 * (1.0 + math.cos(math.pi * step / course.steps))
             parts = _step(network, batch, optimizer)
             step += 1
             _follow(mean, network, min(_KEEP, (1.0 + step) / (10.0 + step)))
             for name, value in parts.items():
                 sums[name] = sums.get(name, 0.0) + value
-            used_s, last_s = used_s + time.monotonic() - last_s, time.monotonic()
             if time.monotonic() - told_s > 60.0:
                 rate = (step - said) * course.batch / (time.monotonic() - told_s)
                 means = "  ".join(f"{name} {value / (step - said):.3f}" for name, value in sums.items())
-                tell(f"{used_s / 60:5.1f} min, pass {passes} of {len(lessons)}, step {step}, {rate:.0f}/s: {means}")
+                tell(f"step {step} of {course.steps}, {len(lessons)} pictures, {rate:.0f}/s: {means}")
                 sums, said, told_s = {}, step, time.monotonic()
-                _save(checkpoint, network, mean, optimizer, used_s, step, passes)
-            if used_s >= 60.0 * course.minutes:
+                _save(checkpoint, network, mean, optimizer, step, passes)
+            if step >= course.steps:
                 break
-    _save(checkpoint, network, mean, optimizer, used_s, step, passes)
+    _save(checkpoint, network, mean, optimizer, step, passes)
     return mean
 
 
@@ -119,9 +116,9 @@ def _follow(mean: Network, network: Network, keep: float) -> None:
 
 
 def _save(
-    file: Path, network: Network, mean: Network, optimizer: torch.optim.Optimizer, used_s: float, step: int, passes: int
+    file: Path, network: Network, mean: Network, optimizer: torch.optim.Optimizer, step: int, passes: int
 ) -> None:
     part = file.with_suffix(".part")
     state = {"network": network.state_dict(), "mean": mean.state_dict(), "optimizer": optimizer.state_dict()}
-    torch.save({**state, "used_s": used_s, "step": step, "passes": passes}, part)
+    torch.save({**state, "step": step, "passes": passes}, part)
     part.replace(file)

@@ -8,7 +8,7 @@ from torch.nn import functional
 
 from training.dataset import Batch
 from training.names import STUFF, UNKNOWN
-from training.network import BACKGROUND, HEIGHT, PEAKS, STRIDES, WIDTH, Answers, Network
+from training.network import BACKGROUND, HEIGHT, HINTS, PEAKS, STRIDES, WIDTH, Answers, Network
 
 _STUFF = len(STUFF)
 _BACKGROUND_WEIGHT = 0.6
@@ -67,7 +67,25 @@ def losses(network: Network, batch: Batch) -> dict[str, Tensor]:
         cells, row_of = assigned(network.peaks(features), batch)
         standing = _standing(row_of)
     found = network.answers(features, cells, standing)
-    return {"heat": 1.0 * heat, **_of_answers(found, row_of, standing, batch)}
+    hint = sum(
+        _of_cells(tell(features.pyramid[level]), batch, 4 << level)
+        for tell, level in zip(network.hints, HINTS, strict=True)
+    )
+    return {"heat": 1.0 * heat, "hint": 0.5 * hint, **_of_answers(found, row_of, standing, batch)}
+
+
+def _of_cells(logits: Tensor, batch: Batch, stride: int) -> Tensor:
+    """Cross entropy of the kinds of what cells show; what is large counts as the root of its cells."""
+    ids = batch.ids[:, stride // 2 :: stride, stride // 2 :: stride].long()
+    count = batch.classes.shape[1]
+    shown = ids < count
+    row = ids.clamp(max=count - 1).flatten(1)
+    kind = batch.classes.gather(1, row).reshape(ids.shape)
+    kind = torch.where(shown & (kind != UNKNOWN), kind, -1)
+    cells = torch.zeros(len(ids), count).scatter_add_(1, row, shown.flatten(1).float())
+    weight = (kind >= 0) / cells.clamp(min=1).sqrt().gather(1, row).reshape(ids.shape)
+    entropy = functional.cross_entropy(logits.float(), kind.clamp(min=0), reduction="none")
+    return (entropy * weight).sum() / weight.sum().clamp(min=1)
 
 
 def _standing(row_of: Tensor) -> Tensor:

@@ -19,6 +19,8 @@ HEIGHT, WIDTH = 192, 256
 STRIDES = (4, 16)
 """Of the heat maps of smaller and of larger things."""
 PEAKS = (30, 12)
+HINTS = (1, 2)
+"""Levels of the pyramid, at strides 8 and 16, that training asks for the kind of what every cell shows."""
 QUERIES = len(STUFF) + sum(PEAKS)
 TRIPLETS = 64
 BACKGROUND = len(CLASSES)
@@ -174,6 +176,8 @@ class Network(nn.Module):
         self.subject, self.object = nn.Linear(_DIM, 96), nn.Linear(_DIM, 96)
         self.between = nn.Linear(_GEOMETRY, 96)
         self.relation = nn.Sequential(nn.Linear(96, 96), nn.ReLU(), nn.Linear(96, len(PREDICATES) + 1))
+        self.hints = nn.ModuleList(nn.Conv2d(_PYRAMID, BACKGROUND, 1) for _ in HINTS)
+        """Kinds of what single cells show: to learn faster by; exported networks are without."""
 
     def features(self, image: Tensor) -> Features:
         """Of normalized images (B, 3, H, W)."""

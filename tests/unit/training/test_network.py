@@ -1,0 +1,79 @@
+"""The network learns, and its file keeps the contract. For where PyTorch and onnx are: ``pip install '.[train]'``."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+pytest.importorskip("torch")
+pytest.importorskip("onnx")
+
+import torch
+
+torch.set_num_threads(1)
+
+from majordomo.perception.network.model import OnnxPanopticModel
+from training.dataset import Lessons, batch_of
+from training.export import export
+from training.fit import Course, fit, trained
+from training.losses import assigned, losses
+from training.names import CLASSES, STUFF
+from training.network import HEIGHT, PEAKS, QUERIES, WIDTH, Network
+from training.photographs import photographs
+from training.shards import Examples, save_shard
+
+
+@pytest.fixture(scope="module")
+def shard(tmp_path_factory):
+    file = tmp_path_factory.mktemp("shards") / "one.npz"
+    rng = np.random.default_rng(5)
+    save_shard(file, [picture for _ in range(4) for picture in photographs(rng)])
+    return file
+
+
+def test_answers_are_of_the_stated_shapes():
+    network = Network().eval()
+    with torch.no_grad():
+        features = network.features(torch.zeros(2, 3, HEIGHT, WIDTH))
+        found = network.answers(features, network.peaks(features))
+    assert found.classes.shape == (2, QUERIES, len(CLASSES) + 1)
+    assert found.masks.shape == (2, QUERIES, HEIGHT // 4, WIDTH // 4)
+    assert found.relations.shape[:3] == (2, QUERIES, QUERIES)
+
+
+def test_every_thing_is_answered_for_once(shard):
+    batch = batch_of([Lessons(Examples([shard]), vary=False)[k] for k in range(6)])
+    network = Network().eval()
+    with torch.no_grad():
+        cells, row_of = assigned(network.peaks(network.features(batch.image)), batch)
+    assert [cell.shape[1] for cell in cells] == list(PEAKS)
+    for b in range(6):
+        rows = row_of[b][row_of[b] >= 0].tolist()
+        assert len(rows) == len(set(rows))
+        things = int(batch.there[b, len(STUFF) :].sum())
+        assert sum(row >= len(STUFF) for row in rows) >= min(things, 5)
+
+
+def test_a_few_steps_make_the_losses_smaller(shard):
+    torch.manual_seed(0)
+    batch = batch_of([Lessons(Examples([shard]), vary=False)[k] for k in range(6)])
+    network = Network()
+    optimizer = torch.optim.AdamW(network.parameters(), lr=1e-3)
+    totals = []
+    for _ in range(12):
+        total = torch.stack([part.float() for part in losses(network, batch).values()]).sum()
+        optimizer.zero_grad()
+        total.backward()
+        optimizer.step()
+        totals.append(float(total))
+    assert np.isfinite(totals).all()
+    assert totals[-1] < 0.8 * totals[0]
+
+
+def test_training_leaves_a_checkpoint_from_which_a_file_is_written_that_the_product_reads(shard, tmp_path):
+    checkpoint = tmp_path / "checkpoint.pt"
+    fit(lambda: [shard], checkpoint=checkpoint, course=Course(steps=2, batch=4, workers=0), tell=lambda line: None)
+    export(trained(checkpoint), tmp_path / "network.onnx")
+    model = OnnxPanopticModel.load(tmp_path / "network.onnx")
+    assert model.description.classes == CLASSES
+    assert (tmp_path / "network.onnx").stat().st_size < 12e6

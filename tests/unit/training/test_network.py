@@ -10,8 +10,6 @@ pytest.importorskip("onnx")
 
 import torch
 
-torch.set_num_threads(1)
-
 from majordomo.perception.network.model import OnnxPanopticModel
 from training.dataset import Lessons, batch_of
 from training.export import export
@@ -21,6 +19,12 @@ from training.names import CLASSES, STUFF
 from training.network import HEIGHT, PEAKS, QUERIES, WIDTH, Network
 from training.photographs import photographs
 from training.shards import Examples, save_shard
+
+
+@pytest.fixture(scope="module", autouse=True)
+def one_thread():
+    """Threads that wait for each other cost more than they give beside other work."""
+    torch.set_num_threads(1)
 
 
 @pytest.fixture(scope="module")

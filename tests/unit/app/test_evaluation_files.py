@@ -9,8 +9,8 @@ from majordomo.app.evaluations.commands import evaluations
 from majordomo.perception.network.errors import NetworkRefused
 from majordomo.simulation.errors import HouseError
 
-WITH_JSON = ("demo", "mapping", "noise", "localization", "resources", "rates", "tracking", "perception")
-WITH_PLOT = ("mapping", "noise", "localization", "resources", "tracking", "perception")
+WITH_JSON = ("demo", "mapping", "noise", "localization", "resources", "rates", "tracking", "perception", "changes")
+WITH_PLOT = ("mapping", "noise", "localization", "resources", "tracking", "perception", "changes")
 
 
 def refusal(*arguments):
@@ -36,7 +36,7 @@ def test_a_picture_is_a_png(evaluation, tmp_path):
     assert list(tmp_path.iterdir()) == []
 
 
-WITH_MODEL = ("perception",)
+WITH_MODEL = ("perception", "changes")
 
 
 @pytest.mark.parametrize("evaluation", WITH_MODEL)

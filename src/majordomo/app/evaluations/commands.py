@@ -243,6 +243,26 @@ def evaluate_perception(
     raise typer.Exit(0 if good else 1)
 
 
+@evaluations.command("changes")
+def evaluate_changes(
+    houses: Stocked = 4,
+    house: Looked = None,
+    changes: Annotated[int, typer.Option(min=1, help="In each house: moved, removed and brought in turn.")] = 15,
+    model: Network = None,
+    json_file: JsonFile = None,
+    plot: Plot = None,
+    jobs: Jobs = 2,
+) -> None:
+    """Move, remove and add things behind the robot's back, let it look once, and count what it noticed."""
+    from majordomo.app.evaluations.changes import evaluate
+
+    names = _stocked(houses, house)
+    good = evaluate(
+        houses=names, changes=changes, model=model, jobs=jobs, json_file=json_file, plot_file=plot, console=console
+    )
+    raise typer.Exit(0 if good else 1)
+
+
 def _stocked(houses: int, house: list[str] | None) -> list[str]:
     """Houses by name, or so many stocked ones when none is named."""
     names = house or [f"stocked:{number}" for number in range(houses)]

@@ -25,7 +25,7 @@ from majordomo.app.evaluations.inventory import graph_contents, true_things
 from majordomo.app.evaluations.mapping import house_of as mapped_house_of
 from majordomo.app.evaluations.onlooker import Onlooker
 from majordomo.app.evaluations.plots import save
-from majordomo.app.evaluations.pool import run_all
+from majordomo.app.evaluations.pool import run_all, tell
 from majordomo.app.runtime import Runtime
 from majordomo.perception.network.model import OnnxPanopticModel
 from majordomo.simulation.house import House
@@ -109,6 +109,7 @@ async def _run(name: str, house: House, model: Path | None) -> dict[str, Any]:
     async with service_in_lockstep(house, 0, camera=True, model=model, witnesses=onlookers) as runtime:
         started = time.monotonic()
         explored = await until_explored(runtime, house)
+        tell(f"{name}: {'explored' if explored else 'given up'} after {runtime.now_s:.0f} simulated seconds")
         await pass_time(runtime, _SETTLE_S)
         truth = await runtime.require_robot().truth()
         onlooker = made[0]

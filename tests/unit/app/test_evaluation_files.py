@@ -6,9 +6,11 @@ import pytest
 from typer.testing import CliRunner
 
 from majordomo.app.evaluations.commands import evaluations
+from majordomo.perception.network.errors import NetworkRefused
+from majordomo.simulation.errors import HouseError
 
-WITH_JSON = ("demo", "mapping", "noise", "localization", "resources", "rates", "tracking")
-WITH_PLOT = ("mapping", "noise", "localization", "resources", "tracking")
+WITH_JSON = ("demo", "mapping", "noise", "localization", "resources", "rates", "tracking", "perception", "changes")
+WITH_PLOT = ("mapping", "noise", "localization", "resources", "tracking", "perception", "changes")
 
 
 def refusal(*arguments):
@@ -32,3 +34,26 @@ def test_a_file_is_no_folder_to_write_in(evaluation, tmp_path):
 def test_a_picture_is_a_png(evaluation, tmp_path):
     assert ".png" in refusal(evaluation, "--plot", str(tmp_path / "out.gif"))
     assert list(tmp_path.iterdir()) == []
+
+
+WITH_MODEL = ("perception", "changes")
+
+
+@pytest.mark.parametrize("evaluation", WITH_MODEL)
+def test_a_network_that_is_not_there_is_refused_by_name(evaluation, tmp_path):
+    assert "does not exist" in refusal(evaluation, "--model", str(tmp_path / "none.onnx"))
+
+
+@pytest.mark.parametrize("evaluation", WITH_MODEL)
+def test_at_least_one_house_is_looked_at(evaluation):
+    assert "there is no house to look at" in refusal(evaluation, "--houses", "0")
+
+
+@pytest.mark.parametrize("evaluation", WITH_MODEL)
+def test_what_is_no_house_and_what_is_no_network_is_said_before_anything_is_measured(evaluation, tmp_path):
+    file = tmp_path / "file"
+    file.write_text("nothing of the kind", encoding="utf-8")
+    no_house = CliRunner().invoke(evaluations, [evaluation, "--house", str(file)])
+    assert isinstance(no_house.exception, HouseError)
+    no_network = CliRunner().invoke(evaluations, [evaluation, "--house", "flat", "--model", str(file)])
+    assert isinstance(no_network.exception, NetworkRefused)

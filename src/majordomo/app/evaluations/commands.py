@@ -46,6 +46,25 @@ Plot = Annotated[
     Path | None,
     typer.Option(dir_okay=False, writable=True, callback=_picture, help="Where to draw them, a PNG file."),
 ]
+Network = Annotated[
+    Path | None,
+    typer.Option(
+        "--model",
+        envvar="MAJORDOMO_MODEL",
+        exists=True,
+        dir_okay=False,
+        readable=True,
+        help="The network that the robot sees with, an ONNX file; the service's own when left out.",
+    ),
+]
+Stocked = Annotated[int, typer.Option(min=0, help="How many stocked houses, of two to six rooms.")]
+Looked = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--house",
+        help="House files, names of built-in houses, stocked:N or generated:N, instead of --houses; repeat it.",
+    ),
+]
 Jobs = Annotated[int, typer.Option(min=1, help="Runs at the same time.")]
 
 
@@ -205,3 +224,48 @@ def evaluate_network(
         console=console,
     )
     raise typer.Exit(0 if good else 1)
+
+
+@evaluations.command("perception")
+def evaluate_perception(
+    houses: Stocked = 4,
+    house: Looked = None,
+    model: Network = None,
+    json_file: JsonFile = None,
+    plot: Plot = None,
+    jobs: Jobs = 2,
+) -> None:
+    """Let the robot look around in stocked houses, and compare every object in its graph with what is there."""
+    from majordomo.app.evaluations.perception import evaluate
+
+    names = _stocked(houses, house)
+    good = evaluate(houses=names, model=model, jobs=jobs, json_file=json_file, plot_file=plot, console=console)
+    raise typer.Exit(0 if good else 1)
+
+
+@evaluations.command("changes")
+def evaluate_changes(
+    houses: Stocked = 4,
+    house: Looked = None,
+    changes: Annotated[int, typer.Option(min=1, help="In each house: moved, removed and brought in turn.")] = 15,
+    model: Network = None,
+    json_file: JsonFile = None,
+    plot: Plot = None,
+    jobs: Jobs = 2,
+) -> None:
+    """Move, remove and add things behind the robot's back, let it look once, and count what it noticed."""
+    from majordomo.app.evaluations.changes import evaluate
+
+    names = _stocked(houses, house)
+    good = evaluate(
+        houses=names, changes=changes, model=model, jobs=jobs, json_file=json_file, plot_file=plot, console=console
+    )
+    raise typer.Exit(0 if good else 1)
+
+
+def _stocked(houses: int, house: list[str] | None) -> list[str]:
+    """Houses by name, or so many stocked ones when none is named."""
+    names = house or [f"stocked:{number}" for number in range(houses)]
+    if not names:
+        raise typer.BadParameter("there is no house to look at: name one with --house, or ask for some with --houses")
+    return names

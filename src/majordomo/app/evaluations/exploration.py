@@ -58,15 +58,25 @@ async def service_in_lockstep(
     seed: int,
     *,
     camera: bool = False,
+    model: Path | None = None,
     witnesses: Callable[[Runtime], Sequence[Agent]] | None = None,
 ) -> AsyncIterator[Runtime]:
-    """A service with its robot in a house, as fast as the machine allows, forgotten afterwards."""
+    """A service with its robot in a house, as fast as the machine allows, forgotten afterwards.
+
+    ``model``: file of the network that its camera looks through; ``None`` for the one that the service has by itself.
+    """
     logging.getLogger("majordomo").setLevel(logging.ERROR)
     with tempfile.TemporaryDirectory(prefix="majordomo-evaluate-") as folder:
         file = Path(folder) / "house.json"
         file.write_text(house.model_dump_json(by_alias=True, exclude_none=True), encoding="utf-8")
         settings = Settings(
-            house=str(file), seed=seed, clock=ClockMode.LOCKSTEP, speed=None, camera=camera, data=Path(folder)
+            house=str(file),
+            seed=seed,
+            clock=ClockMode.LOCKSTEP,
+            speed=None,
+            camera=camera,
+            data=Path(folder),
+            model=model or Settings.model_fields["model"].default,
         )
         runtime = Runtime(settings, witnesses=witnesses)
         async with runtime.running():

@@ -30,6 +30,11 @@ def run_all(
         return [future.result() for future in futures]
 
 
+def tell(line: str) -> None:
+    """One line of progress from within a run; to standard error, since many processes may say something."""
+    Console(stderr=True).print(line, markup=False, highlight=False)
+
+
 def _end_with(parent: int) -> None:
     """End this process when its parent does, however that came about: nobody would read the result."""
 

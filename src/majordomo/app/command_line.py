@@ -41,6 +41,7 @@ Data = Annotated[Path, typer.Option(help="Folder of token, logs and memory.")]
 
 def main() -> None:
     """Entry point; expected problems end with a sentence and exit code 2, never with a stack trace."""
+    from majordomo.app.runtime import RobotUnavailable
     from majordomo.app.server import RefusedToBind
     from majordomo.perception.network.errors import NetworkRefused
     from majordomo.planner.errors import BadModelSpec
@@ -50,7 +51,8 @@ def main() -> None:
     try:
         application()
     except (
-        RefusedToBind, HouseError, SimulatorError, SceneFormatError, BadModelSpec, NetworkRefused, OSError
+        RefusedToBind, HouseError, SimulatorError, RobotUnavailable, SceneFormatError, BadModelSpec, NetworkRefused,
+        OSError,
     ) as error:  # fmt: skip
         complaints.print(f"majordomo: {error}", style="red", markup=False, highlight=False)
         sys.exit(2)

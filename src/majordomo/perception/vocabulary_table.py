@@ -16,7 +16,7 @@ table, dining table, coffee table, side table, table-merged, nightstand, bedside
 desk | sf | 1.4 0.7 0.75 | furniture
 counter, kitchen counter, countertop, counter-other-merged, worktop, kitchen island | sf | 1.8 0.6 0.9 | furniture
 bench | sf | 1.2 0.4 0.45 | furniture seat
-stool | sfr | 0.35 0.35 0.5 | furniture seat
+stool | sfrl | 0.35 0.35 0.5 | furniture seat
 chair, armchair, office chair | sfl | 0.5 0.5 0.9 | furniture seat
 sofa, couch | sfl | 1.9 0.9 0.8 | furniture seat
 bed | sfl | 2.0 1.5 0.6 | furniture

@@ -108,6 +108,11 @@ def test_one_figure_that_falls_short_is_enough_to_miss_the_aim(figure):
     assert not met({**figures(), figure: worse})
 
 
+@pytest.mark.parametrize("figure", [*AT_LEAST, *AT_MOST])
+def test_what_could_not_be_measured_is_not_met(figure):
+    assert not met({**figures(), figure: None})
+
+
 def test_an_empty_graph_meets_no_aim():
     report = figures(replace(RIGHT, things=(), relations=()))
     assert report["recall"] == 0.0

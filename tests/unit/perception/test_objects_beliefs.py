@@ -8,11 +8,12 @@ from hypothesis import strategies as st
 from majordomo.perception.objects.beliefs import ColorBelief, LabelBelief, agreement, share_agreement
 from majordomo.perception.objects.center import CenterBelief, CenterSettings
 from majordomo.perception.objects.color import PALETTE, color_votes, named_color
+from majordomo.perception.objects.confirmation import is_double, is_fragment
 from majordomo.perception.objects.identity import IdentitySettings, departed, likeness, same_thing_moved
 from majordomo.perception.objects.membership import Surroundings, outside_distance_m
 from majordomo.perception.objects.raycast import Solid, look_at, render
 from majordomo.perception.objects.scripted import furnished_memory
-from majordomo.perception.objects.surface import Box
+from majordomo.perception.objects.surface import Box, SurfaceBelief
 from majordomo.perception.objects.track import Track, TrackSettings
 from majordomo.scene_graph.edges import ConnectsEdge, RtEdge
 from majordomo.scene_graph.edits import PutEdge, PutNode
@@ -41,6 +42,39 @@ def test_a_belief_can_be_turned_by_enough_frames():
     for _ in range(20):
         belief.update((("bowl", 0.9),))
     assert belief.best == "bowl"
+
+
+def test_frames_that_are_all_unsure_but_agree_give_a_name():
+    belief = LabelBelief()
+    for _ in range(8):
+        belief.update((("unknown", 0.56), ("sofa", 0.35), ("bed", 0.05), ("bench", 0.04)))
+    assert belief.best == "sofa"
+    assert belief.confidence > 0.9
+
+
+def test_what_looks_like_nothing_known_stays_unknown_and_one_lucky_frame_does_not_name_it():
+    random = np.random.default_rng(0)
+    belief = LabelBelief()
+    for _ in range(8):
+        shares = random.dirichlet(np.full(4, 8.0)) * 0.3
+        belief.update((("unknown", 0.7), *zip(LABELS, (float(share) for share in shares), strict=True)))
+    belief.update((("cup", 0.8), ("can", 0.1)))
+    assert belief.best == "unknown"
+
+
+def test_the_same_cupboard_under_two_names_is_one_and_a_chair_under_a_table_is_not():
+    def seen(label, size_m, number):
+        track = Track(number, "room_1", settings=TrackSettings(), random=np.random.default_rng(0))
+        track.label.update(((label, 0.95),))
+        track.place = SurfaceBelief.of(Box(np.array((0.0, 0.0, size_m[2] / 2)), size_m, 0.0))
+        return track
+
+    cabinet, sideboard = seen("cabinet", (0.9, 0.5, 0.9), 1), seen("sideboard", (0.95, 0.48, 0.85), 2)
+    assert is_double(cabinet, sideboard)
+    assert is_fragment(sideboard, cabinet)
+    table, chair = seen("table", (1.4, 0.9, 0.75), 3), seen("chair", (0.45, 0.45, 0.7), 4)
+    assert not is_double(table, chair)
+    assert not is_fragment(chair, table)
 
 
 @given(st.lists(st.tuples(st.sampled_from(LABELS), st.floats(0.0, 1.0)), min_size=1, max_size=20))

@@ -6,6 +6,8 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from majordomo.perception.panoptic import UNKNOWN_LABEL
+
 LabelDistribution = tuple[tuple[str, float], ...]
 
 
@@ -16,13 +18,20 @@ class LabelBelief:
     one, and the network is assumed to be wrong altogether with probability ``noise``. Odds are bounded: a belief can
     be turned.
 
+    What the network does not know it gives no name to speak of: no class is much likelier than the others. That a thing
+    has none of the known names is therefore as likely as ``nameless`` in every frame, and a class that gets more than
+    that time and again wins, be each single frame unsure or not.
+
     Attributes:
         distribution: (label, probability), most likely first, at most five. Something is left for other labels, except
             after a person's word.
     """
 
-    def __init__(self, *, noise: float = 0.1, evidence: float = 0.6, bound: float = 9.0) -> None:
+    def __init__(
+        self, *, noise: float = 0.1, evidence: float = 0.6, bound: float = 9.0, nameless: float = 0.35
+    ) -> None:
         self._noise = noise
+        self._nameless = nameless
         self._evidence = evidence
         self._bound = bound
         self._log: dict[str, float] = {}
@@ -34,7 +43,7 @@ class LabelBelief:
         """Multiply in one frame; ``weight`` in (0, 1] says how good the view was."""
         if self._taught:
             return
-        likelihood = {label: max(probability, 0.0) for label, probability in distribution}
+        likelihood = self._likelihood(distribution)
         floor = self._noise / 10.0
         labels = sorted({*self._log, *likelihood})
         scale = weight * self._evidence
@@ -44,6 +53,15 @@ class LabelBelief:
         self._rest += scale * float(np.log(floor))
         self._bound_odds()
         self.distribution = self._ranked()
+
+    def _likelihood(self, distribution: LabelDistribution) -> dict[str, float]:
+        """Of each label, given that it is right; classes of a frame that is unsure share everything among them."""
+        likelihood = {label: max(probability, 0.0) for label, probability in distribution}
+        known = 1.0 - likelihood.pop(UNKNOWN_LABEL, 0.0)
+        if known < 1.0 and likelihood:
+            likelihood = {label: probability / max(known, 1e-6) for label, probability in likelihood.items()}
+        top = max(likelihood.values(), default=0.0)
+        return {**likelihood, UNKNOWN_LABEL: 1.0 if not likelihood else min(self._nameless, 1.0 - min(top, 1.0))}
 
     def teach(self, label: str) -> None:
         """Take a person's word; what the network says no longer counts."""

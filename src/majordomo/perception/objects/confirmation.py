@@ -19,6 +19,7 @@ Places = Mapping[int, tuple[str, Array]]
 _SAME_PLACE_M = 0.12
 _BOX_MARGIN_M = 0.1
 _UNSEEN_S = 0.3
+_SAME_SPACE = 0.5
 
 
 def known_as(
@@ -90,20 +91,27 @@ def undecided(sighting: Track, known: Sequence[Track], settings: IdentitySetting
 
 
 def is_fragment(sighting: Track, track: Track) -> bool:
-    """Whether new furniture is a part of known furniture of the same kind: it lies within its box."""
+    """Whether new furniture is a part of known furniture: of the same kind, it lies within its box; of another, both
+    fill the same space.
+    """
     if not (sighting.is_furniture and track.is_furniture and track.room == sighting.room):
         return False
-    if track.label.best != sighting.label.best or track.state is not ObjectState.PRESENT:
+    if track.state is not ObjectState.PRESENT:
         return False
-    return _share_inside(sighting, track) > 0.3
+    inside = _share_inside(sighting, track)
+    if track.label.best == sighting.label.best:
+        return inside > 0.3
+    return inside > _SAME_SPACE and _share_inside(track, sighting) > _SAME_SPACE
 
 
 def is_double(one: Track, other: Track) -> bool:
-    """Whether two known pieces of furniture are one that was first seen from two sides: most of one lies in the
-    other.
+    """Whether two known pieces of furniture are one that was first seen from two sides, or under two names: of the same
+    kind, most of one lies in the other; of two kinds, as a chair pushed under a table, only if it is so both ways.
     """
-    alike = one.is_furniture and other.is_furniture and one.room == other.room and one.label.best == other.label.best
-    return alike and max(_share_inside(one, other), _share_inside(other, one)) > 0.5
+    if not (one.is_furniture and other.is_furniture and one.room == other.room):
+        return False
+    shares = _share_inside(one, other), _share_inside(other, one)
+    return (max(shares) if one.label.best == other.label.best else min(shares)) > _SAME_SPACE
 
 
 def _share_inside(part: Track, whole: Track) -> float:

@@ -167,6 +167,7 @@ class Track:
         """Take in a piece of furniture that turned out to be a part of this one."""
         if isinstance(self.place, SurfaceBelief) and isinstance(part.place, SurfaceBelief):
             self.place.absorb(part.place)
+        self.label.update(part.label.distribution)
         self.hits += part.hits
         self.misses = 0
         self.last_seen_s = max(self.last_seen_s, part.last_seen_s)

@@ -20,7 +20,7 @@ _LARGE = 1024
 MEAN, STD = (123.675, 116.28, 103.53), (58.395, 57.12, 57.375)
 
 
-THRESHOLDS: Mapping[str, float] = MappingProxyType({"something": 0.4, "relation": 0.1})
+THRESHOLDS: Mapping[str, float] = MappingProxyType({"something": 0.4, "relation": 0.1, "known": 0.3})
 
 
 class _Contract(nn.Module):

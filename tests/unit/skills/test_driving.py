@@ -198,6 +198,17 @@ async def test_a_sweep_stands_still_in_overlapping_views_all_around(flat):
     assert steps.max() < np.deg2rad(60)
 
 
+async def test_a_sweep_sees_what_is_higher_than_the_camera(flat):
+    rehearsal = Rehearsal(memory=flat().memory)
+    context = await rehearsal.prepare()
+    tilts = set()
+    rehearsal.observe = lambda rehearsal: tilts.add(round(rehearsal.body.camera[1], 2))
+    assert await rehearsal.run([SweepCamera(context)]) is None
+    half_rad = np.arctan(np.tan(np.deg2rad(30)) * 0.75)
+    assert max(tilts) + half_rad > atan2(2.1 - 1.4, 1.6), "the top of a wardrobe, 1.6 m away"
+    assert max(tilts) - min(tilts) < 2 * half_rad, "without a gap between the rows"
+
+
 async def test_a_looking_journey_ends_in_the_room_center_having_looked_around(flat):
     rehearsal = Rehearsal(memory=flat().memory, body=FakeBody(pose=Pose2(1.5, 1.5)))
     context = await rehearsal.prepare()

@@ -28,7 +28,7 @@ class LabelBelief:
     """
 
     def __init__(
-        self, *, noise: float = 0.1, evidence: float = 0.6, bound: float = 9.0, nameless: float = 0.35
+        self, *, noise: float = 0.1, evidence: float = 0.6, bound: float = 9.0, nameless: float = 0.2
     ) -> None:
         self._noise = noise
         self._nameless = nameless

@@ -27,7 +27,7 @@ class DetectionSettings:
 
     projection: ProjectionSettings = field(default_factory=ProjectionSettings)
     range_limit_m: float = 4.5
-    minimum_score: float = 0.3
+    minimum_score: float = 0.15
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -21,6 +21,8 @@ DWELL_S = 0.5
 """Long enough for two still frames at 5 Hz."""
 VIEWS = 8
 TILT_RAD = -0.38
+RAISED_RAD = 0.15
+"""Above what is seen at ``TILT_RAD``: the tops of wardrobes and shelves, and what hangs on walls."""
 
 
 class LookAt(Action):
@@ -58,7 +60,7 @@ class SweepCamera(Action):
     timeout_s = 60.0
 
     def __init__(
-        self, context: RobotContext, *, views: int = VIEWS, tilts_rad: tuple[float, ...] = (TILT_RAD,)
+        self, context: RobotContext, *, views: int = VIEWS, tilts_rad: tuple[float, ...] = (TILT_RAD, RAISED_RAD)
     ) -> None:
         super().__init__("look around", context)
         self._views, self._tilts_rad = views, tilts_rad

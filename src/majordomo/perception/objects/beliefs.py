@@ -27,9 +27,7 @@ class LabelBelief:
             after a person's word.
     """
 
-    def __init__(
-        self, *, noise: float = 0.1, evidence: float = 0.6, bound: float = 9.0, nameless: float = 0.2
-    ) -> None:
+    def __init__(self, *, noise: float = 0.1, evidence: float = 0.6, bound: float = 9.0, nameless: float = 0.2) -> None:
         self._noise = noise
         self._nameless = nameless
         self._evidence = evidence

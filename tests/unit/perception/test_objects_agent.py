@@ -483,3 +483,17 @@ def test_a_fragment_that_became_a_node_is_taken_back_into_the_older_node():
     graph = story.run(6)
     assert [n.label for n in graph.of_type(ObjectNode)] == ["table"]
     assert graph.object("table_1").size_m[0] == pytest.approx(2.4, abs=0.15)
+
+
+def test_a_stretch_of_wall_that_the_network_takes_for_a_fridge_is_none():
+    def at_the_wall(label, depth_m, width_m, height_m):
+        size_m = (depth_m, width_m, height_m)
+        return Solid(label=label, center=(3.0 - depth_m / 2, 0.0, height_m / 2 + 0.3), size_m=size_m)
+
+    def seen(solid):
+        graph = Story([solid], eye=(1.0, 0.0), target=(3.0, 0.0, 0.9)).run(8)
+        return [node.label for node in graph.of_type(ObjectNode)]
+
+    assert seen(at_the_wall("fridge", 0.02, 0.8, 1.2)) == []
+    assert seen(at_the_wall("shelf", 0.25, 0.8, 1.2)) == ["shelf"]
+    assert seen(at_the_wall("tv", 0.05, 0.8, 0.5)) == ["tv"], "what hangs on walls is there"

@@ -35,6 +35,7 @@ from majordomo.perception.objects.viewpoint import turning_radps, view_of
 from majordomo.perception.panoptic import PanopticModel, PanopticScene
 from majordomo.perception.ports import RgbdFrame
 from majordomo.perception.sensing import SensorBuffer
+from majordomo.perception.vocabulary import category_of
 from majordomo.scene_graph.edges import EdgeKey
 from majordomo.scene_graph.edits import Edit
 from majordomo.scene_graph.errors import TransactionRejected
@@ -43,17 +44,23 @@ from majordomo.scene_graph.nodes import ObjectState
 from majordomo.scene_graph.snapshot import Snapshot
 
 logger = logging.getLogger(__name__)
+_SPARSE = 4
 
 
 @dataclass(frozen=True, kw_only=True)
 class ObjectMemorySettings:
-    """Settings of every stage. ``silent_s``: age of the newest frame from which on the camera counts as silent."""
+    """Settings of every stage.
+
+    ``silent_s``: age of the newest frame from which on the camera counts as silent. ``wall_share``: of the points of
+    furniture; where so many are of walls, it is one.
+    """
 
     period_s: float = 0.2
     silent_s: float = 2.0
     inference_timeout_s: float = 10.0
     depth_share_min: float = 0.05
     in_hand_m: float = 0.12
+    wall_share: float = 0.85
     detection: DetectionSettings = field(default_factory=DetectionSettings)
     tracker: TrackerSettings = field(default_factory=TrackerSettings)
     people: PeopleSettings = field(default_factory=PeopleSettings)
@@ -161,7 +168,11 @@ class ObjectMemory:
         self._tracker.update(
             Sight(
                 view=view,
-                detections=[thing for thing in things if not self._in_hand(thing, view)],
+                detections=[
+                    thing
+                    for thing in things
+                    if not self._in_hand(thing, view) and not self._is_wall(thing, surroundings)
+                ],
                 surroundings=surroundings,
                 turning_radps=turning,
                 looked_before=self._inspection.looked(snapshot, stamp_s),
@@ -178,6 +189,15 @@ class ObjectMemory:
         in_room = (view.T_room_base @ self._hand.T_robot_object(self._hand.held)).translation_m
         near = np.linalg.norm(thing.cloud.points - in_room, axis=1) < self._settings.in_hand_m
         return float(near.mean()) > 0.5
+
+    def _is_wall(self, thing: Detection, surroundings: Surroundings) -> bool:
+        """Whether what the network takes for furniture is a stretch of a wall that is known: what stands on the floor
+        stands before it.
+        """
+        category = category_of(thing.label, thing.shape.size_m)
+        if not (category.furniture and (category.floor or not category.known)):
+            return False
+        return surroundings.in_walls(thing.cloud.points[::_SPARSE]) > self._settings.wall_share
 
     def _relate(self, surroundings: Surroundings, placed: frozenset[int], scene: PanopticScene | None) -> None:
         seen = frozenset(track.number for track in self._tracker.matches.values()) if scene is not None else frozenset()

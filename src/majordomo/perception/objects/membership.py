@@ -11,23 +11,30 @@ from majordomo.scene_graph.se3 import SE3
 from majordomo.scene_graph.snapshot import Snapshot
 
 Array = NDArray[np.float64]
+_FACE_M = 0.06
 MARGIN_M = 0.15
 """How far outside the inner face of a wall the center of a thing may be measured and still belong to the room."""
 
 
 def outside_distance_m(polygon_m: tuple[Point2, ...], point: Array) -> float:
     """Signed distance of a point (2,) from a simple polygon: negative inside, positive outside."""
+    return float(outside_distances_m(polygon_m, np.asarray(point, dtype=np.float64)[None])[0])
+
+
+def outside_distances_m(polygon_m: tuple[Point2, ...], points: Array) -> Array:
+    """(N,) the same for points (N, 2)."""
     corners = np.asarray(polygon_m, dtype=np.float64)
     ends = np.roll(corners, -1, axis=0)
     sides = ends - corners
     lengths = np.maximum((sides**2).sum(axis=1), 1e-12)
-    along = np.clip(((point - corners) * sides).sum(axis=1) / lengths, 0.0, 1.0)
-    distance = float(np.linalg.norm(corners + along[:, None] * sides - point, axis=1).min())
-    straddles = (corners[:, 1] > point[1]) != (ends[:, 1] > point[1])
+    away = points[:, None] - corners
+    along = np.clip((away * sides).sum(axis=2) / lengths, 0.0, 1.0)
+    distances = np.linalg.norm(away - along[:, :, None] * sides, axis=2).min(axis=1)
+    straddles = (corners[:, 1] > points[:, None, 1]) != (ends[:, 1] > points[:, None, 1])
     rise = np.where(straddles, ends[:, 1] - corners[:, 1], 1.0)
-    crossing_x = corners[:, 0] + (point[1] - corners[:, 1]) / rise * sides[:, 0]
-    inside = np.count_nonzero(straddles & (point[0] < crossing_x)) % 2 == 1
-    return -distance if inside else distance
+    crossing_x = corners[:, 0] + away[:, :, 1] / rise * sides[:, 0]
+    inside = np.count_nonzero(straddles & (points[:, None, 0] < crossing_x), axis=1) % 2 == 1
+    return np.asarray(np.where(inside, -distances, distances))
 
 
 class Surroundings:
@@ -63,6 +70,15 @@ class Surroundings:
             return self.room
         nearest = min(distances, key=lambda room: (distances[room], room))
         return nearest if distances[nearest] <= MARGIN_M else None
+
+    def in_walls(self, points_here: Array) -> float:
+        """Share of points (N, 3) in the robot's room frame that lie on the faces of walls, or in or behind them."""
+        depth_m = np.full(len(points_here), np.inf)
+        for room, polygon in self._polygons.items():
+            if polygon:
+                points = self.T_here_room[room].inverse().apply(points_here)[:, :2]
+                depth_m = np.minimum(depth_m, outside_distances_m(polygon, points))
+        return float(np.mean(np.isfinite(depth_m) & (depth_m > -_FACE_M))) if len(points_here) else 0.0
 
     def settled_room(self, room: str, point_room: Array) -> str:
         """The room of a thing so far held to be in ``room`` at ``point_room`` (3,): changed only for a point clearly

@@ -197,7 +197,8 @@ class Tracker:
         enough = detection.cloud.pixels >= self._settings.furniture_min_px if furniture else detection.measurable
         if not detection.in_range or not enough:
             return
-        room = sight.surroundings.room_of(detection.shape.center)
+        seen_at = np.median(detection.cloud.points, axis=0) if furniture else detection.shape.center
+        room = sight.surroundings.room_of(seen_at)  # how deep furniture is, and so its center, is a guess at first
         if room is not None:
             self._observe(self.new_track(room), detection, sight)
 

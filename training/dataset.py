@@ -24,7 +24,6 @@ SMALLEST_PX = 20
 _HINT_PX = 6
 LARGE_PX = 44.0
 """Square root of the area from which on a thing belongs to the coarse heat map."""
-IGNORED = 254
 _NOISE = 0.5
 _CUT = 0.5
 

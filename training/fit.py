@@ -53,11 +53,15 @@ def fit(
         mean.load_state_dict(kept["mean"])
         optimizer.load_state_dict(kept["optimizer"])
         step, passes = kept["step"], kept["passes"]
+    known: list[Path] = []
+    lessons: Lessons | None = None
     sums: dict[str, float] = {}
     said, told_s = 0, time.monotonic()
     while step < course.steps:
         passes += 1
-        lessons = Lessons(Examples(shards()), vary=True)
+        files = list(shards())
+        if lessons is None or files != known:
+            known, lessons = files, Lessons(Examples(files), vary=True)
         torch.manual_seed(course.seed * 1000 + passes)
         loader = DataLoader(
             lessons, course.batch, shuffle=True, drop_last=True, num_workers=course.workers, collate_fn=batch_of,

@@ -116,7 +116,7 @@ def _of_answers(found: Answers, row_of: Tensor, standing: Tensor, batch: Batch) 
     classes = (entropy * weight).sum() / weight.sum()
     open_set = _undecided(found.classes[~named])
     things = row >= _STUFF
-    box = torch.cat((batch.boxes[..., :2], batch.boxes[..., 2:]), -1)[b, row] / torch.tensor((WIDTH, HEIGHT) * 2)
+    box = batch.boxes[b, row] / torch.tensor((WIDTH, HEIGHT) * 2)
     boxes = ((found.boxes[b, n] - box).abs().sum(-1) * things).sum() / things.sum().clamp(min=1)
     log_distance = batch.log_distance[b, row]
     known = torch.isfinite(log_distance) & things

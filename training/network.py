@@ -217,7 +217,7 @@ class Network(nn.Module):
             queries.append(begin(torch.cat((*gathered, place.to(gathered[0].dtype)), dim=-1)))
             centers.append(center)
             scales.append(torch.full((batch, cell.shape[1], 1), (4.0, 1.0)[level]))
-        q, center, scale = torch.cat(queries, 1), torch.cat(centers, 1), torch.cat(scales, 1)[..., None].squeeze(-1)
+        q, center, scale = torch.cat(queries, 1), torch.cat(centers, 1), torch.cat(scales, 1)
         embedding_8 = functional.avg_pool2d(features.embedding, 2)
         coarse = self.coarse(q, embedding_8, center, scale)
         under = torch.sigmoid(coarse).flatten(2)

@@ -21,8 +21,9 @@ from majordomo.simulation.relations import Solid
 from majordomo.simulation.shapes import Size3
 from majordomo.simulation.stocking import is_free
 from majordomo.simulation.world import World
+from majordomo.skills.ports import ArmGeometry
 
-CAMERA_HEIGHT_M = 1.4
+CAMERA_HEIGHT_M = ArmGeometry().camera_height_m
 _ROBOT_M = 0.3
 _TRIES = 40
 _ON_FLOOR_M = 0.03

@@ -22,12 +22,14 @@ from rich.console import Console
 from rich.table import Table
 
 from majordomo.app.evaluations.change_scores import Moment, detected, false_alarms, summarize
-from majordomo.app.evaluations.exploration import service_in_lockstep, until_explored
+from majordomo.app.evaluations.exploration import pass_time, service_in_lockstep, until_explored
 from majordomo.app.evaluations.inventory import graph_contents, sizes_of, true_things
-from majordomo.app.evaluations.perception import check, house_of, pass_time, shown
+from majordomo.app.evaluations.perception import check, house_of
 from majordomo.app.evaluations.plots import save
 from majordomo.app.evaluations.pool import run_all, tell
+from majordomo.app.evaluations.tables import shown
 from majordomo.app.runtime import Runtime
+from majordomo.perception.objects.inspection import InspectionSettings
 from majordomo.scene_graph.edges import Edge, HasIntentionEdge, IntentionAction, IntentionStatus, Priority
 from majordomo.scene_graph.edits import PutEdge, RemoveEdge
 from majordomo.scene_graph.nodes import ROBOT_ID, ObjectNode
@@ -44,8 +46,6 @@ MOST_ALARMS = 0.1
 AGENT = "evaluation"
 LOOK_LIMIT_S = 240.0
 _SETTLE_S = 1.0
-_STANDOFF_M = 0.6
-_STANDOFF_LIMITS_M = (0.9, 1.6)
 _ENDED = (IntentionStatus.DONE, IntentionStatus.FAILED)
 
 
@@ -191,8 +191,7 @@ class _Meddler:
         """One look at a piece of furniture, or around its room where the graph does not know it; whether it was had."""
         node = self._runtime.memory.building().get(before.stock.node_of.get(place, ""))
         if isinstance(node, ObjectNode):
-            low_m, high_m = _STANDOFF_LIMITS_M
-            return await self._look_at(node.id, min(max(_STANDOFF_M + min(node.size_m[:2]) / 2.0, low_m), high_m))
+            return await self._look_at(node.id, InspectionSettings().standoff_from(node))
         item = next(item for item in self._house.furniture if item.id == place)
         room = self._rooms.get(room_at(self._house, item.pose[0], item.pose[1]) or "")
         return room is not None and await self._look_at(room)

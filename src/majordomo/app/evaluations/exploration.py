@@ -91,3 +91,10 @@ async def until_explored(runtime: Runtime, house: House) -> bool:
             return False
         await runtime.wait_for_change()
     return True
+
+
+async def pass_time(runtime: Runtime, seconds: float) -> None:
+    """Let the robot's agents go on for so many simulated seconds."""
+    until_s = runtime.now_s + seconds
+    while runtime.now_s < until_s:
+        await runtime.wait_for_change()

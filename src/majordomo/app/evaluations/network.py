@@ -20,6 +20,7 @@ from rich.table import Table
 
 from majordomo.app.evaluations.plots import save
 from majordomo.app.evaluations.recognition import CLEAR_PX, SIZES_PX, Tally
+from majordomo.app.evaluations.tables import shown
 from majordomo.perception.network.model import THREADS, OnnxPanopticModel
 from majordomo.perception.ports import RgbdFrame
 from majordomo.scene_graph.se3 import SE3
@@ -109,24 +110,24 @@ def _print(report: dict[str, Any], console: Console) -> None:
         table.add_column(column, justify="left" if column == "class" else "right")
     for name, row in sorted(report["classes"].items(), key=lambda item: item[1]["recall"] or 0.0):
         shares = (row["recall"], row["found_under_any_name"], row["precision"], row["mask_iou"])
-        table.add_row(name, str(row["there"]), *(_share(value) for value in shares))
+        table.add_row(name, str(row["there"]), *(shown(value) for value in shares))
     console.print(table)
     summary = Table(title="the network")
     for column in ("figure", "measured", "aim"):
         summary.add_column(column, justify="left" if column == "figure" else "right")
     for name, aim in AIMS.items():
-        summary.add_row(name.replace("_", " "), _share(report[name]), f">= {aim:.2f}")
+        summary.add_row(name.replace("_", " "), shown(report[name]), f">= {aim:.2f}")
     for name in ("relation_mean_recall_at_20", "support_recall_at_20"):
-        summary.add_row(name.replace("_", " "), _share(report[name]), "")
+        summary.add_row(name.replace("_", " "), shown(report[name]), "")
     model = report["model"]
     summary.add_row(
         f"milliseconds a frame, {model['threads']} threads", f"{model['median_ms']:.1f}", f"<= {AIM_MS:.0f}"
     )
     summary.add_row("file, MB", f"{model['megabytes']:.1f}", f"<= {AIM_MB:.0f}")
     for low, value in report["recall_by_pixels"].items():
-        summary.add_row(f"recall from {low} pixels up to the next", _share(value), "")
+        summary.add_row(f"recall from {low} pixels up to the next", shown(value), "")
     for name, value in report["relation_recall_by_predicate"].items():
-        summary.add_row(f"recall@20 of {name}", _share(value), "")
+        summary.add_row(f"recall@20 of {name}", shown(value), "")
     console.print(summary)
     worst = ", ".join(f"{true} as {given} ({count})" for true, given, count in report["confusions"][:12])
     console.print(f"Most often mistaken: {worst or 'nothing'}.")
@@ -154,7 +155,3 @@ def _draw(report: dict[str, Any], file: Path) -> None:
     for axis in axes.values():
         axis.grid(alpha=0.3)
     save(figure, file)
-
-
-def _share(value: float | None) -> str:
-    return "–" if value is None else f"{value:.3f}"

@@ -18,8 +18,9 @@ from majordomo.app.runtime import Runtime
 from majordomo.scene_graph.nodes import ObjectNode
 from majordomo.simulation.camera import HEIGHT, HORIZONTAL_FOV_RAD, WIDTH
 from majordomo.simulation.house import House, room_at
+from majordomo.skills.ports import ArmGeometry
 
-CAMERA_HEIGHT_M = 1.4
+CAMERA_HEIGHT_M = ArmGeometry().camera_height_m
 HALF_WIDTH_RAD = HORIZONTAL_FOV_RAD / 2.0
 HALF_HEIGHT_RAD = math.atan(math.tan(HALF_WIDTH_RAD) * HEIGHT / WIDTH)
 MARGIN_RAD = 0.04

@@ -20,12 +20,13 @@ from rich.console import Console
 from rich.table import Table
 
 from majordomo.app.evaluations.belief_scores import BANDS_M, NEAR_M, score_house, summarize
-from majordomo.app.evaluations.exploration import service_in_lockstep, until_explored
+from majordomo.app.evaluations.exploration import pass_time, service_in_lockstep, until_explored
 from majordomo.app.evaluations.inventory import graph_contents, true_things
 from majordomo.app.evaluations.mapping import house_of as mapped_house_of
 from majordomo.app.evaluations.onlooker import Onlooker
 from majordomo.app.evaluations.plots import save
 from majordomo.app.evaluations.pool import run_all, tell
+from majordomo.app.evaluations.tables import shown
 from majordomo.app.runtime import Runtime
 from majordomo.perception.network.model import OnnxPanopticModel
 from majordomo.simulation.house import House
@@ -127,23 +128,11 @@ async def _run(name: str, house: House, model: Path | None) -> dict[str, Any]:
         }
 
 
-async def pass_time(runtime: Runtime, seconds: float) -> None:
-    """Let the robot's agents go on for so many simulated seconds."""
-    until_s = runtime.now_s + seconds
-    while runtime.now_s < until_s:
-        await runtime.wait_for_change()
-
-
 def met(summary: Mapping[str, Any]) -> bool:
     """Whether every figure is where it is to be; what could not be measured is not."""
     high = all(summary[name] is not None and summary[name] >= aim for name, aim in AT_LEAST.items())
     low = all(summary[name] is not None and summary[name] <= aim for name, aim in AT_MOST.items())
     return high and low and summary["nodes"] > 0
-
-
-def shown(value: float | None, digits: int = 3) -> str:
-    """A figure, a dash where nothing could be measured."""
-    return "–" if value is None else f"{value:.{digits}f}"
 
 
 def _run_table(runs: Sequence[Mapping[str, Any]]) -> Table:

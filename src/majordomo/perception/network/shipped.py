@@ -1,8 +1,8 @@
-"""The network that comes with the package; docs/model-card.md says what it can and cannot see."""
+"""Where the network lies that is to come with the package."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
 SHIPPED = Path(__file__).with_name("shipped.onnx")
-"""Trained by ``python -m training all``."""
+"""Written by ``python -m training all``; no file has been good enough yet to ship."""

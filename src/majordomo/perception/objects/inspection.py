@@ -44,6 +44,11 @@ class InspectionSettings:
     tries: int = 2
     turning_limit_radps: float = 0.6
 
+    def standoff_from(self, node: ObjectNode) -> float:
+        """Meters from the middle of a support: its half short side and an arm's length."""
+        low_m, high_m = self.standoff_limits_m
+        return float(np.clip(self.standoff_m + min(node.size_m[:2]) / 2.0, low_m, high_m))
+
 
 class Inspection:
     """What has been looked at, and what to propose.
@@ -111,7 +116,7 @@ class Inspection:
         ]
         edits += [PutEdge(_look(room.id, 0.0, stamp_s)) for room in rooms]
         supports = [node for node in snapshot.of_type(ObjectNode) if self._ready(node, snapshot, ours)]
-        edits += [PutEdge(_look(node.id, self._standoff_m(node), stamp_s)) for node in supports]
+        edits += [PutEdge(_look(node.id, self._settings.standoff_from(node), stamp_s)) for node in supports]
         return edits
 
     def _again(self, edge: HasIntentionEdge, stamp_s: float) -> list[HasIntentionEdge]:
@@ -131,11 +136,6 @@ class Inspection:
         room = snapshot.room_of(node.id)
         looked = room is not None and room in ours and not ours[room].is_open
         return looked and _worth_a_look(node) and node.observations >= self._settings.settled_hits
-
-    def _standoff_m(self, node: ObjectNode) -> float:
-        """From the middle of the support: its half short side and an arm's length."""
-        low_m, high_m = self._settings.standoff_limits_m
-        return float(np.clip(self._settings.standoff_m + min(node.size_m[:2]) / 2.0, low_m, high_m))
 
 
 def _worth_a_look(node: ObjectNode) -> bool:

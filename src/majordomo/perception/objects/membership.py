@@ -12,6 +12,7 @@ from majordomo.scene_graph.snapshot import Snapshot
 
 Array = NDArray[np.float64]
 _FACE_M = 0.06
+"""How far inside a wall's face a point may be measured and still be of the wall."""
 MARGIN_M = 0.15
 """How far outside the inner face of a wall the center of a thing may be measured and still belong to the room."""
 

@@ -42,6 +42,9 @@ def fit(
     folder: Folder = DEFAULT,
     steps: Annotated[int, typer.Option(min=1, help="How long.")] = STEPS,
     seed: Seed = 1,
+    begin: Annotated[
+        Path | None, typer.Option(exists=True, dir_okay=False, help="Exported network to begin with.")
+    ] = None,
 ) -> None:
     """Train on the pictures in the folder; an interrupted training goes on."""
     from training.fit import Course
@@ -52,6 +55,7 @@ def fit(
         checkpoint=folder / "checkpoint.pt",
         course=Course(steps=steps, seed=seed),
         tell=console.print,
+        begin=begin,
     )
 
 

@@ -17,6 +17,8 @@ from training.names import CLASSES, PREDICATES, THINGS
 from training.network import HEIGHT, QUERIES, TRIPLETS, WIDTH, Network
 
 _LARGE = 1024
+_HALF = "_half"
+_PREFIX = "network."
 MEAN, STD = (123.675, 116.28, 103.53), (58.395, 57.12, 57.375)
 
 
@@ -48,13 +50,17 @@ class _Contract(nn.Module):
 
 
 def export(network: Network, file: Path, *, thresholds: Mapping[str, float] = THRESHOLDS) -> None:
-    """Write ``network`` with its metadata to ``file``."""
+    """Write ``network`` with its metadata to ``file``.
+
+    Weights keep their names, so that ``weights_of`` finds them; runtimes fold what can be folded when they load it.
+    """
     network.eval()
     names = [*TRIPLET_OUTPUTS, *INSTANCE_OUTPUTS]
     with torch.no_grad():
         torch.onnx.export(
             _Contract(network).eval(), (torch.zeros(1, 3, HEIGHT, WIDTH),), str(file), input_names=[INPUT],
-            output_names=names, opset_version=17, dynamo=False,
+            output_names=names, opset_version=17, dynamo=False, training=torch.onnx.TrainingMode.PRESERVE,
+            do_constant_folding=False,
         )  # fmt: skip
     model = onnx.load(str(file))
     onnx.helper.set_model_props(
@@ -75,6 +81,16 @@ def export(network: Network, file: Path, *, thresholds: Mapping[str, float] = TH
     onnx.save(model, str(file))
 
 
+def weights_of(file: Path) -> dict[str, Tensor]:
+    """Weights of a file that ``export`` wrote, by their names in ``Network``, to train on from."""
+    found = {}
+    for weights in onnx.load(str(file)).graph.initializer:
+        if weights.name.startswith(_PREFIX):
+            name = weights.name.removeprefix(_PREFIX).removesuffix(_HALF)
+            found[name] = torch.from_numpy(onnx.numpy_helper.to_array(weights).astype(np.float32))
+    return found
+
+
 def _halve(model: onnx.ModelProto) -> None:
     """Keep large weights in half precision, and widen them first thing: the file is half as large, nothing is slower.
 
@@ -85,8 +101,8 @@ def _halve(model: onnx.ModelProto) -> None:
         values = onnx.numpy_helper.to_array(weights)
         if values.dtype == np.float32 and values.size >= _LARGE:
             name = weights.name
-            weights.CopyFrom(onnx.numpy_helper.from_array(values.astype(np.float16), f"{name}_half"))
-            widened.append(onnx.helper.make_node("Cast", [f"{name}_half"], [name], to=onnx.TensorProto.FLOAT))
+            weights.CopyFrom(onnx.numpy_helper.from_array(values.astype(np.float16), f"{name}{_HALF}"))
+            widened.append(onnx.helper.make_node("Cast", [f"{name}{_HALF}"], [name], to=onnx.TensorProto.FLOAT))
     nodes = [*widened, *model.graph.node]
     del model.graph.node[:]
     model.graph.node.extend(nodes)

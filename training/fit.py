@@ -5,7 +5,7 @@ from __future__ import annotations
 import copy
 import math
 import time
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -14,12 +14,16 @@ from torch import Tensor
 from torch.utils.data import DataLoader
 
 from training.dataset import Batch, Lessons, batch_of
+from training.export import weights_of
 from training.losses import losses
+from training.muon import Muon
 from training.network import Network
 from training.shards import Examples
 
 _KEEP = 0.999
 _CLIP = 5.0
+_ENDS = ("stuff", "stem.0", "embed", "heat_", "coarse", "fine", "kind.2", "box.2", "relation.2", "hints")
+"""Parts of names of weights at the input and at the outputs, which AdamW trains like all that is no matrix."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -28,7 +32,7 @@ class Course:
 
     steps: int
     batch: int = 16
-    rate: float = 1.4e-3
+    rate: float = 2e-3
     weight_decay: float = 0.02
     warm_up_steps: int = 300
     workers: int = 1
@@ -36,22 +40,31 @@ class Course:
 
 
 def fit(
-    shards: Callable[[], Iterable[Path]], *, checkpoint: Path, course: Course, tell: Callable[[str], None]
+    shards: Callable[[], Iterable[Path]],
+    *,
+    checkpoint: Path,
+    course: Course,
+    tell: Callable[[str], None],
+    begin: Path | None = None,
 ) -> Network:
     """The mean of the network over the last steps. ``shards`` is asked again before every pass.
 
-    Goes on from ``checkpoint`` where there is one, with the steps that are left of the course.
+    Goes on from ``checkpoint`` where there is one, with the steps that are left of the course; else a new course begins
+    with the weights of the exported network ``begin``, or with random ones.
     """
     torch.manual_seed(course.seed)
     network = Network().to(memory_format=torch.channels_last)
+    if begin is not None:
+        network.load_state_dict({**network.state_dict(), **weights_of(begin)})
     mean = copy.deepcopy(network)
-    optimizer = torch.optim.AdamW(network.parameters(), lr=course.rate, weight_decay=course.weight_decay, fused=True)
+    optimizers = _optimizers(network, course)
     step, passes = 0, 0
     if checkpoint.exists():
         kept = torch.load(checkpoint, weights_only=True)
         network.load_state_dict(kept["network"])
         mean.load_state_dict(kept["mean"])
-        optimizer.load_state_dict(kept["optimizer"])
+        for optimizer, state in zip(optimizers, kept["optimizers"], strict=True):
+            optimizer.load_state_dict(state)
         step, passes = kept["step"], kept["passes"]
     known: list[Path] = []
     lessons: Lessons | None = None
@@ -69,9 +82,9 @@ def fit(
         )  # fmt: skip
         for batch in loader:
             warm = min(1.0, (step + 1) / course.warm_up_steps)
-            for group in optimizer.param_groups:
+            for group in (group for optimizer in optimizers for group in optimizer.param_groups):
                 group["lr"] = course.rate * warm * 0.5 * (1.0 + math.cos(math.pi * step / course.steps))
-            parts = _step(network, batch, optimizer)
+            parts = _step(network, batch, optimizers)
             step += 1
             _follow(mean, network, min(_KEEP, (1.0 + step) / (10.0 + step)))
             for name, value in parts.items():
@@ -81,10 +94,10 @@ def fit(
                 means = "  ".join(f"{name} {value / (step - said):.3f}" for name, value in sums.items())
                 tell(f"step {step} of {course.steps}, {len(lessons)} pictures, {rate:.0f}/s: {means}")
                 sums, said, told_s = {}, step, time.monotonic()
-                _save(checkpoint, network, mean, optimizer, step, passes)
+                _save(checkpoint, network, mean, optimizers, step, passes)
             if step >= course.steps:
                 break
-    _save(checkpoint, network, mean, optimizer, step, passes)
+    _save(checkpoint, network, mean, optimizers, step, passes)
     return mean
 
 
@@ -95,17 +108,30 @@ def trained(checkpoint: Path) -> Network:
     return network
 
 
-def _step(network: Network, batch: Batch, optimizer: torch.optim.Optimizer) -> dict[str, float]:
+def _optimizers(network: Network, course: Course) -> tuple[torch.optim.Optimizer, ...]:
+    """Muon for the matrices inside, AdamW for the rest."""
+    inside: list[Tensor] = []
+    rest: list[Tensor] = []
+    for name, weight in network.named_parameters():
+        (inside if weight.ndim > 1 and not any(end in name for end in _ENDS) else rest).append(weight)
+    return (
+        Muon(inside, rate=course.rate, weight_decay=course.weight_decay),
+        torch.optim.AdamW(rest, lr=course.rate, weight_decay=course.weight_decay, fused=True),
+    )
+
+
+def _step(network: Network, batch: Batch, optimizers: Sequence[torch.optim.Optimizer]) -> dict[str, float]:
     network.train()
     batch.image = batch.image.contiguous(memory_format=torch.channels_last)
     with torch.autocast("cpu", torch.bfloat16):
         parts = losses(network, batch)
     total: Tensor = torch.stack([part.float() for part in parts.values()]).sum()
-    optimizer.zero_grad(set_to_none=True)
+    network.zero_grad(set_to_none=True)
     if torch.isfinite(total):
         total.backward()
         torch.nn.utils.clip_grad_norm_(network.parameters(), _CLIP)
-        optimizer.step()
+        for optimizer in optimizers:
+            optimizer.step()
     return {name: float(part.detach()) for name, part in parts.items()}
 
 
@@ -120,9 +146,20 @@ def _follow(mean: Network, network: Network, keep: float) -> None:
 
 
 def _save(
-    file: Path, network: Network, mean: Network, optimizer: torch.optim.Optimizer, step: int, passes: int
+    file: Path,
+    network: Network,
+    mean: Network,
+    optimizers: Sequence[torch.optim.Optimizer],
+    step: int,
+    passes: int,
 ) -> None:
     part = file.with_suffix(".part")
-    state = {"network": network.state_dict(), "mean": mean.state_dict(), "optimizer": optimizer.state_dict()}
-    torch.save({**state, "step": step, "passes": passes}, part)
+    state = {
+        "network": network.state_dict(),
+        "mean": mean.state_dict(),
+        "optimizers": [optimizer.state_dict() for optimizer in optimizers],
+        "step": step,
+        "passes": passes,
+    }
+    torch.save(state, part)
     part.replace(file)

@@ -12,9 +12,10 @@ import torch
 
 from majordomo.perception.network.model import OnnxPanopticModel
 from training.dataset import Lessons, batch_of
-from training.export import export
+from training.export import export, weights_of
 from training.fit import Course, fit, trained
 from training.losses import assigned, losses
+from training.muon import orthogonal
 from training.names import CLASSES, STUFF
 from training.network import HEIGHT, PEAKS, QUERIES, WIDTH, Network
 from training.photographs import photographs
@@ -81,3 +82,34 @@ def test_training_leaves_a_checkpoint_from_which_a_file_is_written_that_the_prod
     model = OnnxPanopticModel.load(tmp_path / "network.onnx")
     assert model.description.classes == CLASSES
     assert (tmp_path / "network.onnx").stat().st_size < 12e6
+
+
+def test_a_new_course_begins_where_an_exported_network_ended(shard, tmp_path):
+    course = Course(steps=3, batch=4, workers=0)
+    first = fit(lambda: [shard], checkpoint=tmp_path / "first.pt", course=course, tell=lambda line: None)
+    export(first, tmp_path / "first.onnx")
+    kept = weights_of(tmp_path / "first.onnx")
+    told_by_hand = {"hints.0.weight", "hints.0.bias", "hints.1.weight", "hints.1.bias"}
+    trained_names = {name for name, _ in first.named_parameters()} - told_by_hand
+    moved = {name for name in trained_names if float(first.state_dict()[name].std(correction=0)) > 0.0}
+    assert moved <= kept.keys()
+    for name in moved:
+        assert torch.allclose(kept[name], first.state_dict()[name], atol=2e-3), name
+    still = Course(steps=1, batch=4, workers=0, rate=0.0)
+    begun = fit(
+        lambda: [shard],
+        checkpoint=tmp_path / "second.pt",
+        course=still,
+        tell=lambda line: None,
+        begin=tmp_path / "first.onnx",
+    )
+    assert torch.allclose(begun.kind[0].weight, first.kind[0].weight, atol=2e-3)
+
+
+def test_steps_are_orthogonal_whatever_the_gradients_shape():
+    generator = torch.Generator().manual_seed(0)
+    for shape in ((2, 16, 40), (1, 40, 16), (3, 8, 8)):
+        found = orthogonal(torch.randn(shape, generator=generator), rounds=5).float()
+        singular = torch.linalg.svdvals(found)
+        assert float(singular.min()) > 0.4
+        assert float(singular.max()) < 1.4

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import cv2
 import numpy as np
@@ -26,6 +26,11 @@ LARGE_PX = 44.0
 """Square root of the area from which on a thing belongs to the coarse heat map."""
 _NOISE = 0.5
 _CUT = 0.5
+_TILES = 4
+_TILE_SHARES = (0.45, 0.95)
+_TILE_THINGS = 60
+_NOTHING = 255
+_CLEAR_PX = 300
 
 
 @dataclass(kw_only=True)
@@ -52,35 +57,89 @@ class Batch:
 Row = dict[str, NDArray[np.generic]]
 
 
-class Lessons(Dataset[Row]):
-    """One example after the other, changed at random if ``vary``."""
+@dataclass(frozen=True, kw_only=True)
+class _Shown:
+    """A picture at the network's size or less. ``ids`` (H, W): number of the thing seen, 255 for none, stuff first."""
 
-    def __init__(self, examples: Examples, *, vary: bool) -> None:
-        self._examples, self._vary = examples, vary
+    rgb: NDArray[np.uint8]
+    ids: NDArray[np.uint8]
+    classes: NDArray[np.int16]
+    distances_m: NDArray[np.float32]
+    relations: NDArray[np.int16]
+
+
+class Lessons(Dataset[Row]):
+    """One example after the other, changed at random if ``vary``.
+
+    Attributes:
+        mosaics: share of examples that are put together from parts of four pictures, each around a thing of a kind that
+            is the likelier the rarer it is: there is more to learn from each (Bochkovskiy et al. 2020, YOLOv4).
+    """
+
+    def __init__(self, examples: Examples, *, vary: bool, mosaics: float = 0.0) -> None:
+        self._examples, self._vary, self.mosaics = examples, vary, mosaics
+        counts = examples.counts()
+        self._rarity = 1.0 / np.sqrt(np.maximum(counts, 1.0))
 
     def __len__(self) -> int:
         return len(self._examples)
 
     def __getitem__(self, index: int) -> Row:
         rng = np.random.default_rng(torch.initial_seed() % 2**63 + index * 7919)
-        rgb, ids, classes, distances_m, relations = self._examples[index]
-        zoom, flipped = 1.0, False
-        if self._vary:
-            rgb, ids, zoom = _cut(rgb, ids, rng)
-            flipped = bool(rng.random() < 0.5)
-        rgb = cv2.resize(rgb, (WIDTH, HEIGHT), interpolation=cv2.INTER_LINEAR).astype(np.uint8, copy=False)
-        ids = cv2.resize(ids, (WIDTH, HEIGHT), interpolation=cv2.INTER_NEAREST).astype(np.uint8, copy=False)
-        if flipped:
-            rgb, ids = rgb[:, ::-1], ids[:, ::-1]
-        if self._vary:
-            curve = 255.0 * np.linspace(0.0, 1.0, 256) ** np.exp(rng.normal(0.0, 0.15))
-            rgb = curve.astype(np.uint8)[rgb]
-        image = rgb.astype(np.float32)
-        if self._vary:
-            image = _disturbed(image, rng)
-        targets = _targets(np.ascontiguousarray(ids), classes, distances_m / zoom, relations)
+        if not self._vary:
+            shown = _sized((HEIGHT, WIDTH), 1.0, *self._examples[index])
+            return self._row(shown, shown.rgb.astype(np.float32))
+        shown = self._mosaic(index, rng) if rng.random() < self.mosaics else self._single(index, rng)
+        curve = 255.0 * np.linspace(0.0, 1.0, 256) ** np.exp(rng.normal(0.0, 0.15))
+        return self._row(shown, _disturbed(curve.astype(np.uint8)[shown.rgb].astype(np.float32), rng))
+
+    @staticmethod
+    def _row(shown: _Shown, image: NDArray[np.float32]) -> Row:
+        targets = _targets(np.ascontiguousarray(shown.ids), shown.classes, shown.distances_m, shown.relations)
         normalized = (image - np.array(MEAN, np.float32)) / np.array(STD, np.float32)
         return {"image": np.ascontiguousarray(normalized.transpose(2, 0, 1), dtype=np.float32), **targets}
+
+    def _single(self, index: int, rng: np.random.Generator) -> _Shown:
+        rgb, ids, classes, distances_m, relations = self._examples[index]
+        rgb, ids, zoom = _cut(rgb, ids, rng)
+        return _mirrored(_sized((HEIGHT, WIDTH), zoom, rgb, ids, classes, distances_m, relations), rng)
+
+    def _mosaic(self, index: int, rng: np.random.Generator) -> _Shown:
+        others = rng.integers(0, len(self), _TILES - 1)
+        tiles = [_numbered(self._tile(int(k), rng), first) for first, k in enumerate((index, *others))]
+        rgb, ids = (
+            np.vstack([np.hstack([getattr(tile, name) for tile in tiles[row : row + 2]]) for row in (0, 2)])
+            for name in ("rgb", "ids")
+        )
+        count = len(STUFF)
+        return _Shown(
+            rgb=rgb,
+            ids=ids,
+            classes=np.concatenate((tiles[0].classes[:count], *(_padded(tile.classes[count:], 0) for tile in tiles))),
+            distances_m=np.concatenate(
+                (tiles[0].distances_m[:count], *(_padded(tile.distances_m[count:], 0) for tile in tiles))
+            ),
+            relations=np.concatenate([tile.relations for tile in tiles]),
+        )
+
+    def _tile(self, index: int, rng: np.random.Generator) -> _Shown:
+        """A quarter of the network's picture, around one of the things."""
+        rgb, ids, classes, distances_m, relations = self._examples[index]
+        pixels = np.bincount(ids.ravel(), minlength=256)[: len(classes)]
+        clear = np.nonzero(pixels[len(STUFF) :] >= _CLEAR_PX)[0] + len(STUFF)
+        height, width = ids.shape
+        share = float(rng.uniform(*_TILE_SHARES))
+        h, w = int(height * share), int(width * share)
+        middle = np.array((rng.uniform(0, height), rng.uniform(0, width)))
+        if len(clear):
+            chances = self._rarity[classes[clear]]
+            ys, xs = np.nonzero(ids == rng.choice(clear, p=chances / chances.sum()))
+            middle = np.array((ys.mean(), xs.mean())) + rng.uniform(-0.25, 0.25, 2) * (h, w)
+        top, left = np.clip(middle - (h / 2, w / 2), 0, (height - h, width - w)).astype(int)
+        part = slice(top, top + h), slice(left, left + w)
+        size = HEIGHT // 2, WIDTH // 2
+        zoom = (size[0] / h) / (HEIGHT / height)
+        return _mirrored(_sized(size, zoom, rgb[part], ids[part], classes, distances_m, relations), rng)
 
 
 def batch_of(rows: Sequence[Row]) -> Batch:
@@ -89,6 +148,54 @@ def batch_of(rows: Sequence[Row]) -> Batch:
     heats = (stacked.pop("heat_0"), stacked.pop("heat_1"))
     weights = (stacked.pop("weight_0"), stacked.pop("weight_1"))
     return Batch(heats=heats, heat_weights=weights, **stacked)
+
+
+def _sized(
+    size: tuple[int, int],
+    zoom: float,
+    rgb: NDArray[np.uint8],
+    ids: NDArray[np.uint8],
+    classes: NDArray[np.int16],
+    distances_m: NDArray[np.float32],
+    relations: NDArray[np.int16],
+) -> _Shown:
+    """Resized to (height, width); ``zoom``: how much larger everything looks than in the whole picture."""
+    return _Shown(
+        rgb=cv2.resize(rgb, size[::-1], interpolation=cv2.INTER_LINEAR).astype(np.uint8, copy=False),
+        ids=cv2.resize(ids, size[::-1], interpolation=cv2.INTER_NEAREST).astype(np.uint8, copy=False),
+        classes=classes,
+        distances_m=distances_m / zoom,
+        relations=relations,
+    )
+
+
+def _mirrored(shown: _Shown, rng: np.random.Generator) -> _Shown:
+    """The other way around, half of the time."""
+    return replace(shown, rgb=shown.rgb[:, ::-1], ids=shown.ids[:, ::-1]) if rng.random() < 0.5 else shown
+
+
+def _numbered(shown: _Shown, tile: int) -> _Shown:
+    """Only the largest things, with numbers of their own; stuff keeps its numbers."""
+    pixels = np.bincount(shown.ids.ravel(), minlength=256)[: len(shown.classes)]
+    things = np.argsort(-pixels[len(STUFF) :], kind="stable")[:_TILE_THINGS] + len(STUFF)
+    number = np.full(256, _NOTHING, np.int64)
+    number[: len(STUFF)] = np.arange(len(STUFF))
+    number[things] = len(STUFF) + tile * _TILE_THINGS + np.arange(len(things))
+    kept = [*range(len(STUFF)), *things]
+    relations = shown.relations.reshape(-1, 3).astype(np.int64)
+    relations = np.stack((number[relations[:, 0]], relations[:, 1], number[relations[:, 2]]), axis=1)
+    return _Shown(
+        rgb=shown.rgb,
+        ids=number[shown.ids].astype(np.uint8),
+        classes=shown.classes[kept],
+        distances_m=shown.distances_m[kept],
+        relations=relations[(relations[:, [0, 2]] != _NOTHING).all(axis=1)].astype(np.int16),
+    )
+
+
+def _padded(values: NDArray[np.generic], value: int) -> NDArray[np.generic]:
+    """With room for as many things as a tile may show."""
+    return np.pad(values, (0, _TILE_THINGS - len(values)), constant_values=value)
 
 
 def _cut(

@@ -22,19 +22,25 @@ from training.shards import Examples
 
 _KEEP = 0.999
 _CLIP = 5.0
+_MOSAICS_UNTIL = 0.7
+"""Share of the course after which there are whole pictures only, as the network will see them."""
 _ENDS = ("stuff", "stem.0", "embed", "heat_", "coarse", "fine", "kind.2", "box.2", "relation.2", "hints")
 """Parts of names of weights at the input and at the outputs, which AdamW trains like all that is no matrix."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Course:
-    """How long and how fast. ``steps``: the learning rate falls to nothing within them; ``rate``: where it begins."""
+    """How long and how fast. ``steps``: the learning rate falls to nothing within them; ``rate``: where it begins.
+
+    ``mosaics``: share of examples of the first part that are put together from several pictures.
+    """
 
     steps: int
     batch: int = 16
     rate: float = 2e-3
     weight_decay: float = 0.02
     warm_up_steps: int = 300
+    mosaics: float = 0.6
     workers: int = 1
     seed: int = 0
 
@@ -75,6 +81,7 @@ def fit(
         files = list(shards())
         if lessons is None or files != known:
             known, lessons = files, Lessons(Examples(files), vary=True)
+        lessons.mosaics = course.mosaics if step < _MOSAICS_UNTIL * course.steps else 0.0
         torch.manual_seed(course.seed * 1000 + passes)
         loader = DataLoader(
             lessons, course.batch, shuffle=True, drop_last=True, num_workers=course.workers, collate_fn=batch_of,

@@ -48,6 +48,11 @@ class Examples:
     def __len__(self) -> int:
         return len(self._rows)
 
+    def counts(self) -> NDArray[np.float64]:
+        """(C + 1,) how often each class is in a scene; what has no name comes last, where ``UNKNOWN`` points."""
+        kinds = np.concatenate([row[2] for row in self._rows]) if self._rows else np.zeros(0, np.int16)
+        return np.bincount(np.where(kinds == UNKNOWN, len(CLASSES), kinds), minlength=len(CLASSES) + 1).astype(float)
+
     def __getitem__(
         self, index: int
     ) -> tuple[NDArray[np.uint8], NDArray[np.uint8], NDArray[np.int16], NDArray[np.float32], NDArray[np.int16]]:

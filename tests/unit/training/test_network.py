@@ -11,7 +11,7 @@ pytest.importorskip("onnx")
 import torch
 
 from majordomo.perception.network.model import OnnxPanopticModel
-from training.dataset import Lessons, batch_of
+from training.dataset import MOST, Lessons, batch_of
 from training.export import export, weights_of
 from training.fit import Course, fit, trained
 from training.losses import assigned, losses
@@ -113,3 +113,22 @@ def test_steps_are_orthogonal_whatever_the_gradients_shape():
         singular = torch.linalg.svdvals(found)
         assert float(singular.min()) > 0.4
         assert float(singular.max()) < 1.4
+
+
+def test_a_mosaic_shows_parts_of_four_pictures_with_all_that_is_true_of_them(shard):
+    lessons = Lessons(Examples([shard]), vary=True, mosaics=1.0)
+    rows = [lessons[k] for k in range(6)]
+    plain = [Lessons(Examples([shard]), vary=True)[k] for k in range(6)]
+    assert sum(row["there"][len(STUFF) :].sum() for row in rows) > sum(row["there"][2:].sum() for row in plain)
+    for row in rows:
+        shown = np.unique(row["ids"])
+        assert set(shown[shown != 255]) <= set(range(len(STUFF) + MOST))
+        for number in np.nonzero(row["there"])[0][len(STUFF) :]:
+            ys, xs = np.nonzero(row["ids"] == number)
+            x, y, w, h = row["boxes"][number]
+            assert (xs.min(), xs.max() + 1) == (x - w / 2, x + w / 2)
+            assert (ys.min(), ys.max() + 1) == (y - h / 2, y + h / 2)
+        subjects, objects = np.nonzero(row["relations"])
+        assert row["there"][subjects].all() or not len(subjects)
+        assert row["there"][objects].all() or not len(objects)
+    batch_of(rows)

@@ -66,7 +66,7 @@ async def _replayed(house: str, seconds: float) -> dict[str, Any]:
     robot = _RecordedRobot(recording, speed=REPLAY_LIDAR_HZ / SIMULATED_LIDAR_HZ)
     memory = WorkingMemory(recording.building, long_term=LongTermStore())
     buffer = SensorBuffer(robot)
-    agents = [Sensing(buffer, camera_period_s=None), *mapping_agents(memory, buffer)]
+    agents = [Sensing(buffer), *mapping_agents(memory, buffer)]
     scheduler = RealTimeScheduler(agents, lambda: robot.now_s, speed=robot.speed)
     robot.start()
     await _for(seconds, asyncio.create_task(scheduler.run()))

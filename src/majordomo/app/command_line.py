@@ -27,9 +27,6 @@ application.add_typer(evaluations, name="evaluate")
 console = Console()
 complaints = Console(stderr=True)
 
-SWITCH_INTERVAL_S = 0.001
-"""How long perception's threads may hold the interpreter while a request waits."""
-
 House = Annotated[str, typer.Option(help="A built-in house's name or a house file.")]
 Seed = Annotated[int, typer.Option(min=0, help="Seed of everything that is random.")]
 Network = Annotated[
@@ -85,7 +82,7 @@ def serve(
     """Start the service; the first line printed is the page's address."""
     from majordomo.app.http.security import Token
     from majordomo.app.runtime import Runtime
-    from majordomo.app.server import bind, check_exposure, page_address
+    from majordomo.app.server import SWITCH_INTERVAL_S, bind, check_exposure, page_address
     from majordomo.app.server import serve as serve_forever
 
     sys.setswitchinterval(SWITCH_INTERVAL_S)

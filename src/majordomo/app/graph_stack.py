@@ -56,6 +56,11 @@ class GraphStack:
         return self._stopped
 
     @property
+    def network(self) -> str | None:
+        """Nothing is seen."""
+        return None
+
+    @property
     def camera_on(self) -> bool:
         """There is no camera."""
         return False

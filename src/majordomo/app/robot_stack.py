@@ -15,14 +15,15 @@ from majordomo.app.event_log import EventLog
 from majordomo.app.mapping_agents import mapping_agents
 from majordomo.app.ranges import ScanRanges
 from majordomo.app.remembering import Remembering, building_folder
+from majordomo.app.robot_port import Robot
 from majordomo.app.scheduler import Agent
 from majordomo.app.settings import ClockMode, Settings
 from majordomo.perception.labels import RoomLabels
 from majordomo.perception.network.model import OnnxPanopticModel
-from majordomo.perception.objects.agent import ObjectMemory
+from majordomo.perception.objects.agent import ObjectMemory, ObjectMemorySettings
 from majordomo.perception.panoptic import PanopticModel
 from majordomo.perception.preview import WatchedModel, preview_jpeg
-from majordomo.perception.sensing import Sensing, SensorBuffer
+from majordomo.perception.sensing import Filming, Sensing, SensorBuffer
 from majordomo.planner.arbiter import Arbiter
 from majordomo.planner.crew import Crew
 from majordomo.planner.executor import Executor
@@ -43,25 +44,30 @@ from majordomo.skills.registry import load_registry
 
 
 class RobotStack:
-    """A simulated robot and all agents around it. Make one with ``build``."""
+    """A robot and all agents around it. Make one around a simulated robot with ``build``."""
 
     def __init__(
         self,
-        robot: SimulatedRobot,
+        robot: Robot,
         settings: Settings,
         queue: TaskQueue,
         model: LanguageModel | None,
         log: EventLog,
         *,
+        network: PanopticModel,
         remembering: Remembering | None = None,
-        network: PanopticModel | None = None,
+        memory: WorkingMemory | None = None,
     ) -> None:
-        """``network``: what understands the camera's frames; ``None`` for the simulator's stand-in."""
+        """Give all agents their places.
+
+        ``network``: what understands the camera's frames. ``memory``: the graph to begin with where nobody remembers
+        one, empty when left out.
+        """
         self.robot = robot
-        self.memory = remembering.memory if remembering is not None else WorkingMemory(long_term=LongTermStore())
+        empty_or_given = memory or WorkingMemory(long_term=LongTermStore())
+        self.memory = remembering.memory if remembering is not None else empty_or_given
         self._remembering = remembering
         self._settings = settings
-        seeds = np.random.SeedSequence(settings.seed).spawn(2)
         buffer = SensorBuffer(robot)
         self._executor = Executor(
             self.memory,
@@ -71,8 +77,8 @@ class RobotStack:
             on_event=lambda event: log.write(event["stamp_s"], "executor", event),
             silent=(SimulatorDied,),
         )
-        self._eyes = WatchedModel(network or SegmentationStandIn(robot, np.random.default_rng(seeds[0])))
-        self._objects = self._object_memory(buffer, np.random.default_rng(seeds[1])) if settings.camera else None
+        self._eyes = WatchedModel(network)
+        self._objects = self._object_memory(buffer) if settings.camera else None
         self._buffer = buffer
         skills = load_registry()
         verifier = Verifier(skills)
@@ -89,9 +95,11 @@ class RobotStack:
         planner = TaskPlanner(
             CommandGrammar(), verifier, model, journal=lambda entry: log.write(self.now(), "model", entry)
         )
+        filming = [Filming(buffer, period_s=1.0 / settings.camera_hz)] if settings.camera else []
         seeing: list[Agent] = [self._objects, RoomLabels(self.memory)] if self._objects is not None else []
         self.agents: Sequence[Agent] = [
-            Sensing(buffer, camera_period_s=0.2 if settings.camera else None),
+            Sensing(buffer),
+            *filming,
             *mapping_agents(self.memory, buffer),
             *seeing,
             Arbiter(self.memory, stopped=lambda: self.stopped, exploration_enabled=settings.explore),
@@ -116,7 +124,8 @@ class RobotStack:
         remembering = _remembering(settings, anew=anew)
         mode = "lockstep" if settings.clock is ClockMode.LOCKSTEP else "real"
         robot = await SimulatedRobot.start(settings.house, seed=settings.seed, mode=mode, speed=settings.speed or 1.0)
-        return cls(robot, settings, queue, model, log, remembering=remembering, network=network)
+        stand_in = SegmentationStandIn(robot, _random_streams(settings)[0])
+        return cls(robot, settings, queue, model, log, network=network or stand_in, remembering=remembering)
 
     @property
     def path_room(self) -> tuple[tuple[float, float], ...]:
@@ -144,6 +153,22 @@ class RobotStack:
     def scans(self) -> int:
         """LiDAR revolutions taken in so far."""
         return self._buffer.scans
+
+    @property
+    def frames(self) -> int:
+        """Camera frames taken in so far."""
+        return self._buffer.frames
+
+    @property
+    def frames_understood(self) -> int:
+        """Camera frames that the network has made something of so far."""
+        return self._eyes.understood
+
+    @property
+    def network(self) -> str | None:
+        """Name of the file of the network in use."""
+        settings = self._settings
+        return settings.model.name if settings.model is not None and settings.camera else None
 
     def now(self) -> float:
         """Robot time in seconds."""
@@ -177,14 +202,22 @@ class RobotStack:
             await asyncio.to_thread(self._remembering.write, self.now())
         await self.robot.close()
 
-    def _object_memory(self, buffer: SensorBuffer, random: np.random.Generator) -> ObjectMemory:
-        return ObjectMemory(self.memory, buffer, self._eyes, random=random)
+    def _object_memory(self, buffer: SensorBuffer) -> ObjectMemory:
+        random = _random_streams(self._settings)[1]
+        settings = ObjectMemorySettings(period_s=1.0 / self._settings.camera_hz)
+        return ObjectMemory(self.memory, buffer, self._eyes, random=random, settings=settings)
 
     def _sensor_ages(self) -> dict[str, float]:
         """Seconds since the newest data of each sensor."""
         newest = {"lidar": self._buffer.scan, "camera": self._buffer.frame, "joints": self._buffer.joints}
         now_s = self.now()
         return {name: now_s - data.stamp_s for name, data in newest.items() if data is not None}
+
+
+def _random_streams(settings: Settings) -> tuple[np.random.Generator, np.random.Generator]:
+    """The stand-in's and the object memory's, independent of each other."""
+    stand_in, objects = np.random.SeedSequence(settings.seed).spawn(2)
+    return np.random.default_rng(stand_in), np.random.default_rng(objects)
 
 
 async def _network(settings: Settings) -> PanopticModel | None:

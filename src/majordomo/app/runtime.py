@@ -24,9 +24,10 @@ from majordomo.app.model_choice import make_language_model
 from majordomo.app.publisher import Publisher
 from majordomo.app.robot_stack import RobotStack
 from majordomo.app.scene_documents import robot_document, scene_document
-from majordomo.app.scheduler import Agent, LockstepScheduler, RealTimeScheduler, Scheduler, Turns
+from majordomo.app.scheduler import TICK_S, Agent, LockstepScheduler, RealTimeScheduler, Scheduler, Turns
 from majordomo.app.settings import ClockMode, Settings
-from majordomo.app.stack import Stack
+from majordomo.app.stack import BuildStack, Stack
+from majordomo.planner.models.protocol import LanguageModel
 from majordomo.planner.queue import TaskQueue
 from majordomo.planner.tasks import Approval, Task
 from majordomo.scene_graph.memory import WorkingMemory
@@ -43,6 +44,15 @@ class RobotUnavailable(RuntimeError):
     """There is no robot: it died, or a stored graph is served."""
 
 
+async def build_stack(
+    settings: Settings, queue: TaskQueue, model: LanguageModel | None, log: EventLog, *, anew: bool = False
+) -> Stack:
+    """The stored graph that is configured, otherwise a simulated robot."""
+    if settings.graph is not None:
+        return GraphStack.load(settings.graph, queue, model)
+    return await RobotStack.build(settings, queue, model, log, anew=anew)
+
+
 class Runtime:
     """Everything that runs behind the interface. Use ``async with runtime.running()``."""
 
@@ -52,9 +62,16 @@ class Runtime:
         *,
         event_log: Path | None = None,
         witnesses: Callable[[Runtime], Sequence[Agent]] | None = None,
+        build: BuildStack = build_stack,
+        tick_s: float = TICK_S,
     ) -> None:
-        """``witnesses``: makes agents that take the last turns and look on, as evaluations do."""
+        """Connect everything; nothing starts yet.
+
+        ``witnesses``: makes agents that take the last turns and look on, as evaluations do. ``build``: makes what runs
+        behind the interface. ``tick_s``: how finely simulated time is cut in lockstep.
+        """
         self.settings = settings
+        self._build, self._tick_s = build, tick_s
         self._witnesses = witnesses
         self.queue = TaskQueue()
         self.stream = EventStream(self._snapshot_document, first_seq=time.time_ns() // 1_000_000)
@@ -88,8 +105,9 @@ class Runtime:
 
     @property
     def robot(self) -> SimulatedRobot | None:
-        """The robot's driver, if there is a robot."""
-        return self._stack.robot if isinstance(self._stack, RobotStack) else None
+        """The simulated robot's driver, if there is one."""
+        robot = self._stack.robot if isinstance(self._stack, RobotStack) else None
+        return robot if isinstance(robot, SimulatedRobot) else None
 
     def require_robot(self) -> SimulatedRobot:
         """The robot's driver.
@@ -110,6 +128,16 @@ class Runtime:
     def scans(self) -> int:
         """LiDAR revolutions taken in so far."""
         return self._stack.scans if isinstance(self._stack, RobotStack) else 0
+
+    @property
+    def frames(self) -> int:
+        """Camera frames taken in so far."""
+        return self._stack.frames if isinstance(self._stack, RobotStack) else 0
+
+    @property
+    def frames_understood(self) -> int:
+        """Camera frames that the network has made something of so far."""
+        return self._stack.frames_understood if isinstance(self._stack, RobotStack) else 0
 
     @property
     def ready(self) -> bool:
@@ -209,6 +237,7 @@ class Runtime:
             "stopped": robot["stopped"],
             "robot": {key: robot[key] for key in ("room", "localized", "pose_map", "holding")},
             "language_model": self.settings.llm,
+            "network": self._require_stack().network,
             "agents": self._agents(),
             "simulator": self._lost or ("running" if self.robot else "none"),
             "perception": self._require_stack().degraded,
@@ -235,11 +264,7 @@ class Runtime:
 
     async def _start(self, *, anew: bool = False) -> None:
         settings = self.settings
-        if settings.graph is not None:
-            stack: Stack = GraphStack.load(settings.graph, self.queue, self.model)
-        else:
-            stack = await RobotStack.build(settings, self.queue, self.model, self.log, anew=anew)
-        self._stack = stack
+        self._stack = stack = await self._build(settings, self.queue, self.model, self.log, anew=anew)
         self._scene_cache.clear()
         publisher = Publisher(
             stack.memory,
@@ -251,7 +276,9 @@ class Runtime:
         )
         agents = [*stack.agents, publisher, *(self._witnesses(self) if self._witnesses else ()), _Herald(self._changed)]
         if isinstance(stack, RobotStack) and settings.clock is ClockMode.LOCKSTEP:
-            scheduler: Scheduler = LockstepScheduler(agents, stack.advance, speed=settings.speed, fatal=FATAL)
+            scheduler: Scheduler = LockstepScheduler(
+                agents, stack.advance, tick_s=self._tick_s, speed=settings.speed, fatal=FATAL
+            )
         else:
             scheduler = RealTimeScheduler(agents, stack.now, speed=settings.speed or 1.0, fatal=FATAL)
         self._scheduler = scheduler

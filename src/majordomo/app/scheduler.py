@@ -14,6 +14,8 @@ import numpy as np
 
 logger = logging.getLogger(__name__)
 
+TICK_S = 0.05
+"""How finely simulated time is cut in lockstep, seconds."""
 BUSY_WINDOW = 512
 """Steps over which an agent's busy time is summarized."""
 
@@ -111,7 +113,7 @@ class LockstepScheduler:
         agents: Sequence[Agent],
         advance: Callable[[float], Awaitable[float]],
         *,
-        tick_s: float = 0.05,
+        tick_s: float = TICK_S,
         speed: float | None = None,
         fatal: tuple[type[Exception], ...] = (),
     ) -> None:

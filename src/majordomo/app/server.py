@@ -16,6 +16,8 @@ from majordomo.app.runtime import Runtime
 from majordomo.app.settings import Settings
 
 SHUTDOWN_TIMEOUT_S = 5
+SWITCH_INTERVAL_S = 0.001
+"""How long perception's threads may hold the interpreter while a request waits."""
 
 
 class RefusedToBind(RuntimeError):

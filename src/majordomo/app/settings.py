@@ -22,6 +22,7 @@ class Settings(BaseModel):
 
     ``speed``: simulated seconds per wall second, ``None`` for as fast as the machine allows (lockstep only).
     ``llm``: ``provider:model`` or ``None`` for the command grammar alone. ``data``: folder of token, logs and memory.
+    ``camera_hz``: camera frames taken and understood in a second of the robot's clock.
     ``model``: file of the panoptic scene graph network, ``None`` for the simulator's stand-in.
     ``remember``: take up the building that the data folder holds, and keep it there.
     """
@@ -41,6 +42,7 @@ class Settings(BaseModel):
     simulation_api: bool = False
     explore: bool = True
     camera: bool = True
+    camera_hz: float = Field(default=5.0, gt=0)
     remember: bool = False
     graph: Path | None = None
     model: Path | None = None

@@ -5,7 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Protocol
 
+from majordomo.app.event_log import EventLog
 from majordomo.app.scheduler import Agent
+from majordomo.app.settings import Settings
+from majordomo.planner.models.protocol import LanguageModel
+from majordomo.planner.queue import TaskQueue
 from majordomo.scene_graph.memory import WorkingMemory
 
 
@@ -43,6 +47,11 @@ class Stack(Protocol):
         ...
 
     @property
+    def network(self) -> str | None:
+        """Name of the file of the network that the camera looks through."""
+        ...
+
+    @property
     def camera_on(self) -> bool:
         """Whether the camera has shown something."""
         ...
@@ -61,4 +70,14 @@ class Stack(Protocol):
 
     async def close(self) -> None:
         """Release everything."""
+        ...
+
+
+class BuildStack(Protocol):
+    """Makes what runs behind the interface."""
+
+    async def __call__(
+        self, settings: Settings, queue: TaskQueue, model: LanguageModel | None, log: EventLog, *, anew: bool = False
+    ) -> Stack:
+        """``anew``: begin with an empty graph, whatever is remembered."""
         ...

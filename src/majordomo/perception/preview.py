@@ -17,16 +17,23 @@ _GOLDEN_ANGLE_DEG = 137.508
 
 
 class WatchedModel:
-    """A panoptic model that remembers the last frame and what was found in it. Passes everything through."""
+    """A panoptic model that remembers the last frame and what was found in it. Passes everything through.
+
+    Attributes:
+        newest: the last frame that was understood, with what was found in it.
+        understood: how many frames were understood so far.
+    """
 
     def __init__(self, model: PanopticModel) -> None:
         self._model = model
         self.newest: tuple[RgbdFrame, PanopticScene] | None = None
+        self.understood = 0
 
     async def infer(self, frame: RgbdFrame) -> PanopticScene:
         """Instances and relations of ``frame``, as the model gives them."""
         scene = await self._model.infer(frame)
         self.newest = (frame, scene)
+        self.understood += 1
         return scene
 
 

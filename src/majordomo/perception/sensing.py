@@ -1,7 +1,7 @@
 """The newest measurements of the robot, kept where every perception agent finds them.
 
-``Sensing`` is the only agent that talks to the sensor port. What a step of any other agent sees is therefore one
-consistent set of measurements, and a sensor that fails is marked in one place.
+``Sensing`` and ``Filming`` are the only agents that talk to the sensor port, each at its own rate. What a step of any
+other agent sees is therefore one consistent set of measurements, and a sensor that fails is marked in one place.
 """
 
 from __future__ import annotations
@@ -74,7 +74,7 @@ class SensorBuffer:
     Attributes:
         odometry: recent odometry, oldest first.
         scan, frame, joints: newest of each, ``None`` until the first arrives.
-        scans: how many LiDAR revolutions arrived so far.
+        scans, frames: how many LiDAR revolutions and camera frames arrived so far.
         silent: sensor name -> time in seconds since which it has been silent.
     """
 
@@ -84,6 +84,7 @@ class SensorBuffer:
         self.scan: LidarScan | None = None
         self.scans = 0
         self.frame: RgbdFrame | None = None
+        self.frames = 0
         self.joints: JointState | None = None
         self.silent: dict[str, float] = {}
 
@@ -96,6 +97,11 @@ class SensorBuffer:
         """Take in a revolution; the same one twice counts once."""
         self.scans += self.scan is None or scan.stamp_s > self.scan.stamp_s
         self.scan = scan
+
+    def add_frame(self, frame: RgbdFrame) -> None:
+        """Take in a camera frame; the same one twice counts once."""
+        self.frames += self.frame is None or frame.stamp_s > self.frame.stamp_s
+        self.frame = frame
 
     def odometry_at(self, stamp_s: float) -> SE3:
         """Pose of the base in the odometry frame at ``stamp_s``.
@@ -155,42 +161,53 @@ def _interpolate(before: Odometry, after: Odometry, stamp_s: float) -> tuple[flo
 
 
 class Sensing:
-    """Agent that fetches measurements: odometry, LiDAR and joints each step, the camera at its own period."""
+    """Agent that fetches odometry, LiDAR and joints each step."""
 
     name = "sensing"
 
-    def __init__(self, buffer: SensorBuffer, *, period_s: float = 0.1, camera_period_s: float | None = 0.2) -> None:
-        """``camera_period_s``: time between camera frames, ``None`` leaves the camera alone (``--no-camera``)."""
+    def __init__(self, buffer: SensorBuffer, *, period_s: float = 0.1) -> None:
         self.period_s = period_s
         self._buffer = buffer
-        self._camera_period_s = camera_period_s
-        self._next_frame_s = -np.inf
 
     async def step(self, stamp_s: float) -> None:
-        """Fetch what is due at ``stamp_s``."""
+        """Fetch all three."""
         buffer, port = self._buffer, self._buffer.port
-        odometry = await self._fetch("odometry", port.odometry, stamp_s)
+        odometry = await _fetched("odometry", port.odometry, buffer, stamp_s)
         if odometry is not None:
             buffer.add_odometry(odometry)
-        scan = await self._fetch("scan", port.scan, stamp_s)
+        scan = await _fetched("scan", port.scan, buffer, stamp_s)
         if scan is not None:
             buffer.add_scan(scan)
-        buffer.joints = await self._fetch("joints", port.joints, stamp_s) or buffer.joints
-        if self._camera_period_s is not None and stamp_s >= self._next_frame_s - 1e-6:
-            self._next_frame_s = stamp_s + self._camera_period_s
-            buffer.frame = await self._fetch("frame", port.frame, stamp_s) or buffer.frame
+        buffer.joints = await _fetched("joints", port.joints, buffer, stamp_s) or buffer.joints
 
-    async def _fetch(
-        self, sensor: str, read: Callable[[], Awaitable[Measurement]], stamp_s: float
-    ) -> Measurement | None:
-        silent = self._buffer.silent
-        try:
-            measurement = await read()
-        except SensorSilent as problem:
-            if sensor not in silent:
-                logger.warning("%s", problem, extra={"sensor": sensor})
-            silent.setdefault(sensor, stamp_s)
-            return None
-        if silent.pop(sensor, None) is not None:
-            logger.info("sensor '%s' is back", sensor, extra={"sensor": sensor})
-        return measurement
+
+class Filming:
+    """Agent that fetches a camera frame each step. Without it the camera is left alone (``--no-camera``)."""
+
+    name = "filming"
+
+    def __init__(self, buffer: SensorBuffer, *, period_s: float = 0.2) -> None:
+        self.period_s = period_s
+        self._buffer = buffer
+
+    async def step(self, stamp_s: float) -> None:
+        """Fetch a frame."""
+        frame = await _fetched("frame", self._buffer.port.frame, self._buffer, stamp_s)
+        if frame is not None:
+            self._buffer.add_frame(frame)
+
+
+async def _fetched(
+    sensor: str, read: Callable[[], Awaitable[Measurement]], buffer: SensorBuffer, stamp_s: float
+) -> Measurement | None:
+    """A measurement, ``None`` from a silent sensor, which is marked in ``buffer`` until it is back."""
+    try:
+        measurement = await read()
+    except SensorSilent as problem:
+        if sensor not in buffer.silent:
+            logger.warning("%s", problem, extra={"sensor": sensor})
+        buffer.silent.setdefault(sensor, stamp_s)
+        return None
+    if buffer.silent.pop(sensor, None) is not None:
+        logger.info("sensor '%s' is back", sensor, extra={"sensor": sensor})
+    return measurement

@@ -13,6 +13,7 @@ async def test_the_status_tells_what_the_robot_is_doing(service):
     assert status.keys() >= {"stamp_s", "clock", "exploring", "explored", "task", "stopped", "robot", "agents"}
     assert (status["clock"], status["explored"], status["exploring"]) == ("real", True, False)
     assert (status["task"], status["stopped"], status["language_model"]) == (None, False, None)
+    assert status["network"] is None, "a stored graph is not looked at"
     assert (status["robot"]["room"], status["robot"]["holding"]) == ("room_1", None)
     assert status["robot"]["pose_map"] == pytest.approx({"x": 0.0, "y": 0.2, "yaw_rad": 0.6}, abs=1e-3)
     for figures in status["agents"].values():

@@ -4,8 +4,12 @@ from __future__ import annotations
 
 import pytest
 
-from majordomo.app.evaluations.rates import summary
+from majordomo.app.evaluations.probing import Answers
+from majordomo.app.evaluations.rates import BESIDE_SIMULATOR, FROM_MEMORY, Counts, summary
 from majordomo.app.scheduler import Turns
+
+SECONDS = 10.0
+QUICK = Answers(latencies_ms=(4.0,) * 99 + (40.0,))
 
 
 class Agent:
@@ -23,30 +27,51 @@ def turns(**longest_wait_s):
     ]
 
 
+def counts(scans=199, frames=300, understood=299, optimizer=100):
+    return Counts(scans=scans, frames=frames, understood=understood, turns={"energy_optimizer": optimizer})
+
+
 def test_rates_that_are_held_by_agents_that_all_get_their_turns():
-    held = summary("from memory", 20.0, 10.0, 199, turns(room_concept=0.4))
+    held = summary(FROM_MEMORY, SECONDS, counts(), turns(room_concept=0.4), QUICK)
     assert held["held"]
-    assert held["lidar_hz"] == pytest.approx(19.9)
+    assert (held["lidar_hz"], held["rgbd_hz"]) == (pytest.approx(19.9), pytest.approx(29.9))
+    assert (held["frames_taken_hz"], held["frames_skipped"]) == (pytest.approx(30.0), 1)
     assert (held["overdue"], held["overdue_s"]) == ("room_concept", pytest.approx(0.3))
+    assert (held["api_p50_ms"], held["api_requests"]) == (pytest.approx(4.0), 100)
+
+
+def test_from_memory_more_is_asked_for_than_beside_the_simulator():
+    fewer = counts(scans=100, frames=50, understood=50)
+    assert summary(BESIDE_SIMULATOR, SECONDS, fewer, turns(), QUICK)["held"]
+    assert not summary(FROM_MEMORY, SECONDS, fewer, turns(), QUICK)["held"]
 
 
 def test_at_twice_the_pace_a_turn_is_overdue_after_half_the_period():
-    twice = summary("from memory", 20.0, 10.0, 200, turns(room_concept=0.4), speed=2.0)
+    twice = summary(FROM_MEMORY, SECONDS, counts(), turns(room_concept=0.4), QUICK, speed=2.0)
     assert (twice["overdue"], twice["overdue_s"]) == ("room_concept", pytest.approx(0.35))
-    assert not summary("from memory", 20.0, 10.0, 200, turns(room_concept=1.06), speed=2.0)["held"]
-    assert summary("from memory", 20.0, 10.0, 200, turns(room_concept=1.06))["held"]
+    assert not summary(FROM_MEMORY, SECONDS, counts(), turns(room_concept=1.06), QUICK, speed=2.0)["held"]
+    assert summary(FROM_MEMORY, SECONDS, counts(), turns(room_concept=1.06), QUICK)["held"]
 
 
 @pytest.mark.parametrize(
-    ("seconds", "scans", "longest_wait_s"),
-    [(10.0, 150, 0.2), (30.0, 600, 0.2), (10.0, 200, 1.3)],
-    ids=["scans are lost", "the optimizer is slow", "an agent starves"],
+    ("short", "longest_wait_s"),
+    [({"scans": 150}, 0.2), ({"understood": 250}, 0.2), ({"optimizer": 80}, 0.2), ({}, 1.3)],
+    ids=["scans are lost", "frames are not understood", "the optimizer is slow", "an agent starves"],
 )
-def test_what_is_not_held(seconds, scans, longest_wait_s):
-    assert not summary("from memory", 20.0, seconds, scans, turns(room_concept=longest_wait_s))["held"]
+def test_what_is_not_held(short, longest_wait_s):
+    assert not summary(FROM_MEMORY, SECONDS, counts(**short), turns(room_concept=longest_wait_s), QUICK)["held"]
+
+
+@pytest.mark.parametrize(
+    "answers",
+    [Answers(latencies_ms=(4.0,) * 97 + (80.0,) * 3), Answers(latencies_ms=(4.0,) * 100, failures=("/healthz: 503",))],
+    ids=["three in a hundred are slow", "one failed"],
+)
+def test_an_api_that_does_not_answer_in_time_or_at_all(answers):
+    assert not summary(FROM_MEMORY, SECONDS, counts(), turns(), answers)["held"]
 
 
 def test_an_agent_that_failed_meanwhile_held_nothing():
     failed = turns()
     failed[0].restarts = 1
-    assert not summary("from memory", 20.0, 10.0, 200, failed)["held"]
+    assert not summary(FROM_MEMORY, SECONDS, counts(), failed, QUICK)["held"]

@@ -285,7 +285,7 @@ class Exploration:
         memory = WorkingMemory()
         port = HousePort(house=house, pose=start, rng=np.random.default_rng(seed), **noise)
         buffer = SensorBuffer(port)
-        agents = [Sensing(buffer, camera_period_s=None), *make_agents(memory, buffer)]
+        agents = [Sensing(buffer), *make_agents(memory, buffer)]
         return cls(memory=memory, port=port, buffer=buffer, agents=agents, driver=Driver(memory, port), start=start)
 
     def run(self, seconds: float, until=lambda exploration: False) -> None:  # type: ignore[no-untyped-def]

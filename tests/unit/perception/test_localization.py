@@ -130,7 +130,7 @@ class Drive:
 
     async def _run(self, steps: int, forward_m: float, turn_rad: float) -> None:
         buffer = SensorBuffer(self.port)
-        agents = [Sensing(buffer, camera_period_s=None), EnergyOptimizer(self.memory, buffer)]
+        agents = [Sensing(buffer), EnergyOptimizer(self.memory, buffer)]
         await agents[0].step(self.port.stamp_s)
         for _ in range(steps):
             self.port.stamp_s = round(self.port.stamp_s + 0.1, 3)

@@ -12,8 +12,9 @@ from hypothesis import strategies as st
 
 from majordomo.perception.errors import OdometryUnavailable, SensorSilent
 from majordomo.perception.localization.planar import Pose2
-from majordomo.perception.ports import Odometry, RgbdFrame
-from majordomo.perception.sensing import Sensing, SensorBuffer, scan_points_base
+from majordomo.perception.ports import Intrinsics, Odometry, RgbdFrame
+from majordomo.perception.sensing import Filming, Sensing, SensorBuffer, scan_points_base
+from majordomo.scene_graph.se3 import SE3
 from unit.perception.exploring_robot import HousePort
 from unit.perception.lidar_house import House, cast, rectangle
 
@@ -75,10 +76,9 @@ def test_points_of_a_scan_lie_on_the_walls_or_the_floor() -> None:
 
 
 class HalfDeaf(HousePort):
-    """A robot whose LiDAR can be switched off, and whose camera counts how often it is asked."""
+    """A robot whose LiDAR and camera can be switched off."""
 
-    deaf = False
-    asked = 0
+    deaf = blind = False
 
     async def scan(self):  # type: ignore[no-untyped-def]
         if self.deaf:
@@ -86,14 +86,25 @@ class HalfDeaf(HousePort):
         return await super().scan()
 
     async def frame(self) -> RgbdFrame:
-        self.asked += 1
-        return await super().frame()
+        if self.blind:
+            raise SensorSilent("frame", 0.5)
+        return gray_frame(self.stamp_s)
+
+
+def gray_frame(stamp_s: float) -> RgbdFrame:
+    return RgbdFrame(
+        stamp_s=stamp_s,
+        rgb=np.full((3, 4, 3), 128, dtype=np.uint8),
+        depth_m=np.ones((3, 4), dtype=np.float32),
+        intrinsics=Intrinsics(fx=4.0, fy=4.0, cx=1.5, cy=1.0, width=4, height=3),
+        T_base_camera=SE3.identity(),
+    )
 
 
 def test_a_silent_sensor_is_marked_until_it_is_back_and_its_last_data_stay() -> None:
     robot = HalfDeaf(house=ROOM, pose=Pose2(1.0, 1.0, 0.0), rng=np.random.default_rng(0))
     buffer = SensorBuffer(robot)
-    agent = Sensing(buffer, camera_period_s=None)
+    agent = Sensing(buffer)
     asyncio.run(agent.step(0.0))
     before = buffer.scan
     robot.deaf = True
@@ -107,9 +118,29 @@ def test_a_silent_sensor_is_marked_until_it_is_back_and_its_last_data_stay() -> 
     assert buffer.scan is not before
 
 
-def test_the_camera_is_asked_at_its_own_period() -> None:
+def test_the_camera_is_left_to_its_own_agent() -> None:
     robot = HalfDeaf(house=ROOM, pose=Pose2(1.0, 1.0, 0.0), rng=np.random.default_rng(0))
-    agent = Sensing(SensorBuffer(robot), camera_period_s=0.2)
-    for step in range(10):
-        asyncio.run(agent.step(step * 0.1))
-    assert robot.asked == 5
+    buffer = SensorBuffer(robot)
+    asyncio.run(Sensing(buffer).step(0.0))
+    assert (buffer.frame, buffer.frames) == (None, 0)
+    asyncio.run(Filming(buffer).step(0.0))
+    assert buffer.frame is not None
+    assert buffer.frames == 1
+
+
+def test_a_blind_camera_is_marked_and_its_last_frame_stays() -> None:
+    robot = HalfDeaf(house=ROOM, pose=Pose2(1.0, 1.0, 0.0), rng=np.random.default_rng(0))
+    buffer = SensorBuffer(robot)
+    asyncio.run(Filming(buffer).step(0.0))
+    before, robot.blind = buffer.frame, True
+    asyncio.run(Filming(buffer).step(0.2))
+    assert buffer.silent == {"frame": 0.2}
+    assert buffer.frame is before
+
+
+def test_a_measurement_that_comes_twice_counts_once() -> None:
+    buffer = buffer_with()
+    for stamp_s in (0.0, 0.2, 0.2, 0.4):
+        buffer.add_frame(gray_frame(stamp_s))
+        buffer.add_scan(cast(ROOM, Pose2(1.0, 1.0, 0.0), np.random.default_rng(0), stamp_s=stamp_s))
+    assert (buffer.frames, buffer.scans) == (3, 3)

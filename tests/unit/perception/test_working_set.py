@@ -171,7 +171,7 @@ def explore(house: House, *, long_term: LongTermStore | None) -> Exploration:
         memory=memory,
         port=port,
         buffer=buffer,
-        agents=[Sensing(buffer, camera_period_s=None), *agents(memory, buffer)],
+        agents=[Sensing(buffer), *agents(memory, buffer)],
         driver=Driver(memory, port),
         start=port.pose,
     )

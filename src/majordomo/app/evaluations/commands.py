@@ -9,6 +9,8 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
+from majordomo.app.settings import Settings
+
 evaluations = typer.Typer(help="Measure something, print a table, write JSON.", no_args_is_help=True)
 
 console = Console()
@@ -169,13 +171,21 @@ def evaluate_resources(
 @evaluations.command("rates")
 def evaluate_rates(
     house: House = "flat",
-    seconds: Annotated[float, typer.Option(min=5.0, help="Wall seconds of each of the two measurements.")] = 60.0,
+    seconds: Annotated[
+        float, typer.Option(min=5.0, max=120.0, help="Wall seconds of each measurement; a replayed one fills 12 MB.")
+    ] = 60.0,
+    model: Network = None,
     json_file: JsonFile = None,
 ) -> None:
-    """Measure in real time whether agents keep up with the sensors, from memory and beside the simulator."""
+    """Measure in real time whether agents and API keep up with the sensors, from memory and beside the simulator."""
     from majordomo.app.evaluations.rates import evaluate
 
-    good = evaluate(house=house, seconds=seconds, json_file=json_file, console=console)
+    network = model or Settings.model_fields["model"].default
+    if network is None:
+        raise typer.BadParameter(
+            "a recording cannot be seen through the simulator's stand-in: name a network's file with --model"
+        )
+    good = evaluate(house=house, seconds=seconds, model=network, json_file=json_file, console=console)
     raise typer.Exit(0 if good else 1)
 
 

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from majordomo.app.runtime import Runtime
-from majordomo.app.scheduler import Agent
+from majordomo.app.scheduler import TICK_S, Agent
 from majordomo.app.settings import ClockMode, Settings
 from majordomo.simulation.house import House
 
@@ -60,6 +60,7 @@ async def service_in_lockstep(
     camera: bool = False,
     model: Path | None = None,
     witnesses: Callable[[Runtime], Sequence[Agent]] | None = None,
+    tick_s: float = TICK_S,
 ) -> AsyncIterator[Runtime]:
     """A service with its robot in a house, as fast as the machine allows, forgotten afterwards.
 
@@ -78,7 +79,7 @@ async def service_in_lockstep(
             data=Path(folder),
             model=model or Settings.model_fields["model"].default,
         )
-        runtime = Runtime(settings, witnesses=witnesses)
+        runtime = Runtime(settings, witnesses=witnesses, tick_s=tick_s)
         async with runtime.running():
             yield runtime
 

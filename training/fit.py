@@ -75,7 +75,7 @@ def fit(
     known: list[Path] = []
     lessons: Lessons | None = None
     sums: dict[str, float] = {}
-    said, told_s = 0, time.monotonic()
+    said, told_s = step, time.monotonic()
     while step < course.steps:
         passes += 1
         files = list(shards())

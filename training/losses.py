@@ -12,7 +12,6 @@ from training.network import BACKGROUND, HEIGHT, HINTS, PEAKS, STRIDES, WIDTH, A
 
 _STUFF = len(STUFF)
 _BACKGROUND_WEIGHT = 0.6
-_MASK_STEP = 2
 
 
 def assigned(peaks: tuple[Tensor, ...], batch: Batch) -> tuple[tuple[Tensor, ...], Tensor]:
@@ -125,10 +124,7 @@ def _of_answers(found: Answers, row_of: Tensor, standing: Tensor, batch: Batch) 
     rows = row_of.gather(1, standing)
     drawn = torch.nonzero(rows >= 0, as_tuple=True)
     truth = (batch.ids[drawn[0]] == rows[drawn][:, None, None].to(torch.uint8)).float()[:, None]
-    fine = functional.interpolate(
-        found.masks[drawn][:, None], scale_factor=4 // _MASK_STEP, mode="bilinear", align_corners=False
-    )
-    masks = _mask_loss(fine, functional.avg_pool2d(truth, _MASK_STEP))
+    masks = _mask_loss(found.masks[drawn][:, None], functional.avg_pool2d(truth, 4))
     coarse = _mask_loss(found.coarse[drawn[0], standing[drawn]][:, None], functional.avg_pool2d(truth, 8))
     return {
         "kind": 2.0 * classes + 0.5 * open_set,
@@ -154,7 +150,7 @@ def _mask_loss(logits: Tensor, truth: Tensor) -> Tensor:
     area = truth.sum(dim=(1, 2, 3))
     dice = 1.0 - (2.0 * (p * truth).sum(dim=(1, 2, 3)) + 1.0) / ((p * p + truth * truth).sum(dim=(1, 2, 3)) + 1.0)
     entropy = functional.binary_cross_entropy_with_logits(logits, truth, reduction="none").sum(dim=(1, 2, 3))
-    return (dice + 0.5 * entropy / (2.0 * area + 20.0)).mean()
+    return (dice + 0.5 * entropy / (2.0 * area + 8.0)).mean()
 
 
 def _related(logits: Tensor, row_of: Tensor, batch: Batch) -> Tensor:

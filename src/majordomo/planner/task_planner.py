@@ -15,7 +15,7 @@ from majordomo.planner.grammar.parser import CommandGrammar
 from majordomo.planner.grammar.tokens import text_flaw
 from majordomo.planner.interpreter import Choices, Interpreter, Reading
 from majordomo.planner.model_rounds import ModelRounds
-from majordomo.planner.models.protocol import CORRECTABLE, LanguageModel, ModelFailure
+from majordomo.planner.models.protocol import CORRECTABLE, FailureKind, LanguageModel, ModelFailure
 from majordomo.planner.plan import Dialogue, Interpretation, Kind
 from majordomo.planner.selection import select
 from majordomo.planner.verifier import Verifier
@@ -115,6 +115,10 @@ class TaskPlanner:
 
 
 def _without_model(interpretation: Interpretation, failure: ModelFailure) -> Interpretation:
-    what = "gave no usable answer" if failure.kind in CORRECTABLE else "is not available"
-    note = f"(The language model {what}: {failure.message}.)".replace("..", ".")
+    if failure.kind is FailureKind.RESTING:
+        note = f"({failure.message}.)"
+    else:
+        what = "gave no usable answer" if failure.kind in CORRECTABLE else "is not available"
+        what = "cannot take this request" if failure.kind is FailureKind.PROMPT_TOO_LONG else what
+        note = f"(The language model {what}: {failure.message}.)".replace("..", ".")
     return replace(interpretation, reply=f"{interpretation.reply} {note}")

@@ -49,9 +49,12 @@ class FailureKind(StrEnum):
     """Closed set of ways in which a language model fails."""
 
     ENDPOINT_DOWN = "endpoint_down"
+    SERVER_ERROR = "server_error"
     HTTP_ERROR = "http_error"
     RATE_LIMITED = "rate_limited"
     TIMEOUT = "timeout"
+    RESTING = "resting"
+    PROMPT_TOO_LONG = "prompt_too_long"
     REFUSAL = "refusal"
     TRUNCATED = "truncated"
     MALFORMED_JSON = "malformed_json"
@@ -64,15 +67,22 @@ CORRECTABLE = frozenset(
 )
 """Failures of the answer, which another round may mend; the others are failures of the service."""
 
+OUTAGES = frozenset({FailureKind.ENDPOINT_DOWN, FailureKind.SERVER_ERROR, FailureKind.TIMEOUT})
+"""Failures after which the next request would most likely fail as well."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class ModelFailure:
-    """Why there is no usable answer, in one sentence for a person; ``text`` is the raw answer, if there was one."""
+    """Why there is no usable answer, in one sentence for a person; ``text`` is the raw answer, if there was one.
+
+    ``wait_s``: how long the server asked to be left alone, zero when it did not.
+    """
 
     kind: FailureKind
     message: str
     text: str = ""
     attempts: int = 1
+    wait_s: float = 0.0
 
 
 class LanguageModel(Protocol):

@@ -41,15 +41,15 @@ def main() -> None:
     from majordomo.app.runtime import RobotUnavailable
     from majordomo.app.server import RefusedToBind
     from majordomo.perception.network.errors import NetworkRefused
-    from majordomo.planner.errors import BadModelSpec
+    from majordomo.planner.errors import BadModelKey, BadModelSpec
     from majordomo.scene_graph.errors import SceneFormatError
     from majordomo.simulation.errors import HouseError, SimulatorError
 
     try:
         application()
     except (
-        RefusedToBind, HouseError, SimulatorError, RobotUnavailable, SceneFormatError, BadModelSpec, NetworkRefused,
-        OSError,
+        RefusedToBind, HouseError, SimulatorError, RobotUnavailable, SceneFormatError, BadModelKey, BadModelSpec,
+        NetworkRefused, OSError,
     ) as error:  # fmt: skip
         complaints.print(f"majordomo: {error}", style="red", markup=False, highlight=False)
         sys.exit(2)
@@ -67,7 +67,12 @@ def serve(
     speed: Annotated[str, typer.Option(help="Simulated seconds per second, or 'max' (lockstep only).")] = "1",
     port: Annotated[int, typer.Option(min=0, max=65535, help="0 picks a free one.")] = 8642,
     host: Annotated[str, typer.Option(help="Address to listen on.")] = "127.0.0.1",
-    llm: Annotated[str | None, typer.Option(help="Language model, PROVIDER:MODEL.")] = None,
+    llm: Annotated[
+        str | None, typer.Option(help="Language model, PROVIDER:MODEL; providers are openai, ollama and anthropic.")
+    ] = None,
+    llm_context: Annotated[
+        int | None, typer.Option(envvar="MAJORDOMO_LLM_CONTEXT", min=1024, help="Its context length in tokens.")
+    ] = None,
     model: Network = None,
     data: Data = DEFAULT_DATA,
     simulation_api: Annotated[bool, typer.Option("--simulation-api", help="Offer truth and disturbances.")] = False,
@@ -96,6 +101,7 @@ def serve(
         llm=llm,
         llm_url=os.environ.get("MAJORDOMO_LLM_URL"),
         llm_key=os.environ.get("MAJORDOMO_LLM_KEY"),
+        llm_context=llm_context,
         data=data,
         simulation_api=simulation_api,
         explore=explore,

@@ -21,7 +21,8 @@ class Settings(BaseModel):
     """Settings of one service.
 
     ``speed``: simulated seconds per wall second, ``None`` for as fast as the machine allows (lockstep only).
-    ``llm``: ``provider:model`` or ``None`` for the command grammar alone. ``data``: folder of token, logs and memory.
+    ``llm``: ``provider:model`` or ``None`` for the command grammar alone. ``llm_context``: its context length in
+    tokens, ``None`` for the provider's usual one. ``data``: folder of token, logs and memory.
     ``camera_hz``: camera frames taken and understood in a second of the robot's clock.
     ``model``: file of the panoptic scene graph network, ``None`` for the simulator's stand-in.
     ``remember``: take up the building that the data folder holds, and keep it there.
@@ -38,6 +39,7 @@ class Settings(BaseModel):
     llm: str | None = None
     llm_url: str | None = None
     llm_key: str | None = Field(default=None, repr=False)
+    llm_context: int | None = Field(default=None, ge=1024)
     data: Path = DEFAULT_DATA
     simulation_api: bool = False
     explore: bool = True

@@ -33,6 +33,14 @@ class BadModelSpec(PlannerError):
         self.spec, self.expected = spec, expected
 
 
+class BadModelKey(PlannerError):
+    """A language model's provider wants a key, and there is none that it could take."""
+
+    def __init__(self, provider: str, problem: str) -> None:
+        super().__init__(f"{provider} wants a key, and {problem}: put it into MAJORDOMO_LLM_KEY in the environment")
+        self.provider, self.problem = provider, problem
+
+
 class TaskNotFound(PlannerError):
     """No task has this identifier; ``available`` lists the newest ones."""
 

@@ -97,6 +97,7 @@ class ModelRounds:
             "event": "model_answer",
             "model": self._model.name,
             "round": number,
+            "attempts": answer.attempts,
             "text": answer.text,
         }
         if isinstance(answer, ModelReply):

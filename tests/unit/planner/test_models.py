@@ -9,10 +9,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from majordomo.planner.errors import BadModelSpec
+from majordomo.planner.errors import BadModelKey, BadModelSpec
 from majordomo.planner.goals import Predicate
-from majordomo.planner.models.completions import read_completion
+from majordomo.planner.models.anthropic import AnthropicWire
+from majordomo.planner.models.budget import over_budget, tokens_needed
 from majordomo.planner.models.extraction import json_object
+from majordomo.planner.models.ollama import OllamaWire
+from majordomo.planner.models.openai import OpenAIWire
 from majordomo.planner.models.protocol import FailureKind, Message, ModelFailure, ModelReply, ModelRequest, Role
 from majordomo.planner.models.scripted import ScriptedModel
 from majordomo.planner.models.spec import language_model, parse_spec
@@ -45,13 +48,17 @@ def test_an_object_amid_prose_is_found_as_it_was_written(data, before, after):
         '<think>maybe {"b": 2} or so</think>{"a": 1}',
         '<thinking>{"a": 0, "much": "longer than the answer"}</thinking> {"a": 1}',
         '{not json} {"a": 1}',
+        'say {"b": "longer than the answer"}</think>{"a": 1}',
+        '{"a": 1}</think>',
     ],
 )
 def test_fences_prose_and_reasoning_are_passed_over(text):
     assert json_object(text) == {"a": 1}
 
 
-@pytest.mark.parametrize("text", ["", "no", "[1, 2]", '{"a": ', '"a"', "<think>{}", "{" * 5000, "[" * 5000])
+@pytest.mark.parametrize(
+    "text", ["", "no", "[1, 2]", '{"a": ', '"a"', "<think>{}", "{" * 5000, "[" * 5000, '{"a": ' + "9" * 5000]
+)
 def test_without_a_whole_object_there_is_none(text):
     assert json_object(text) is None
 
@@ -67,8 +74,11 @@ def completion(content='{"a": 1}', **fields):
     return json.dumps({"choices": [choice], "usage": {"prompt_tokens": 7, "completion_tokens": 3}} | fields).encode()
 
 
+WIRES = (OpenAIWire(model="m"), OllamaWire(model="m", context_tokens=8192), AnthropicWire(model="m"))
+
+
 def test_a_completion_gives_the_object_the_raw_text_and_the_tokens():
-    assert read_completion(completion()) == ModelReply(
+    assert WIRES[0].read(completion()) == ModelReply(
         data={"a": 1}, text='{"a": 1}', prompt_tokens=7, completion_tokens=3
     )
 
@@ -92,20 +102,23 @@ def test_a_completion_gives_the_object_the_raw_text_and_the_tokens():
     ids=lambda value: str(value)[:30],
 )
 def test_every_way_a_completion_fails_has_its_kind(body, kind):
-    failure = read_completion(body)
+    failure = WIRES[0].read(body)
     assert isinstance(failure, ModelFailure)
     assert failure.kind is kind
 
 
 @given(st.binary(max_size=80) | values.map(lambda value: json.dumps(value).encode()))
 def test_any_body_is_read_without_complaint(body):
-    assert isinstance(read_completion(body), ModelReply | ModelFailure)
+    for wire in WIRES:
+        assert isinstance(wire.read(body), ModelReply | ModelFailure)
 
 
 @pytest.mark.parametrize(
     ("text", "base_url", "expected"),
     [
         ("openai:gpt-x", None, ("openai", "gpt-x", "https://api.openai.com/v1")),
+        ("ollama:qwen2.5:7b", None, ("ollama", "qwen2.5:7b", "http://127.0.0.1:11434")),
+        ("anthropic:claude-x", None, ("anthropic", "claude-x", "https://api.anthropic.com")),
         ("openai:org/model:free", "http://h/v1", ("openai", "org/model:free", "http://h/v1")),
         ("openai:m@http://127.0.0.1:1/v1", "http://h/v1", ("openai", "m", "http://127.0.0.1:1/v1")),
     ],
@@ -119,7 +132,25 @@ def test_a_specification_names_provider_model_and_address(text, base_url, expect
 def test_an_unreadable_specification_says_what_is_expected(text):
     with pytest.raises(BadModelSpec) as error:
         parse_spec(text)
-    assert "openai:MODEL" in str(error.value)
+    assert "openai:MODEL, ollama:MODEL, anthropic:MODEL" in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("spec", "key"), [("anthropic:m", None), ("anthropic:m", " "), ("openai:m", "schl\u00fcssel"), ("ollama:m", "a\nb")]
+)
+@pytest.mark.anyio
+async def test_a_key_that_is_missing_or_none_is_said_before_any_request(spec, key):
+    async with httpx.AsyncClient() as http:
+        with pytest.raises(BadModelKey, match="MAJORDOMO_LLM_KEY") as error:
+            language_model(parse_spec(spec), http=http, key=key)
+    assert key is None or not key.strip() or key not in str(error.value)
+
+
+@given(st.text(max_size=300), st.integers(0, 5000))
+def test_a_request_is_sent_exactly_when_its_estimate_fits(text, tokens):
+    request = ModelRequest(messages=(Message(role=Role.USER, text=text),), schema={}, max_tokens=100)
+    assert tokens_needed(request) >= len(text) / 3 + 100
+    assert (over_budget(request, tokens) is None) == (tokens_needed(request) <= tokens)
 
 
 @pytest.mark.anyio

@@ -8,13 +8,23 @@ from collections.abc import Mapping
 from typing import Any
 
 _REASONING = re.compile(r"<(think|thinking|reasoning)>.*?(</\1>|\Z)", re.DOTALL | re.IGNORECASE)
+_REASONING_END = re.compile(r"</(think|thinking|reasoning)>", re.IGNORECASE)
 _DECODER = json.JSONDecoder(parse_constant=lambda name: name)
 MAX_TRIES = 200
 
 
 def json_object(text: str) -> Mapping[str, Any] | None:
-    """The largest JSON object in ``text`` outside reasoning tags, None when there is none that is whole."""
+    """The largest JSON object in ``text`` outside reasoning tags, None when there is none that is whole.
+
+    Some servers leave out the tag that opens the reasoning: what follows the last one that closes it is searched first.
+    """
     text = _REASONING.sub(" ", text)
+    *_, last = re.split(_REASONING_END, text)
+    found = _largest_object(last)
+    return found if found is not None else _largest_object(text)
+
+
+def _largest_object(text: str) -> Mapping[str, Any] | None:
     best: tuple[int, Mapping[str, Any]] | None = None
     position, tries = text.find("{"), 0
     while position != -1 and tries < MAX_TRIES:
@@ -29,6 +39,6 @@ def json_object(text: str) -> Mapping[str, Any] | None:
 def _object_at(text: str, position: int) -> tuple[Mapping[str, Any] | None, int]:
     try:
         value, end = _DECODER.raw_decode(text, position)
-    except (json.JSONDecodeError, RecursionError):
+    except (ValueError, RecursionError):
         return None, position
     return (value, end) if isinstance(value, dict) else (None, position)

@@ -1,162 +1,100 @@
 """Chat completions as OpenAI defined them and vLLM, llama.cpp, LM Studio, OpenRouter and others offer them.
 
-Structured output by capability: JSON schema, else JSON mode, else asking for JSON and extracting it. The first that the
-server accepts is remembered.
+https://platform.openai.com/docs/api-reference/chat
 """
 
 from __future__ import annotations
 
-import asyncio
-import json
-import time
-from collections.abc import Awaitable, Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from enum import IntEnum
 from typing import Any
 
 import httpx
+from pydantic import Field
 
-from majordomo.planner.models.completions import read_completion
-from majordomo.planner.models.protocol import FailureKind, ModelFailure, ModelReply, ModelRequest
-from majordomo.prompts.templates import render
-
-MAX_ANSWER_BYTES = 2_000_000
-RETRIED_STATUSES = frozenset({408, 409, 425, 429, 500, 502, 503, 504, 529})
-SHAPE_STATUSES = frozenset({400, 404, 415, 422, 501})
-"""With these a server may say that it does not know the response format."""
+from majordomo.planner.models import reading
+from majordomo.planner.models.ladder import Rung, lower, spoken
+from majordomo.planner.models.protocol import ModelFailure, ModelReply, ModelRequest
 
 
-class Rung(IntEnum):
-    """How structured output is asked for; the next is tried when the server knows no better."""
+class _Message(reading.Body):
+    content: str | None = None
+    refusal: str | None = None
 
-    SCHEMA = 0
-    JSON_MODE = 1
-    EXTRACTION = 2
+
+class _Choice(reading.Body):
+    message: _Message
+    finish_reason: str | None = None
+
+
+class _Usage(reading.Body):
+    prompt_tokens: int = 0
+    completion_tokens: int = 0
+
+
+class _Completion(reading.Body):
+    choices: list[_Choice] = Field(min_length=1)
+    usage: _Usage | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
-class RetrySettings:
-    """``attempts`` in all; the wait doubles from ``wait_s``, unless the server names one (Retry-After)."""
+class OpenAIWire:
+    """Chat completions of one model.
 
-    attempts: int = 3
-    wait_s: float = 0.5
-    longest_wait_s: float = 20.0
-
-
-class OpenAIModel:
-    """One model of an OpenAI-compatible server.
-
-    Args:
-        model: as the server names it.
-        base_url: up to and including ``/v1``.
-        http: client to use; its lifetime is the caller's.
-        key: sent as bearer token when not empty.
+    ``limit_field``, ``temperature``: OpenAI's reasoning models know the length limit by another name and choose their
+    temperature themselves; most other servers know only the older form, which is tried first.
     """
 
-    def __init__(
-        self,
-        model: str,
-        *,
-        base_url: str,
-        http: httpx.AsyncClient,
-        key: str = "",
-        retry: RetrySettings = RetrySettings(),
-        sleep: Callable[[float], Awaitable[None]] = asyncio.sleep,
-    ) -> None:
-        self._model, self._url = model, f"{base_url.rstrip('/')}/chat/completions"
-        self._http, self._retry, self._sleep = http, retry, sleep
-        self._headers = {"Authorization": f"Bearer {key}"} if key else {}
-        self._rung = Rung.SCHEMA
+    model: str
+    rung: Rung = Rung.SCHEMA
+    limit_field: str = "max_tokens"
+    temperature: bool = True
 
     @property
-    def name(self) -> str:
-        """``openai:MODEL``."""
-        return f"openai:{self._model}"
+    def provider(self) -> str:
+        """``openai``."""
+        return "openai"
 
-    async def complete(self, request: ModelRequest, deadline_s: float) -> ModelReply | ModelFailure:
-        """Answer within ``deadline_s`` seconds, retries and waits included."""
-        try:
-            async with asyncio.timeout(max(deadline_s, 0.0)):
-                return await self._with_retries(request, time.monotonic() + deadline_s)
-        except TimeoutError:
-            return ModelFailure(kind=FailureKind.TIMEOUT, message=f"no answer within {deadline_s:.0f} s")
+    def url(self, base_url: str) -> str:
+        """``base_url`` goes up to and includes ``/v1``."""
+        return f"{base_url.rstrip('/')}/chat/completions"
 
-    async def _with_retries(self, request: ModelRequest, end_s: float) -> ModelReply | ModelFailure:
-        attempt = 1
-        while True:
-            rung = self._rung
-            outcome, wait_s = await self._once(request)
-            if self._rung > rung:
-                continue
-            outcome = replace(outcome, attempts=attempt)
-            if wait_s is None or attempt >= self._retry.attempts:
-                return outcome
-            pause_s = min(max(wait_s, self._retry.wait_s * 2 ** (attempt - 1)), self._retry.longest_wait_s)
-            if time.monotonic() + pause_s >= end_s:
-                return outcome
-            await self._sleep(pause_s)
-            attempt += 1
+    def headers(self, key: str) -> Mapping[str, str]:
+        """The key travels as bearer token; servers of one's own often want none."""
+        return {"Authorization": f"Bearer {key}"} if key else {}
 
-    async def _once(self, request: ModelRequest) -> tuple[ModelReply | ModelFailure, float | None]:
-        """One exchange; with a failure that may pass, the seconds that the server wants to be left alone."""
-        try:
-            status, headers, body = await self._exchange(request)
-        except httpx.TimeoutException:
-            return ModelFailure(kind=FailureKind.TIMEOUT, message="the server did not answer in time"), 0.0
-        except (httpx.TransportError, httpx.InvalidURL) as error:
-            message = f"the server at {self._host} cannot be reached ({type(error).__name__})"
-            return ModelFailure(kind=FailureKind.ENDPOINT_DOWN, message=message), 0.0
-        if status == httpx.codes.OK:
-            return read_completion(body), None
-        if status in SHAPE_STATUSES and self._rung < Rung.EXTRACTION and _is_about_format(body):
-            self._rung = Rung(self._rung + 1)
-        return _http_failure(status, body), _retry_after_s(headers) if status in RETRIED_STATUSES else None
-
-    async def _exchange(self, request: ModelRequest) -> tuple[int, Mapping[str, str], bytes]:
-        body = bytearray()
-        payload = self._payload(request)
-        async with self._http.stream("POST", self._url, json=payload, headers=self._headers, timeout=None) as response:
-            async for chunk in response.aiter_bytes():
-                body += chunk
-                if len(body) > MAX_ANSWER_BYTES:
-                    break
-        return response.status_code, response.headers, bytes(body)
-
-    def _payload(self, request: ModelRequest) -> dict[str, Any]:
-        messages = [{"role": message.role.value, "content": message.text} for message in request.messages]
-        payload: dict[str, Any] = {"model": self._model, "temperature": 0, "max_tokens": request.max_tokens}
-        if self._rung is Rung.SCHEMA:
+    def payload(self, request: ModelRequest) -> dict[str, Any]:
+        """The body of the request."""
+        messages = spoken(request, with_schema=self.rung is not Rung.SCHEMA)
+        payload: dict[str, Any] = {"model": self.model, self.limit_field: request.max_tokens, "messages": messages}
+        if self.temperature:
+            payload["temperature"] = 0
+        if self.rung is Rung.SCHEMA:
             named = {"name": request.schema_name, "strict": True, "schema": dict(request.schema)}
             payload["response_format"] = {"type": "json_schema", "json_schema": named}
-        else:
-            reminder = render("json_reminder", schema=json.dumps(request.schema, separators=(",", ":")))
-            messages[-1] = {**messages[-1], "content": f"{messages[-1]['content']}\n\n{reminder}"}
-        if self._rung is Rung.JSON_MODE:
+        elif self.rung is Rung.JSON_MODE:
             payload["response_format"] = {"type": "json_object"}
-        return {**payload, "messages": messages}
+        return payload
 
-    @property
-    def _host(self) -> str:
-        return self._url.split("/")[2] if "//" in self._url else self._url
+    def conceding(self, status: int, complaint: str) -> OpenAIWire | None:
+        """This, without what the server complains about."""
+        if status == httpx.codes.BAD_REQUEST:
+            if self.limit_field == "max_tokens" and "max_completion_tokens" in complaint:
+                return replace(self, limit_field="max_completion_tokens")
+            if self.temperature and "temperature" in complaint:
+                return replace(self, temperature=False)
+        rung = lower(self.rung, status, complaint)
+        return replace(self, rung=rung) if rung is not None else None
 
-
-def _is_about_format(body: bytes) -> bool:
-    text = body[:4000].decode("utf-8", "replace").lower()
-    return any(word in text for word in ("response_format", "json_schema", "json_object", "schema", "structured"))
-
-
-def _http_failure(status: int, body: bytes) -> ModelFailure:
-    text = body[:2000].decode("utf-8", "replace")
-    if status == httpx.codes.TOO_MANY_REQUESTS:
-        return ModelFailure(
-            kind=FailureKind.RATE_LIMITED, message="the server takes no more requests for now", text=text
-        )
-    return ModelFailure(kind=FailureKind.HTTP_ERROR, message=f"the server answered with status {status}", text=text)
-
-
-def _retry_after_s(headers: Mapping[str, str]) -> float:
-    """Seconds in Retry-After; zero when it is absent or a date."""
-    try:
-        return max(float(headers.get("retry-after", "0")), 0.0)
-    except ValueError:
-        return 0.0
+    def read(self, body: bytes) -> ModelReply | ModelFailure:
+        """The answer in the body of a chat completion."""
+        completion = reading.parsed(_Completion, body, what="chat completion")
+        if isinstance(completion, ModelFailure):
+            return completion
+        choice, usage = completion.choices[0], completion.usage or _Usage()
+        text = choice.message.content or ""
+        if choice.message.refusal or choice.finish_reason == "content_filter":
+            return reading.refusal(choice.message.refusal or text)
+        if choice.finish_reason == "length":
+            return reading.truncation(text)
+        return reading.reply(text, prompt_tokens=usage.prompt_tokens, completion_tokens=usage.completion_tokens)

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import json
-from contextlib import asynccontextmanager
 from dataclasses import dataclass, field
 
 
@@ -28,8 +28,9 @@ class ModelServer:
 
     def __init__(self, *lines):
         self.lines, self.paths, self.headers, self.requests, self.url = list(lines), [], [], [], ""
+        self._visits = set()
 
-    @asynccontextmanager
+    @contextlib.asynccontextmanager
     async def running(self):
         server = await asyncio.start_server(self._answer, "127.0.0.1", 0)
         self.url = f"http://127.0.0.1:{server.sockets[0].getsockname()[1]}"
@@ -37,8 +38,12 @@ class ModelServer:
             yield self
         finally:
             server.close()
+            for visit in self._visits:
+                visit.cancel()
+            await asyncio.gather(*self._visits, return_exceptions=True)
 
     async def _answer(self, reader, writer):
+        self._visits.add(asyncio.current_task())
         try:
             head = (await reader.readuntil(b"\r\n\r\n")).decode().split("\r\n")
             headers = {name.lower(): value.strip() for name, _, value in (line.partition(":") for line in head[1:])}
@@ -51,6 +56,8 @@ class ModelServer:
             pass
         finally:
             writer.close()
+            with contextlib.suppress(ConnectionError):
+                await writer.wait_closed()
 
     async def _say(self, line, writer):
         headers = {"Content-Type": "application/json", "Connection": "close", **line.headers}

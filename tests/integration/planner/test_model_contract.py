@@ -11,6 +11,7 @@ import httpx
 import pytest
 
 from majordomo.planner.models.client import HttpModel
+from majordomo.planner.models.exchange import RetrySettings
 from majordomo.planner.models.protocol import FailureKind, Message, ModelFailure, ModelReply, ModelRequest, Role
 from majordomo.planner.models.spec import PROVIDERS, language_model, parse_spec
 from model_server import DIALECTS, Anthropic, Line, ModelServer, Ollama, OpenAI
@@ -49,7 +50,7 @@ class Time:
 
 
 @asynccontextmanager
-async def asking(dialect, *lines, url=None, context_tokens=32_768, clock=None):
+async def asking(dialect, *lines, url=None, context_tokens=32_768, clock=None, retry=RetrySettings()):
     """The adapter and the server that it asks."""
     server, clock = ModelServer(*lines), clock or Time()
     async with (
@@ -65,6 +66,7 @@ async def asking(dialect, *lines, url=None, context_tokens=32_768, clock=None):
                 http=http,
                 key="k3y",
                 context_tokens=context_tokens,
+                retry=retry,
                 clock=clock,
                 sleep=clock.sleep,
             ),
@@ -127,7 +129,7 @@ async def test_a_wait_that_fits_into_the_deadline_is_kept(dialect, headers):
 
 
 @pytest.mark.parametrize(
-    ("deadline_s", "wait"), [(10.0, "11"), (3600.0, "1800")], ids=["past the deadline", "too long to hold a queue"]
+    ("deadline_s", "wait"), [(15.0, "16"), (3600.0, "1800")], ids=["past the deadline", "too long to hold a queue"]
 )
 async def test_a_wait_that_does_not_fit_ends_it_at_once(dialect, deadline_s, wait):
     clock, limit = Time(), Line(status=429, headers={"Retry-After": wait})
@@ -154,10 +156,10 @@ async def test_one_deadline_ends_slow_bytes(dialect):
 
 
 async def test_no_attempt_begins_after_the_deadline(dialect):
-    clock = Time()
-    outcome, server = await ask(dialect, Line(status=500), deadline_s=1.2, clock=clock)
+    clock, retry = Time(), RetrySettings(wait_s=12.0, longest_wait_s=60.0)
+    outcome, server = await ask(dialect, Line(status=500), deadline_s=30.0, clock=clock, retry=retry)
     assert_failed(outcome, FailureKind.SERVER_ERROR, attempts=2)
-    assert (len(server.requests), clock.naps) == (2, [0.5])
+    assert (len(server.requests), clock.naps) == (2, [12.0])
 
 
 async def test_a_cut_connection_is_tried_again(dialect):
@@ -258,7 +260,7 @@ async def test_the_ladder_goes_down_a_rung_at_a_time_and_stays_there(dialect, st
         return Line(body=dialect.text(f"Here: {GOOD}")) if dialect.rung(body) == "asking" else refused
 
     async with asking(dialect, old_server) as (model, server):
-        outcomes = [await model.complete(REQUEST, 5.0) for _ in range(2)]
+        outcomes = [await model.complete(REQUEST, 30.0) for _ in range(2)]
     assert all(isinstance(outcome, ModelReply) for outcome in outcomes)
     assert [dialect.rung(request) for request in server.requests] == ["schema", "middle", "asking", "asking"]
     assert json.dumps(SCHEMA, separators=(",", ":")) in server.requests[-1]["messages"][-1]["content"]
@@ -275,8 +277,8 @@ async def test_other_complaints_leave_the_ladder_alone(dialect):
         model,
         server,
     ):
-        assert_failed(await model.complete(REQUEST, 5.0), FailureKind.HTTP_ERROR)
-        assert isinstance(await model.complete(REQUEST, 5.0), ModelReply)
+        assert_failed(await model.complete(REQUEST, 30.0), FailureKind.HTTP_ERROR)
+        assert isinstance(await model.complete(REQUEST, 30.0), ModelReply)
     assert [dialect.rung(request) for request in server.requests] == ["schema", "schema"]
 
 
@@ -318,7 +320,7 @@ async def test_keys_travel_as_each_provider_wants_them():
 async def test_a_specification_leads_to_the_right_address(dialect):
     async with ModelServer(Line(body=dialect.text(GOOD))).running() as server, httpx.AsyncClient(verify=False) as http:
         model = language_model(parse_spec(f"{dialect.provider}:tiny@{server.url}/v1"), http=http, key="k3y")
-        assert isinstance(await model.complete(REQUEST, 5.0), ModelReply)
+        assert isinstance(await model.complete(REQUEST, 30.0), ModelReply)
     assert server.paths == [dialect.path]
     assert model.name == f"{dialect.provider}:tiny"
 

@@ -106,7 +106,15 @@ class OpenAI:
         return request["response_format"]["json_schema"]["schema"]
 
     unknown_format = ({"error": {"message": "response_format is not supported"}}, 400)
-    too_long = ({"error": {"message": "maximum context length is 9 tokens", "code": "context_length_exceeded"}}, 400)
+    too_long = (
+        {
+            "error": {
+                "message": "maximum context length is 9 tokens, shorten messages or schema",
+                "code": "context_length_exceeded",
+            }
+        },
+        400,
+    )
     wrong_types = (
         {"choices": "none"},
         {"choices": []},
@@ -142,7 +150,7 @@ class Ollama:
         return request["format"]
 
     unknown_format = ({"error": "invalid format"}, 400)
-    too_long = ({"error": "the input length exceeds the context length"}, 400)
+    too_long = ({"error": "the input length, format included, exceeds the context length"}, 400)
     wrong_types = ({"message": "hi"}, {"message": {"content": None}}, {"message": {"content": {}}}, {"error": "no"})
 
 
@@ -178,7 +186,10 @@ class Anthropic:
         {"type": "error", "error": {"type": "invalid_request_error", "message": "output_config: not permitted"}},
         400,
     )
-    too_long = ({"type": "error", "error": {"message": "prompt is too long: 300000 tokens > 200000 maximum"}}, 400)
+    too_long = (
+        {"type": "error", "error": {"message": "prompt is too long: 300000 tokens > 200000 maximum, tools included"}},
+        400,
+    )
     wrong_types = (
         {"content": "hi"},
         {"content": [{"type": "text", "text": 7}]},

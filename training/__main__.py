@@ -72,6 +72,17 @@ def export(
     console.print(f"{file}: {file.stat().st_size / 1e6:.1f} MB")
 
 
+@commands.command()
+def card(
+    report: Annotated[Path, typer.Option(exists=True, help="What majordomo evaluate network --json wrote.")],
+    file: Annotated[Path, typer.Option(exists=True, help="The model card.")] = Path("docs/model-card.md"),
+) -> None:
+    """Write the measured figures into the model card."""
+    from training.card import write
+
+    write(file, report)
+
+
 @commands.command(name="all")
 def everything(folder: Folder = DEFAULT, file: Path = SHIPPED, seed: Seed = 1, jobs: Jobs = 2) -> None:
     """Pictures, training and file, one after the other."""

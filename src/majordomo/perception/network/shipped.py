@@ -1,8 +1,8 @@
-"""Where the network lies that is to come with the package."""
+"""The network that comes with the package; docs/model-card.md says what it can and cannot see."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
 SHIPPED = Path(__file__).with_name("shipped.onnx")
-"""Written by ``python -m training all``; no file has been good enough yet to ship."""
+"""Trained by ``python -m training all``."""

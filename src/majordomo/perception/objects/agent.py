@@ -162,7 +162,8 @@ class ObjectMemory:
         """Everything that takes time; runs in a worker thread while nobody else touches the tracks."""
         surroundings = Surroundings(snapshot, view.room)
         joints = self._buffer.joints
-        body = OwnBody(joints) if joints is not None else None
+        held_m = self._hand.held.track.box.size_m if self._hand.held is not None else None
+        body = OwnBody(joints, held_m=held_m) if joints is not None else None
         things, persons = detections_of(scene, frame.rgb, view, self._settings.detection, body)
         turning = turning_radps(self._buffer)
         self._tracker.update(

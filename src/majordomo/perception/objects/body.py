@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from majordomo.perception.ports import JointState
 
 Array = NDArray[np.float64]
+HELD_MARGIN_M = 0.05
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -27,7 +28,14 @@ class BodyGeometry:
 class OwnBody:
     """The volume of base, telescope and hand for one joint state, in the base frame."""
 
-    def __init__(self, joints: JointState, geometry: BodyGeometry | None = None) -> None:
+    def __init__(
+        self,
+        joints: JointState,
+        geometry: BodyGeometry | None = None,
+        *,
+        held_m: tuple[float, float, float] | None = None,
+    ) -> None:
+        """``held_m``: size of what the hand holds, upright around the grip."""
         geometry = geometry or BodyGeometry()
         self._geometry = geometry
         grip = joints.T_base_gripper
@@ -36,12 +44,17 @@ class OwnBody:
         palm = grip.translation_m - geometry.fingers_m * grip.rotation()[:, 0]
         self._segments = ((shoulder, wrist), (wrist, palm))
         self.grip = grip.translation_m
+        self._held_m = held_m
 
     def covers(self, points_base: Array) -> NDArray[np.bool_]:
         """Which of the points (N, 3) belong to the robot."""
         inside = np.hypot(points_base[:, 0], points_base[:, 1]) < self._geometry.base_radius_m
         for start, end in self._segments:
             inside |= _distance(points_base, start, end) < self._geometry.arm_radius_m
+        if self._held_m is not None:
+            away = np.abs(points_base - self.grip)
+            beside = np.hypot(away[:, 0], away[:, 1]) < max(self._held_m[:2]) / 2.0 + HELD_MARGIN_M
+            inside |= beside & (away[:, 2] < self._held_m[2] / 2.0 + HELD_MARGIN_M)
         return np.asarray(inside)
 
 

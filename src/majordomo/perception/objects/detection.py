@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -65,17 +65,23 @@ def detections_of(
     things: list[Detection] = []
     persons: list[Detection] = []
     for index in _without_doubles(scene.instances, settings.minimum_score):
-        detection = _measure(index, scene.instances[index], rgb, view, settings)
-        if detection is None or (own_body is not None and _is_own(detection, view, own_body)):
+        detection = _measure(index, scene.instances[index], rgb, view, settings, own_body)
+        if detection is None:
             continue
         (persons if is_person(detection.label) else things).append(detection)
     return things, persons
 
 
 def _measure(
-    index: int, instance: Instance, rgb: NDArray[np.uint8], view: View, settings: DetectionSettings
+    index: int,
+    instance: Instance,
+    rgb: NDArray[np.uint8],
+    view: View,
+    settings: DetectionSettings,
+    own_body: OwnBody | None,
 ) -> Detection | None:
     cloud = cloud_of(instance.mask, view, settings.projection)
+    cloud = _without_body(cloud, view, own_body) if cloud is not None and own_body is not None else cloud
     if cloud is None:
         return None
     category = category_of(instance.label)
@@ -92,9 +98,12 @@ def _measure(
     )
 
 
-def _is_own(detection: Detection, view: View, own_body: OwnBody) -> bool:
-    points_base = view.T_room_base.inverse().apply(detection.cloud.points)
-    return float(own_body.covers(points_base).mean()) > _OWN_BODY_SHARE
+def _without_body(cloud: Cloud, view: View, own_body: OwnBody) -> Cloud | None:
+    """Without the robot's arm, which networks take for a part of what it reaches over; ``None`` if it is most of it."""
+    own = own_body.covers(view.T_room_base.inverse().apply(cloud.points))
+    if float(own.mean()) > _OWN_BODY_SHARE:
+        return None
+    return replace(cloud, points=cloud.points[~own]) if own.any() else cloud
 
 
 def _without_doubles(instances: tuple[Instance, ...], minimum_score: float) -> list[int]:

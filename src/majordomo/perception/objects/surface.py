@@ -8,6 +8,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from majordomo.perception.objects.projection import View, project
 from majordomo.perception.objects.shape import Rectangle, bounding_rectangle
 from majordomo.perception.vocabulary import Category
 from majordomo.scene_graph.se3 import SE3
@@ -15,6 +16,9 @@ from majordomo.scene_graph.se3 import SE3
 Array = NDArray[np.float64]
 _OFFSET = 1 << 20
 _SIGMA_M = 0.02
+_DENIED = 1.0
+"""Frames that saw a voxel as something else for each that saw it as this, from which on it is not believed."""
+_AGREES_M = 0.04
 _SHALLOW = 0.3
 _SHALLOW_TALL = 0.6
 """Share of the usual depth below which only a front has been seen; a top above the camera cannot show the depth."""
@@ -54,7 +58,7 @@ class SurfaceMemory:
     Attributes:
         voxel_m: side of a voxel.
         points: (V, 3) mean of what fell into each voxel.
-        hits: (V,) frames that saw it.
+        hits: (V,) frames that saw it. misses: (V,) frames that saw something else there.
     """
 
     def __init__(self, *, voxel_m: float = 0.03, capacity: int = 6000) -> None:
@@ -63,6 +67,7 @@ class SurfaceMemory:
         self._keys = np.zeros(0, dtype=np.int64)
         self.points = np.zeros((0, 3))
         self.hits = np.zeros(0)
+        self.misses = np.zeros(0)
 
     def add(self, points: Array, *, frames: float = 1.0) -> None:
         """Points (N, 3) that count as ``frames`` frames."""
@@ -92,11 +97,16 @@ class SurfaceMemory:
         self._keys = all_keys[order]
         self.points = np.concatenate((self.points, means[:room]))[order]
         self.hits = np.concatenate((self.hits, np.full(len(keys[:room]), frames)))[order]
+        self.misses = np.concatenate((self.misses, np.zeros(len(keys[:room]))))[order]
+
+    def deny(self, which: NDArray[np.bool_]) -> None:
+        """One more frame showed that ``which`` (V,) belong to something else."""
+        self.misses[which] += 1.0
 
     @property
     def reliable(self) -> Array:
-        """(V, 3) points seen in at least two frames, or all while hardly any are."""
-        often = self.hits >= 2.0
+        """(V, 3) points seen in at least two frames and not denied by as many, or all while hardly any are."""
+        often = (self.hits >= 2.0) & (self.misses <= _DENIED * self.hits)
         return self.points[often] if np.count_nonzero(often) >= 20 else self.points
 
 
@@ -171,6 +181,19 @@ class SurfaceBelief:
         self._first_camera = camera if self._first_camera is None else self._first_camera
         self._category = category
         self._refresh()
+
+    def deny_outside(self, mask: NDArray[np.bool_], view: View, T_view_room: SE3) -> None:
+        """Doubt what is in plain sight and yet outside ``mask`` (H, W), all that the network took for this piece."""
+        pixels, depth_m = project(
+            (view.T_room_camera.inverse() @ T_view_room).apply(self.memory.points), view.intrinsics
+        )
+        height, width = mask.shape
+        with np.errstate(invalid="ignore"):
+            cells = np.nan_to_num(np.round(pixels), nan=-1.0)
+            inside = (cells >= 0.0).all(axis=1) & (cells[:, 0] < width) & (cells[:, 1] < height)
+        u, v = np.where(inside[:, None], cells, 0.0).astype(np.int64).T
+        plain = inside & (np.abs(view.depth_m[v, u] - depth_m) < _AGREES_M)
+        self.memory.deny(plain & ~mask[v, u])
 
     def _refresh(self) -> None:
         """The box around everything seen; what hides behind a lone front lies away from where that was first seen."""

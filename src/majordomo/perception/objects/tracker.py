@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+import cv2
 import numpy as np
 from numpy.random import Generator
 from numpy.typing import NDArray
@@ -29,7 +30,7 @@ from majordomo.perception.objects.existence import (
 from majordomo.perception.objects.identity import IdentitySettings
 from majordomo.perception.objects.projection import View
 from majordomo.perception.objects.sight import Sight
-from majordomo.perception.objects.surface import Box
+from majordomo.perception.objects.surface import Box, SurfaceBelief
 from majordomo.perception.objects.taken_names import TakenNames
 from majordomo.perception.objects.track import Track, TrackSettings
 from majordomo.perception.vocabulary import category_of
@@ -37,6 +38,8 @@ from majordomo.scene_graph.identifiers import next_id
 from majordomo.scene_graph.nodes import ObjectState
 
 Array = NDArray[np.float64]
+_BORDER = np.ones((7, 7), np.uint8)
+"""Masks are wrong by a few pixels at their borders."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -108,6 +111,7 @@ class Tracker:
         unmatched = [d for j, d in enumerate(sight.detections) if j not in matched]
         unmatched = [d for d in unmatched if not self._absorb(d, scope, sight)]
         self._doubt_unseen(scope, sight)
+        self._doubt_surfaces(sight)
         for detection in unmatched:
             self._found(detection, sight)
         self._confirm(sight)
@@ -157,6 +161,20 @@ class Tracker:
                 self._observe(track, detection, sight)
                 return True
         return False
+
+    def _doubt_surfaces(self, sight: Sight) -> None:
+        """Of furniture that is seen, doubt what lies in plain sight outside of its masks."""
+        if sight.turning_radps > self._settings.existence.speed_limit_radps:
+            return
+        masks = {d.index: d.mask for d in sight.detections}
+        of_track: dict[int, list[NDArray[np.bool_]]] = {}
+        for index, track in self.matches.items():
+            of_track.setdefault(track.number, []).append(masks[index])
+        for track in {track.number: track for track in self.matches.values()}.values():
+            if isinstance(track.place, SurfaceBelief):
+                seen = np.logical_or.reduce(of_track[track.number]).astype(np.uint8)
+                around = np.asarray(cv2.dilate(seen, _BORDER)) > 0
+                track.place.deny_outside(around, sight.view, sight.surroundings.T_here_room[track.room])
 
     def _doubt_unseen(self, scope: list[Track], sight: Sight) -> None:
         """Take existence from what should have been seen and was not."""

@@ -13,7 +13,9 @@ import typer
 from rich.console import Console
 
 from majordomo.app.evaluations.commands import evaluations
+from majordomo.app.options import Network
 from majordomo.app.settings import DEFAULT_DATA, ClockMode, Settings
+from majordomo.perception.network.shipped import SHIPPED
 
 application = typer.Typer(
     name="majordomo",
@@ -29,10 +31,6 @@ complaints = Console(stderr=True)
 
 House = Annotated[str, typer.Option(help="A built-in house's name or a house file.")]
 Seed = Annotated[int, typer.Option(min=0, help="Seed of everything that is random.")]
-Network = Annotated[
-    Path | None,
-    typer.Option("--model", envvar="MAJORDOMO_MODEL", help="ONNX file of the panoptic scene graph network."),
-]
 Data = Annotated[Path, typer.Option(help="Folder of token, logs and memory.")]
 
 
@@ -73,7 +71,7 @@ def serve(
     llm_context: Annotated[
         int | None, typer.Option(envvar="MAJORDOMO_LLM_CONTEXT", min=1024, help="Its context length in tokens.")
     ] = None,
-    model: Network = None,
+    model: Network = SHIPPED,
     data: Data = DEFAULT_DATA,
     simulation_api: Annotated[bool, typer.Option("--simulation-api", help="Offer truth and disturbances.")] = False,
     explore: Annotated[bool, typer.Option(help="Explore the building unasked.")] = True,
@@ -169,7 +167,7 @@ def make_house(
 
 
 @application.command()
-def doctor(model: Network = None) -> None:
+def doctor(model: Network = SHIPPED) -> None:
     """Check what Majordomo needs on this machine, and say what to do about what is missing."""
     from majordomo.app.doctor import examine
 

@@ -37,7 +37,7 @@ class Finding:
     text: str
 
 
-def examine(console: Console, network: Path | None = None) -> bool:
+def examine(console: Console, network: Path) -> bool:
     """Run all checks and print them; whether all is well. ``network``: file of the panoptic scene graph network."""
     findings = [_python(), _libraries(), _house(), _disk(), _model(), _network(network)]
     for finding in findings:
@@ -91,11 +91,9 @@ def _model() -> Finding:
     return Finding(name="model", well=True, text=text)
 
 
-def _network(path: Path | None) -> Finding:
+def _network(path: Path) -> Finding:
     from majordomo.perception.network.errors import NetworkRefused
 
-    if path is None:
-        return Finding(name="network", well=True, text="none configured: the simulator's stand-in labels the masks")
     try:
         from majordomo.perception.network.model import OnnxPanopticModel
 

@@ -39,7 +39,6 @@ from majordomo.scene_graph.long_term.long_term_store import LongTermStore
 from majordomo.scene_graph.memory import WorkingMemory
 from majordomo.simulation.client import SimulatedRobot
 from majordomo.simulation.errors import SimulatorDied
-from majordomo.simulation.stand_in import SegmentationStandIn
 from majordomo.skills.registry import load_registry
 
 
@@ -54,14 +53,14 @@ class RobotStack:
         model: LanguageModel | None,
         log: EventLog,
         *,
-        network: PanopticModel,
+        network: PanopticModel | None,
         remembering: Remembering | None = None,
         memory: WorkingMemory | None = None,
     ) -> None:
         """Give all agents their places.
 
-        ``network``: what understands the camera's frames. ``memory``: the graph to begin with where nobody remembers
-        one, empty when left out.
+        ``network``: what understands the camera's frames; there is no camera without. ``memory``: the graph to begin
+        with where nobody remembers one, empty when left out.
         """
         self.robot = robot
         empty_or_given = memory or WorkingMemory(long_term=LongTermStore())
@@ -77,8 +76,8 @@ class RobotStack:
             on_event=lambda event: log.write(event["stamp_s"], "executor", event),
             silent=(SimulatorDied,),
         )
-        self._eyes = WatchedModel(network)
-        self._objects = self._object_memory(buffer) if settings.camera else None
+        self._eyes = WatchedModel(network) if network is not None else None
+        self._objects = self._object_memory(buffer, self._eyes) if self._eyes is not None else None
         self._buffer = buffer
         skills = load_registry()
         verifier = Verifier(skills)
@@ -95,7 +94,7 @@ class RobotStack:
         planner = TaskPlanner(
             CommandGrammar(), verifier, model, journal=lambda entry: log.write(self.now(), "model", entry)
         )
-        filming = [Filming(buffer, period_s=1.0 / settings.camera_hz)] if settings.camera else []
+        filming = [Filming(buffer, period_s=1.0 / settings.camera_hz)] if self._eyes is not None else []
         seeing: list[Agent] = [self._objects, RoomLabels(self.memory)] if self._objects is not None else []
         self.agents: Sequence[Agent] = [
             Sensing(buffer),
@@ -124,8 +123,7 @@ class RobotStack:
         remembering = _remembering(settings, anew=anew)
         mode = "lockstep" if settings.clock is ClockMode.LOCKSTEP else "real"
         robot = await SimulatedRobot.start(settings.house, seed=settings.seed, mode=mode, speed=settings.speed or 1.0)
-        stand_in = SegmentationStandIn(robot, _random_streams(settings)[0])
-        return cls(robot, settings, queue, model, log, network=network or stand_in, remembering=remembering)
+        return cls(robot, settings, queue, model, log, network=network, remembering=remembering)
 
     @property
     def path_room(self) -> tuple[tuple[float, float], ...]:
@@ -162,13 +160,12 @@ class RobotStack:
     @property
     def frames_understood(self) -> int:
         """Camera frames that the network has made something of so far."""
-        return self._eyes.understood
+        return self._eyes.understood if self._eyes is not None else 0
 
     @property
     def network(self) -> str | None:
         """Name of the file of the network in use."""
-        settings = self._settings
-        return settings.model.name if settings.model is not None and settings.camera else None
+        return self._settings.model.name if self._settings.camera else None
 
     def now(self) -> float:
         """Robot time in seconds."""
@@ -189,11 +186,11 @@ class RobotStack:
     @property
     def camera_on(self) -> bool:
         """Whether there is a frame to show."""
-        return self._eyes.newest is not None
+        return self._eyes is not None and self._eyes.newest is not None
 
     async def camera_jpeg(self) -> bytes | None:
         """The newest frame with outlined objects."""
-        newest = self._eyes.newest
+        newest = self._eyes.newest if self._eyes is not None else None
         return await asyncio.to_thread(preview_jpeg, *newest) if newest is not None else None
 
     async def close(self) -> None:
@@ -202,10 +199,10 @@ class RobotStack:
             await asyncio.to_thread(self._remembering.write, self.now())
         await self.robot.close()
 
-    def _object_memory(self, buffer: SensorBuffer) -> ObjectMemory:
-        random = _random_streams(self._settings)[1]
+    def _object_memory(self, buffer: SensorBuffer, eyes: PanopticModel) -> ObjectMemory:
+        random = np.random.default_rng(self._settings.seed)
         settings = ObjectMemorySettings(period_s=1.0 / self._settings.camera_hz)
-        return ObjectMemory(self.memory, buffer, self._eyes, random=random, settings=settings)
+        return ObjectMemory(self.memory, buffer, eyes, random=random, settings=settings)
 
     def _sensor_ages(self) -> dict[str, float]:
         """Seconds since the newest data of each sensor."""
@@ -214,15 +211,9 @@ class RobotStack:
         return {name: now_s - data.stamp_s for name, data in newest.items() if data is not None}
 
 
-def _random_streams(settings: Settings) -> tuple[np.random.Generator, np.random.Generator]:
-    """The stand-in's and the object memory's, independent of each other."""
-    stand_in, objects = np.random.SeedSequence(settings.seed).spawn(2)
-    return np.random.default_rng(stand_in), np.random.default_rng(objects)
-
-
 async def _network(settings: Settings) -> PanopticModel | None:
     """The network of the configured file, unless nothing would look through it."""
-    if settings.model is None or not settings.camera:
+    if not settings.camera:
         return None
     return await asyncio.to_thread(OnnxPanopticModel.load, settings.model.expanduser())
 

@@ -7,6 +7,8 @@ from pathlib import Path
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from majordomo.perception.network.shipped import SHIPPED
+
 DEFAULT_DATA = Path("~/.local/share/majordomo")
 
 
@@ -24,7 +26,7 @@ class Settings(BaseModel):
     ``llm``: ``provider:model`` or ``None`` for the command grammar alone. ``llm_context``: its context length in
     tokens, ``None`` for the provider's usual one. ``data``: folder of token, logs and memory.
     ``camera_hz``: camera frames taken and understood in a second of the robot's clock.
-    ``model``: file of the panoptic scene graph network, ``None`` for the simulator's stand-in.
+    ``model``: file of the panoptic scene graph network.
     ``remember``: take up the building that the data folder holds, and keep it there.
     """
 
@@ -47,7 +49,7 @@ class Settings(BaseModel):
     camera_hz: float = Field(default=5.0, gt=0)
     remember: bool = False
     graph: Path | None = None
-    model: Path | None = None
+    model: Path = SHIPPED
     max_body_bytes: int = 65_536
 
     @property

@@ -16,7 +16,7 @@ from majordomo.perception.ports import JointState, LidarScan, Odometry, RgbdFram
 from majordomo.simulation.child import ADVANCE, CLOSE, run
 from majordomo.simulation.errors import DisturbError, HouseError, SimulatorDied
 from majordomo.simulation.house import load_house
-from majordomo.simulation.messages import Mode, Readings, Reply, Request, Segment, Start
+from majordomo.simulation.messages import Mode, Readings, Reply, Request, Start
 from majordomo.skills.ports import ArmGeometry, ArmTarget, BodyLimits, BodyState
 
 START_TIMEOUT_S = 60.0
@@ -146,11 +146,6 @@ class SimulatedRobot:
         """Advance simulated time (lockstep); the new time in seconds."""
         now_s: float = await self._call(ADVANCE, duration_s)
         return now_s
-
-    async def segmentation(self, stamp_s: float) -> tuple[Segment, ...]:
-        """For the stand-in model only."""
-        found: tuple[Segment, ...] = await self._call("segmentation", stamp_s)
-        return found
 
     async def truth(self) -> dict[str, Any]:
         """The simulator's truth, for scoring only."""

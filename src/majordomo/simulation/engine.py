@@ -10,14 +10,13 @@ import pybullet as p
 
 from majordomo.perception.ports import JointState, LidarScan, Odometry, RgbdFrame
 from majordomo.scene_graph.se3 import SE3
-from majordomo.simulation.camera import INTRINSICS, Picture, T_base_camera, render
+from majordomo.simulation.camera import INTRINSICS, T_base_camera, render
 from majordomo.simulation.child import STEP_S
 from majordomo.simulation.house import House, parse_disturbance
 from majordomo.simulation.lidar import AZIMUTHS_RAD, ELEVATIONS_RAD, scan_ranges
-from majordomo.simulation.messages import Readings, Segment
+from majordomo.simulation.messages import Readings
 from majordomo.simulation.noise import NoisyOdometry, noisy_depth, noisy_ranges
 from majordomo.simulation.robot import RobotBody, T_base_gripper
-from majordomo.simulation.segmentation import segments
 from majordomo.simulation.world import World
 from majordomo.skills.ports import ArmTarget, BodyState
 
@@ -48,7 +47,6 @@ class Engine:
         self._steps = 0
         self._collisions = 0
         self._colliding: frozenset[int] = frozenset()
-        self._last_picture: tuple[float, Picture] | None = None
 
     @property
     def now_s(self) -> float:
@@ -92,17 +90,10 @@ class Engine:
         T_camera = T_base_camera(self._robot.joints(), self._robot.geometry)
         x_m, y_m, yaw_rad = self._robot.pose
         picture = render(SE3.from_xyz_yaw(x_m, y_m, 0.0, yaw_rad) @ T_camera, self._client)
-        self._last_picture = (self.now_s, picture)
         depth_m = noisy_depth(picture.depth_m, self._house.noise.depth_std_m_per_m2, self._depth_rng)
         return RgbdFrame(
             stamp_s=self.now_s, rgb=picture.rgb, depth_m=depth_m, intrinsics=INTRINSICS, T_base_camera=T_camera
         )
-
-    def segmentation(self, stamp_s: float) -> tuple[Segment, ...]:
-        """Who is where in the frame of ``stamp_s``; for the stand-in only. Empty unless that frame is the last one."""
-        if self._last_picture is None or self._last_picture[0] != stamp_s:
-            return ()
-        return segments(self._last_picture[1], self._world)
 
     def joints(self) -> JointState:
         """Arm, gripper and camera as measured."""

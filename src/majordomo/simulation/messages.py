@@ -6,9 +6,6 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
 from majordomo.perception.ports import JointState, Odometry
 from majordomo.skills.ports import BodyState
 
@@ -59,11 +56,3 @@ class Reply:
     problem: str = ""
     now_s: float = 0.0
     readings: Readings | None = None
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Segment:
-    """One body in an image: its category and mask (H, W) bool. For the stand-in model only."""
-
-    category: str
-    mask: NDArray[np.bool_]

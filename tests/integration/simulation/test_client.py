@@ -9,10 +9,8 @@ import time
 import numpy as np
 import pytest
 
-from majordomo.perception.panoptic import PanopticScene
 from majordomo.simulation.client import SimulatedRobot
 from majordomo.simulation.errors import DisturbError, HouseError, SimulatorDied
-from majordomo.simulation.stand_in import SegmentationStandIn
 from majordomo.skills.ports import ArmTarget
 
 pytestmark = pytest.mark.anyio
@@ -116,20 +114,3 @@ async def test_depth_and_pose_of_the_camera_agree_with_where_the_furniture_stand
     top = ahead[np.abs(ahead[:, 2] - 0.75) < 0.05]
     assert len(top) > 500, "the table's top, 0.75 m high and 1.07 to 1.77 m ahead"
     assert np.median(top[:, 2]) == pytest.approx(0.75, abs=0.01)
-
-
-async def test_the_stand_in_finds_what_is_in_view_with_errors_that_its_settings_state(robot):
-    await robot.disturb({"do": "move", "id": "robot", "to": {"pose": [1.6, 1.6, 1.5708]}})
-    await robot.look(0.0, -0.45)
-    await robot.advance(1.0)
-    perfect = SegmentationStandIn(robot, np.random.default_rng(0), label_error=0.0, mask_error=0.0, miss=0.0)
-    frame = await robot.frame()
-    scene = await perfect.infer(frame)
-    assert isinstance(scene, PanopticScene)
-    labels = {instance.label for instance in scene.instances}
-    assert {"table", "bottle", "cup"} <= labels
-    assert not labels & {"wall", "floor", "door"}
-    wrong = SegmentationStandIn(robot, np.random.default_rng(0), label_error=1.0)
-    assert not labels & {instance.label for instance in (await wrong.infer(frame)).instances}
-    blind = SegmentationStandIn(robot, np.random.default_rng(0), miss=1.0)
-    assert (await blind.infer(frame)).instances == ()

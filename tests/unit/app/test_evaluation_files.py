@@ -6,7 +6,6 @@ import pytest
 from typer.testing import CliRunner
 
 from majordomo.app.evaluations.commands import evaluations
-from majordomo.app.settings import Settings
 from majordomo.perception.network.errors import NetworkRefused
 from majordomo.simulation.errors import HouseError
 
@@ -40,15 +39,12 @@ def test_a_picture_is_a_png(evaluation, tmp_path):
 WITH_MODEL = ("perception", "changes")
 
 
-@pytest.mark.parametrize("evaluation", [*WITH_MODEL, "rates"])
+@pytest.mark.parametrize("evaluation", [*WITH_MODEL, "rates", "network"])
 def test_a_network_that_is_not_there_is_refused_by_name(evaluation, tmp_path):
-    assert "does not exist" in refusal(evaluation, "--model", str(tmp_path / "none.onnx"))
-
-
-@pytest.mark.skipif(Settings.model_fields["model"].default is not None, reason="the service has a network of its own")
-def test_a_recording_is_seen_through_a_network_or_not_at_all(monkeypatch):
-    monkeypatch.delenv("MAJORDOMO_MODEL", raising=False)
-    assert "name a network's file with --model" in refusal("rates")
+    missing = tmp_path / "none.onnx"
+    refused = CliRunner().invoke(evaluations, [evaluation, "--model", str(missing)])
+    assert isinstance(refused.exception, NetworkRefused)
+    assert f"'{missing}': there is no such file" in str(refused.exception)
 
 
 @pytest.mark.parametrize("evaluation", WITH_MODEL)

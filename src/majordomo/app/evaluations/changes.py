@@ -53,7 +53,7 @@ def evaluate(
     *,
     houses: Sequence[str],
     changes: int,
-    model: Path | None,
+    model: Path,
     jobs: int,
     json_file: Path | None,
     plot_file: Path | None,
@@ -80,7 +80,7 @@ def evaluate(
     good = met(summary) and all(run["explored"] for run in runs)
     if json_file is not None:
         aims = {"detected": LEAST_DETECTED, "right": LEAST_RIGHT, "false_alarms_per_change": MOST_ALARMS}
-        document = {"model": model.name if model else None, "runs": runs, "summary": summary, "aims": aims, "met": good}
+        document = {"model": model.name, "runs": runs, "summary": summary, "aims": aims, "met": good}
         json_file.write_text(json.dumps(document, indent=1) + "\n", encoding="utf-8")
     if plot_file is not None:
         draw(summary, runs, plot_file)
@@ -98,12 +98,12 @@ def met(summary: Mapping[str, Any]) -> bool:
     )
 
 
-def run_once(name: str, changes: int, model: Path | None) -> dict[str, Any]:
+def run_once(name: str, changes: int, model: Path) -> dict[str, Any]:
     """One house, in this process."""
     return asyncio.run(_run(name, house_of(name), changes, model))
 
 
-async def _run(name: str, house: House, changes: int, model: Path | None) -> dict[str, Any]:
+async def _run(name: str, house: House, changes: int, model: Path) -> dict[str, Any]:
     async with service_in_lockstep(house, 0, camera=True, model=model) as runtime:
         started = time.monotonic()
         explored = await until_explored(runtime, house)

@@ -9,7 +9,8 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
-from majordomo.app.settings import Settings
+from majordomo.app.options import Network
+from majordomo.perception.network.shipped import SHIPPED
 
 evaluations = typer.Typer(help="Measure something, print a table, write JSON.", no_args_is_help=True)
 
@@ -47,17 +48,6 @@ JsonFile = Annotated[
 Plot = Annotated[
     Path | None,
     typer.Option(dir_okay=False, writable=True, callback=_picture, help="Where to draw them, a PNG file."),
-]
-Network = Annotated[
-    Path | None,
-    typer.Option(
-        "--model",
-        envvar="MAJORDOMO_MODEL",
-        exists=True,
-        dir_okay=False,
-        readable=True,
-        help="The network that the robot sees with, an ONNX file; the service's own when left out.",
-    ),
 ]
 Stocked = Annotated[int, typer.Option(min=0, help="How many stocked houses, of two to six rooms.")]
 Looked = Annotated[
@@ -174,18 +164,13 @@ def evaluate_rates(
     seconds: Annotated[
         float, typer.Option(min=5.0, max=120.0, help="Wall seconds of each measurement; a replayed one fills 12 MB.")
     ] = 60.0,
-    model: Network = None,
+    model: Network = SHIPPED,
     json_file: JsonFile = None,
 ) -> None:
     """Measure in real time whether agents and API keep up with the sensors, from memory and beside the simulator."""
     from majordomo.app.evaluations.rates import evaluate
 
-    network = model or Settings.model_fields["model"].default
-    if network is None:
-        raise typer.BadParameter(
-            "a recording cannot be seen through the simulator's stand-in: name a network's file with --model"
-        )
-    good = evaluate(house=house, seconds=seconds, model=network, json_file=json_file, console=console)
+    good = evaluate(house=house, seconds=seconds, model=model, json_file=json_file, console=console)
     raise typer.Exit(0 if good else 1)
 
 
@@ -213,9 +198,7 @@ def evaluate_tracking(
 
 @evaluations.command("network")
 def evaluate_network(
-    model: Annotated[
-        Path, typer.Option(exists=True, dir_okay=False, help="The network: an ONNX file, see docs/network.md.")
-    ],
+    model: Network = SHIPPED,
     houses: Annotated[int, typer.Option(min=1, help="How many generated houses.")] = 20,
     first_house: Annotated[int, typer.Option(min=0, help="Seed of the first house; the others follow.")] = 0,
     pictures: Annotated[int, typer.Option(min=1, help="Of each house.")] = 40,
@@ -240,7 +223,7 @@ def evaluate_network(
 def evaluate_perception(
     houses: Stocked = 4,
     house: Looked = None,
-    model: Network = None,
+    model: Network = SHIPPED,
     json_file: JsonFile = None,
     plot: Plot = None,
     jobs: Jobs = 2,
@@ -258,7 +241,7 @@ def evaluate_changes(
     houses: Stocked = 4,
     house: Looked = None,
     changes: Annotated[int, typer.Option(min=1, help="In each house: moved, removed and brought in turn.")] = 15,
-    model: Network = None,
+    model: Network = SHIPPED,
     json_file: JsonFile = None,
     plot: Plot = None,
     jobs: Jobs = 2,

@@ -15,6 +15,7 @@ from typing import Any
 from majordomo.app.runtime import Runtime
 from majordomo.app.scheduler import TICK_S, Agent
 from majordomo.app.settings import ClockMode, Settings
+from majordomo.perception.network.shipped import SHIPPED
 from majordomo.simulation.house import House
 
 LIMIT_S = 300.0
@@ -58,13 +59,13 @@ async def service_in_lockstep(
     seed: int,
     *,
     camera: bool = False,
-    model: Path | None = None,
+    model: Path = SHIPPED,
     witnesses: Callable[[Runtime], Sequence[Agent]] | None = None,
     tick_s: float = TICK_S,
 ) -> AsyncIterator[Runtime]:
     """A service with its robot in a house, as fast as the machine allows, forgotten afterwards.
 
-    ``model``: file of the network that its camera looks through; ``None`` for the one that the service has by itself.
+    ``model``: file of the network that its camera looks through.
     """
     logging.getLogger("majordomo").setLevel(logging.ERROR)
     with tempfile.TemporaryDirectory(prefix="majordomo-evaluate-") as folder:
@@ -77,7 +78,7 @@ async def service_in_lockstep(
             speed=None,
             camera=camera,
             data=Path(folder),
-            model=model or Settings.model_fields["model"].default,
+            model=model,
         )
         runtime = Runtime(settings, witnesses=witnesses, tick_s=tick_s)
         async with runtime.running():

@@ -40,7 +40,7 @@ _SETTLE_S = 1.0
 def evaluate(
     *,
     houses: Sequence[str],
-    model: Path | None,
+    model: Path,
     jobs: int,
     json_file: Path | None,
     plot_file: Path | None,
@@ -65,7 +65,7 @@ def evaluate(
     good = met(summary) and all(run["explored"] for run in runs)
     if json_file is not None:
         document = {
-            "model": model.name if model else None,
+            "model": model.name,
             "runs": runs,
             "summary": summary,
             "at_least": AT_LEAST,
@@ -78,12 +78,11 @@ def evaluate(
     return good
 
 
-def check(houses: Sequence[str], model: Path | None) -> None:
+def check(houses: Sequence[str], model: Path) -> None:
     """Read every house and the network once, so that what is wrong with them is said at once."""
     for name in houses:
         house_of(name)
-    if model is not None:
-        OnnxPanopticModel.load(model)
+    OnnxPanopticModel.load(model)
 
 
 def house_of(name: str) -> House:
@@ -95,12 +94,12 @@ def house_of(name: str) -> House:
     return house.model_copy(update={"doors": tuple(door.model_copy(update={"state": "open"}) for door in house.doors)})
 
 
-def run_once(name: str, model: Path | None) -> dict[str, Any]:
+def run_once(name: str, model: Path) -> dict[str, Any]:
     """One house, in this process."""
     return asyncio.run(_run(name, house_of(name), model))
 
 
-async def _run(name: str, house: House, model: Path | None) -> dict[str, Any]:
+async def _run(name: str, house: House, model: Path) -> dict[str, Any]:
     made: list[Onlooker] = []
 
     def onlookers(runtime: Runtime) -> list[Onlooker]:

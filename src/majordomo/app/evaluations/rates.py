@@ -154,7 +154,7 @@ class Player:
         *,
         anew: bool = False,  # noqa: ARG002 - a recording begins where it begins
     ) -> RobotStack:
-        network = await asyncio.to_thread(OnnxPanopticModel.load, settings.model or Path())
+        network = await asyncio.to_thread(OnnxPanopticModel.load, settings.model)
         memory = WorkingMemory(self._recording.building, long_term=LongTermStore())
         robot = RecordedRobot(self._recording, speed=settings.speed or 1.0)
         return RobotStack(robot, settings, queue, model, log, network=network, memory=memory)

@@ -5,10 +5,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from majordomo.perception.objects.detection import DetectionSettings, detections_of
 from majordomo.perception.objects.projection import ProjectionSettings, View, back_project, cloud_of, project
 from majordomo.perception.objects.raycast import INTRINSICS, Solid, look_at, render, rgbd_frame
 from majordomo.perception.objects.shape import bounding_rectangle, measure_shape, point_covariance
 from majordomo.perception.objects.surface import SurfaceBelief
+from majordomo.perception.objects.track import Track, TrackSettings
+from majordomo.perception.panoptic import Instance, PanopticScene
 from majordomo.perception.vocabulary import category_of
 from majordomo.scene_graph.se3 import SE3
 
@@ -88,6 +91,50 @@ def test_a_mask_that_bleeds_into_the_background_gives_the_same_center():
     bled = mask | np.roll(mask, 2, axis=1) | np.roll(mask, -2, axis=1) | np.roll(mask, -2, axis=0)
     shape = measure_shape(cloud_of(bled, view, ProjectionSettings()), view, category_of("bottle"))
     assert np.linalg.norm((shape.center - bottle.center)[:2]) < 0.015
+
+
+def floor_and_wall(points):
+    return (points[:, 2] < 0.04) | (points[:, 0] > 0.26)
+
+
+def test_of_two_cupboards_under_one_mask_the_larger_is_kept_without_the_wall_that_joins_them():
+    wide = Solid(label="wardrobe", center=(0.0, 0.0, 0.9), size_m=(0.5, 1.2, 1.8))
+    narrow = Solid(label="shelf", center=(0.0, 1.6, 0.7), size_m=(0.4, 0.9, 1.4))
+    wall = Solid(label="wall", center=(0.35, 0.8, 1.2), size_m=(0.1, 5.0, 2.4))
+    rendering, view = view_of([wide, narrow, wall], look_at((-3.0, 0.6, 1.4), (0.0, 0.6, 0.9)))
+    rows, columns = np.nonzero(rendering.ids == 0)
+    mask = rendering.ids == 1
+    mask[rows.min() : rows.max(), columns.min() - 40 : columns.max() + 40] = True
+    cloud = cloud_of(mask, view, ProjectionSettings(), building=floor_and_wall)
+    assert cloud.points[:, 1].min() > -0.63
+    assert cloud.points[:, 1].max() < 0.63
+    assert cloud_of(rendering.ids == 2, view, ProjectionSettings(), building=floor_and_wall) is None
+
+
+def test_the_floor_between_the_legs_is_no_part_of_a_chair():
+    chair = Solid(label="chair", center=(0.0, 0.0, 0.45), size_m=(0.45, 0.45, 0.9))
+    floor = Solid(label="floor", center=(0.0, 0.0, -0.05), size_m=(6.0, 6.0, 0.1))
+    rendering, view = view_of([chair, floor], look_at((-1.6, 0.0, 1.4), (0.0, 0.0, 0.3)))
+    mask = rendering.ids == 0
+    mask |= np.roll(mask, 60, axis=1)
+    bled = cloud_of(mask, view, ProjectionSettings())
+    assert np.abs(bled.points[:, :2]).max() > 0.3
+    cloud = cloud_of(mask, view, ProjectionSettings(), building=floor_and_wall)
+    assert np.abs(cloud.points[:, :2]).max() < 0.25
+
+
+def test_a_mask_without_a_name_does_not_make_a_table_larger():
+    shelf = Solid(label="shelf", center=(0.2, 0.7, 0.5), size_m=(0.3, 0.5, 1.0))
+    rendering, view = view_of([TABLE, shelf], look_at((-2.4, 0.3, 1.4), (0.0, 0.3, 0.6)))
+    table = Track(1, "room_1", settings=TrackSettings(), random=np.random.default_rng(0))
+    named, nameless = ("table", rendering.ids == 0), ("unknown", rendering.ids >= 0)
+    for label, mask in (named, named, named, nameless, nameless):
+        instance = Instance(label=label, score=0.9, mask=mask, label_distribution=((label, 0.9),))
+        scene = PanopticScene(stamp_s=0.0, instances=(instance,), relations=())
+        rgb = np.zeros((*mask.shape, 3), dtype=np.uint8)
+        (thing,), _ = detections_of(scene, rgb, view, DetectionSettings(), None, lambda points: points[:, 2] < 0.04)
+        table.observe(thing, view, SE3.identity())
+    assert table.box.size_m[:2] == pytest.approx(TABLE.size_m[:2], abs=0.06)
 
 
 def test_holes_and_nonsense_in_depth_are_left_out_and_an_empty_mask_gives_nothing():

@@ -117,6 +117,18 @@ async def test_a_person_in_the_gap_is_named_and_a_box_is_not(flat):
         assert rehearsal.least_clearance_m > 0.25
 
 
+@pytest.mark.parametrize("side", [1, -1])
+async def test_what_lies_at_one_side_of_a_wide_door_is_passed_on_the_other(flat, side):
+    thing = Box2(Pose2(3.45, side * 0.27), 0.1, 0.15)
+    body = FakeBody(pose=Pose2(2.0, 0.0))
+    rehearsal = Rehearsal(memory=flat(width_m=1.2).memory, world=wall(1.2, thing), body=body)
+    context = await rehearsal.prepare()
+    assert await rehearsal.run([CrossDoor(context, "door_1_1_0")]) is None
+    assert rehearsal.body.pose.x_m > 3.9
+    assert rehearsal.body.pose.y_m * side < -0.1
+    assert rehearsal.least_clearance_m > 0.25
+
+
 async def test_someone_who_steps_aside_delays_only(flat):
     rehearsal = Rehearsal(memory=flat().memory, body=FakeBody(pose=Pose2(2.0, 0.0)))
 

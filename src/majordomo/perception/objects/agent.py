@@ -164,7 +164,9 @@ class ObjectMemory:
         joints = self._buffer.joints
         held_m = self._hand.held.track.box.size_m if self._hand.held is not None else None
         body = OwnBody(joints, held_m=held_m) if joints is not None else None
-        things, persons = detections_of(scene, frame.rgb, view, self._settings.detection, body)
+        things, persons = detections_of(
+            scene, frame.rgb, view, self._settings.detection, body, surroundings.of_building
+        )
         turning = turning_radps(self._buffer)
         self._tracker.update(
             Sight(

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from majordomo.perception.objects.beliefs import LabelDistribution
 from majordomo.perception.objects.body import OwnBody
 from majordomo.perception.objects.color import color_votes
-from majordomo.perception.objects.projection import Cloud, ProjectionSettings, View, cloud_of
+from majordomo.perception.objects.projection import Building, Cloud, ProjectionSettings, View, cloud_of
 from majordomo.perception.objects.shape import Shape, measure_shape
 from majordomo.perception.panoptic import Instance, PanopticScene
 from majordomo.perception.vocabulary import category_of, is_person
@@ -59,13 +59,18 @@ class Detection:
 
 
 def detections_of(
-    scene: PanopticScene, rgb: NDArray[np.uint8], view: View, settings: DetectionSettings, own_body: OwnBody | None
+    scene: PanopticScene,
+    rgb: NDArray[np.uint8],
+    view: View,
+    settings: DetectionSettings,
+    own_body: OwnBody | None,
+    building: Building,
 ) -> tuple[list[Detection], list[Detection]]:
-    """Things and persons of one frame; background, doubles and the robot's own arm are left out."""
+    """Things and persons of one frame; background, doubles, the building and the robot's own arm are left out."""
     things: list[Detection] = []
     persons: list[Detection] = []
     for index in _without_doubles(scene.instances, settings.minimum_score):
-        detection = _measure(index, scene.instances[index], rgb, view, settings, own_body)
+        detection = _measure(index, scene.instances[index], rgb, view, settings, own_body, building)
         if detection is None:
             continue
         (persons if is_person(detection.label) else things).append(detection)
@@ -79,12 +84,14 @@ def _measure(
     view: View,
     settings: DetectionSettings,
     own_body: OwnBody | None,
+    building: Building,
 ) -> Detection | None:
-    cloud = cloud_of(instance.mask, view, settings.projection)
+    category = category_of(instance.label)
+    before_walls = building if category.furniture and category.floor else None
+    cloud = cloud_of(instance.mask, view, settings.projection, building=before_walls)
     cloud = _without_body(cloud, view, own_body) if cloud is not None and own_body is not None else cloud
     if cloud is None:
         return None
-    category = category_of(instance.label)
     shape = measure_shape(cloud, view, category, depth_noise_per_m=settings.projection.depth_noise_per_m)
     return Detection(
         index=index,

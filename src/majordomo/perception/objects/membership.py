@@ -13,6 +13,9 @@ from majordomo.scene_graph.snapshot import Snapshot
 Array = NDArray[np.float64]
 _FACE_M = 0.06
 """How far inside a wall's face a point may be measured and still be of the wall."""
+_NEAR_FACE_M = 0.04
+"""The same for points of furniture in front of it, which would lose depth."""
+_FLOOR_M = 0.04
 MARGIN_M = 0.15
 """How far outside the inner face of a wall the center of a thing may be measured and still belong to the room."""
 
@@ -74,12 +77,20 @@ class Surroundings:
 
     def in_walls(self, points_here: Array) -> float:
         """Share of points (N, 3) in the robot's room frame that lie on the faces of walls, or in or behind them."""
-        depth_m = np.full(len(points_here), np.inf)
-        for room, polygon in self._polygons.items():
-            if polygon:
-                points = self.T_here_room[room].inverse().apply(points_here)[:, :2]
-                depth_m = np.minimum(depth_m, outside_distances_m(polygon, points))
-        return float(np.mean(np.isfinite(depth_m) & (depth_m > -_FACE_M))) if len(points_here) else 0.0
+        return float(np.mean(self._depth_m(points_here) > -_FACE_M)) if len(points_here) else 0.0
+
+    def of_building(self, points_here: Array) -> NDArray[np.bool_]:
+        """Which of the points (N, 3) in the robot's room frame lie on the floor, or on a wall's face or behind it."""
+        return (points_here[:, 2] < _FLOOR_M) | (self._depth_m(points_here) > -_NEAR_FACE_M)
+
+    def _depth_m(self, points_here: Array) -> Array:
+        """(N,) how far behind the nearest inner face, negative in front of it, ``-inf`` where no room is known."""
+        depths_m = [
+            outside_distances_m(polygon, self.T_here_room[room].inverse().apply(points_here)[:, :2])
+            for room, polygon in self._polygons.items()
+            if polygon
+        ]
+        return np.asarray(np.min(depths_m, axis=0)) if depths_m else np.full(len(points_here), -np.inf)
 
     def settled_room(self, room: str, point_room: Array) -> str:
         """The room of a thing so far held to be in ``room`` at ``point_room`` (3,): changed only for a point clearly

@@ -5,22 +5,33 @@ Pixel centers have integer coordinates. Optical frame: x right, y down, z forwar
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import cv2
 import numpy as np
 from numpy.typing import NDArray
+from scipy.ndimage import label
 
 from majordomo.perception.ports import Intrinsics, RgbdFrame
 from majordomo.scene_graph.se3 import SE3
 
 Array = NDArray[np.float64]
+Building = Callable[[Array], NDArray[np.bool_]]
+"""Which of the points (N, 3) in a view's room frame lie on the floor or on a wall."""
 _SQUARE = np.ones((3, 3), dtype=np.uint8)
+_EDGE_M = 0.05
+_EDGE_SIGMAS = 8.0
+_TOUCHING = np.ones((3, 3, 3), dtype=np.uint8)
 
 
 @dataclass(frozen=True, kw_only=True)
 class ProjectionSettings:
-    """How masks become points. ``depth_noise_per_m``: depth sigma is this times z squared, in meters."""
+    """How masks become points. ``depth_noise_per_m``: depth sigma is this times z squared, in meters.
+
+    ``link_m``: points farther apart than once to twice this are two things under one mask, looked for among about
+    ``piece_points`` of them. What has less than ``own_share`` of its points to itself is a part of the building.
+    """
 
     depth_min_m: float = 0.2
     depth_max_m: float = 8.0
@@ -28,6 +39,9 @@ class ProjectionSettings:
     border_px: int = 2
     min_points: int = 12
     max_points: int = 500
+    piece_points: int = 2000
+    link_m: float = 0.08
+    own_share: float = 0.15
     gap_m: tuple[float, float] = (0.05, 0.4)
     gap_of_width: float = 0.6
 
@@ -101,10 +115,15 @@ def project(points_camera: Array, intrinsics: Intrinsics) -> tuple[Array, Array]
     return np.stack((u, v), axis=-1), depth_m
 
 
-def cloud_of(mask: NDArray[np.bool_], view: View, settings: ProjectionSettings) -> Cloud | None:
+def cloud_of(
+    mask: NDArray[np.bool_], view: View, settings: ProjectionSettings, *, building: Building | None = None
+) -> Cloud | None:
     """The points of ``mask`` without what bled in from the background, or ``None`` where too few pixels have depth.
 
+    ``building`` tells which points are the building's, such as the floor between a chair's legs, and not the thing's.
+
     The depth of the eroded mask tells the depth of the thing; pixels of the whole mask that agree with it are kept.
+    Of what is several pieces in space, such as two cupboards and the gap between them, the largest is kept.
     """
     x, y, width, height = cv2.boundingRect(mask.astype(np.uint8))
     if width == 0:
@@ -119,17 +138,38 @@ def cloud_of(mask: NDArray[np.bool_], view: View, settings: ProjectionSettings) 
     v, u = np.nonzero(kept)
     if len(u) < settings.min_points:
         return None
-    stride = -(-len(u) // settings.max_points)
-    v, u = v[::stride], u[::stride]
-    smooth_m = _smoothed(depth_m, kept)[v, u]
-    points_camera = back_project(u.astype(np.float64) + x, v.astype(np.float64) + y, smooth_m, view.intrinsics)
+    step = max(1, int(np.sqrt(len(u) / settings.piece_points)))
+    v, u = (pixels * step for pixels in np.nonzero(kept[::step, ::step]))
+    smooth_m = _smoothed(depth_m, kept, settings.depth_noise_per_m)[v, u]
+    points = view.T_room_camera.apply(
+        back_project(u.astype(np.float64) + x, v.astype(np.float64) + y, smooth_m, view.intrinsics)
+    )
+    own = ~building(points) if building is not None else np.ones(len(points), dtype=bool)
+    if own.mean() < settings.own_share:
+        return None
+    own[own] = largest_piece(points[own], settings.link_m)
+    piece = np.nonzero(own)[0]
+    if len(piece) < settings.min_points:
+        return None
+    piece = piece[:: -(-len(piece) // settings.max_points)]
     return Cloud(
-        points=view.T_room_camera.apply(points_camera),
-        range_m=float(np.median(smooth_m)),
+        points=points[piece],
+        range_m=float(np.median(smooth_m[piece])),
         pixels=int(np.count_nonzero(inside)),
         truncated=_touches_border(x, y, width, height, view.intrinsics, settings.border_px),
         occluded=_occluded_rim(mask, view.depth_m, (x, y, width, height), interval[0]),
     )
+
+
+def largest_piece(points: Array, link_m: float) -> NDArray[np.bool_]:
+    """Which of the points (N, 3) belong to the largest cluster: cells of ``link_m`` that touch are one."""
+    cells = np.floor((points - points.min(axis=0)) / link_m).astype(np.intp)
+    if cells.max() <= 1:
+        return np.ones(len(points), dtype=bool)
+    taken = np.zeros(cells.max(axis=0) + 1, dtype=bool)
+    taken[tuple(cells.T)] = True
+    of_point = label(taken, structure=_TOUCHING)[0][tuple(cells.T)]
+    return np.asarray(of_point == np.bincount(of_point).argmax())
 
 
 def _depth_interval(
@@ -154,12 +194,18 @@ def _depth_interval(
     return near_m - slack_m, far_m + slack_m
 
 
-def _smoothed(depth_m: NDArray[np.float32], kept: NDArray[np.bool_]) -> Array:
-    """Mean depth over kept pixels of each 3 x 3 neighborhood: a third of the noise, and slopes stay slopes."""
+def _smoothed(depth_m: NDArray[np.float32], kept: NDArray[np.bool_], noise_per_m: float) -> Array:
+    """Mean depth over kept pixels of each 3 x 3 neighborhood: a third of the noise, and slopes stay slopes.
+
+    Not across an edge: means of what is before and behind it would lie where nothing is.
+    """
     weights = kept.astype(np.float32)
     total = cv2.blur(depth_m * weights, (3, 3), borderType=cv2.BORDER_CONSTANT)
     count = cv2.blur(weights, (3, 3), borderType=cv2.BORDER_CONSTANT)
-    return np.asarray(total / np.maximum(count, 1e-6), dtype=np.float64)
+    nearest = cv2.erode(np.where(kept, depth_m, np.float32(np.inf)), _SQUARE)
+    farthest = cv2.dilate(np.where(kept, depth_m, np.float32(0.0)), _SQUARE)
+    edge = farthest - nearest > np.maximum(_EDGE_M, _EDGE_SIGMAS * noise_per_m * depth_m**2)
+    return np.where(edge, depth_m, total / np.maximum(count, 1e-6)).astype(np.float64)
 
 
 def _touches_border(x: int, y: int, width: int, height: int, intrinsics: Intrinsics, border_px: int) -> bool:

@@ -120,11 +120,15 @@ class Track:
     def _observe_surface(self, detection: Detection, view: View, T_room_view: SE3, pose_covariance: Array) -> None:
         if not isinstance(self.place, SurfaceBelief):
             self.place = SurfaceBelief()
-        elif not detection.in_range:
+        elif not detection.in_range or self._vaguer(detection):
             return
         camera = T_room_view.apply(view.T_room_camera.translation_m)
         points = T_room_view.apply(detection.cloud.points)
         self.place.observe(points, pose_covariance, category_of(self.label.best), camera)
+
+    def _vaguer(self, detection: Detection) -> bool:
+        """Whether a thing of known name was seen as something without one: such masks show more than the thing."""
+        return category_of(self.label.best).known and not category_of(detection.label).known
 
     def _observe_center(self, detection: Detection, view: View, T_room_view: SE3, pose_covariance: Array) -> None:
         if isinstance(self.place, CenterBelief) and not detection.measurable:

@@ -1,4 +1,4 @@
-"""Doors: stand in front of one, and drive straight through.
+"""Doors: stand in front of one, and drive straight through, beside what lies in the way where that leaves room.
 
 A door's frame has its origin at the gap's center on the floor, y into the room it belongs to. Here the *axis* of a
 crossing has x in the direction of travel and y to the left, so that progress, offset and heading error are one pose.
@@ -33,6 +33,9 @@ ASIDE_M = (0.0, 0.08, -0.08)
 BEYOND_M = 0.9
 WALL_M = 0.2
 PANEL_BIN_M = 0.05
+LANE_STEP_M = 0.03
+LANE_SPARE_M = 0.03
+LANE_ERROR_M = 0.10
 
 
 class ApproachDoor(DriveTo):
@@ -58,7 +61,8 @@ class CrossingConfig:
 class CrossDoor(Action):
     """Drives through a door along its axis until the base stands 0.9 m beyond the wall.
 
-    When the robot is placed into the far room on the way, it goes on by that room's own node of the same door. Fails
+    Where something lies in the way it drives beside the axis, as near to it as there is room, and lines up again for
+    that. When the robot is placed into the far room on the way, it goes on by that room's own node of the same door. Fails
     with DOOR_CLOSED, PERSON_IN_WAY or WAY_BLOCKED, and then backs out of the gap first.
     """
 
@@ -71,14 +75,21 @@ class CrossDoor(Action):
         self._driver: Driver | None = None
         self._free_s = 0.0
         self._giving_up: tuple[FailureCode, str] | None = None
+        self._lane_m = 0.0
+        self._anew = False
 
     def begin(self) -> None:
         """Say which door, and line up first when not in front of it."""
         self._free_s, self._giving_up, self._driver = self.context.stamp_s, None, None
+        self._lane_m, self._anew = 0.0, False
         self.context.announce(f"crossing {self.door_id}")
         if self.door_id in self.context.snapshot and not self._lined_up(self._base_on_axis()):
-            source = _in_front(self.context, self.door_id)
-            self._driver = Driver(self.context, source, config=DriverConfig(position_m=0.04))
+            self._line_up_on(0.0)
+
+    def _line_up_on(self, lane_m: float) -> None:
+        self._lane_m = lane_m
+        source = _in_front(self.context, self.door_id, lane_m)
+        self._driver = Driver(self.context, source, config=DriverConfig(position_m=0.04))
 
     def step(self) -> Status:
         """Line up, then drive along the axis."""
@@ -88,6 +99,8 @@ class CrossDoor(Action):
             return self._line_up(self._driver)
         look_around(self.context)
         base = self._base_on_axis()
+        if self._anew:
+            return self._begin_anew(base)
         if self._giving_up is not None:
             return self._back_out(base, *self._giving_up)
         if base.x_m - WALL_M >= BEYOND_M:
@@ -104,7 +117,7 @@ class CrossDoor(Action):
 
     def _advance(self, base: Pose2) -> Status:
         context, config = self.context, self._config
-        error = wrap_rad(atan2(-base.y_m, config.look_ahead_m) - base.yaw_rad)
+        error = wrap_rad(atan2(self._lane_m - base.y_m, config.look_ahead_m) - base.yaw_rad)
         turning = abs(error) > config.turn_in_place_rad
         speed = 0.0 if turning else config.speed_mps * max(cos(2 * error), 0.3)
         wanted = (speed, turn_rate(error, context.limits))
@@ -122,6 +135,8 @@ class CrossDoor(Action):
             return Status.SUCCESS  # through the wall already; what blocks stands in the far room
         if waited_s > self._config.closed_s and self._panel_share() >= self._config.panel_share:
             self._giving_up = (FailureCode.DOOR_CLOSED, f"{self.door_id} is closed.")
+        elif waited_s > self._config.patience_s and abs(self._clear_lane_m(base) - self._lane_m) > LANE_ERROR_M:
+            self._lane_m, self._anew = self._clear_lane_m(base), True
         elif waited_s > self._config.patience_s:
             person = self._person_in_gap()
             if person is not None:
@@ -130,14 +145,39 @@ class CrossDoor(Action):
                 self._giving_up = (FailureCode.WAY_BLOCKED, f"something blocks {self.door_id}.")
         return Status.RUNNING
 
+    def _begin_anew(self, base: Pose2) -> Status:
+        """Leave the gap backwards and line up for another lane."""
+        if self._is_out(base):
+            self._anew = False
+            self._line_up_on(self._lane_m)
+        return Status.RUNNING
+
     def _back_out(self, base: Pose2, code: FailureCode, message: str) -> Status:
         """Leave the gap backwards before failing, so that the next plan starts from open floor."""
-        linear, _ = admissible(-0.15, 0.0, self._points_base(), self._radius_m(), self.context.limits)
-        if linear == 0.0 or base.x_m < -0.55:
+        if self._is_out(base):
             share = f"points fill {100 * self._panel_share():.0f} % of the gap"
             return self.fail(code, message, (self.door_id,), share)
-        self.context.commands.drive = (linear, 0.0)
         return Status.RUNNING
+
+    def _is_out(self, base: Pose2) -> bool:
+        """Whether the base stands before the gap; drives it backwards as long as it does not and can."""
+        linear, _ = admissible(-0.15, 0.0, self._points_base(), self._radius_m(), self.context.limits)
+        if linear == 0.0 or base.x_m < -0.55:
+            return True
+        self.context.commands.drive = (linear, 0.0)
+        return False
+
+    def _clear_lane_m(self, base: Pose2) -> float:
+        """Offset to the left of the axis, the least, at which the way through is clear; 0 where it is at none."""
+        half_m = self._radius_m() + LANE_SPARE_M
+        on_axis = base.apply(self._points_base())
+        ahead = on_axis[(on_axis[:, 0] > -half_m) & (on_axis[:, 0] < WALL_M + BEYOND_M)]
+        room_m = self.context.snapshot.door(self.door_id).width_m / 2 - half_m
+        steps = range(int(max(room_m, 0.0) / LANE_STEP_M) + 1)
+        for lane_m in (sign * step * LANE_STEP_M for step in steps for sign in (1, -1)):
+            if not (np.abs(ahead[:, 1] - lane_m) < half_m).any():
+                return lane_m
+        return 0.0
 
     def _lined_up(self, base: Pose2) -> bool:
         in_front = -1.3 < base.x_m < -0.35 and abs(base.y_m) < 0.10
@@ -205,5 +245,6 @@ def twins_of(snapshot: Snapshot, door_id: str) -> list[str]:
     return sorted(found + [edge.source for edge in snapshot.edges_to(door_id, EdgeType.MATCH)])
 
 
-def _in_front(context: RobotContext, door_id: str) -> GoalSource:
-    return at_poses(context, door_id, [(x_m, y_m, -pi / 2) for x_m in ASIDE_M for y_m in (FRONT_M, *OTHER_FRONTS_M)])
+def _in_front(context: RobotContext, door_id: str, lane_m: float = 0.0) -> GoalSource:
+    fronts_m = (FRONT_M, *OTHER_FRONTS_M)
+    return at_poses(context, door_id, [(lane_m + x_m, y_m, -pi / 2) for x_m in ASIDE_M for y_m in fronts_m])

@@ -62,8 +62,8 @@ class CrossDoor(Action):
     """Drives through a door along its axis until the base stands 0.9 m beyond the wall.
 
     Where something lies in the way it drives beside the axis, as near to it as there is room, and lines up again for
-    that. When the robot is placed into the far room on the way, it goes on by that room's own node of the same door. Fails
-    with DOOR_CLOSED, PERSON_IN_WAY or WAY_BLOCKED, and then backs out of the gap first.
+    that. When the robot is placed into the far room on the way, it goes on by that room's own node of the same door.
+    Fails with DOOR_CLOSED, PERSON_IN_WAY or WAY_BLOCKED, and then backs out of the gap first.
     """
 
     timeout_s = 60.0

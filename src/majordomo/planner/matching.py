@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Hashable, Iterable, Iterator
 from difflib import get_close_matches
 
 from majordomo.planner.vocabulary import (
@@ -15,6 +15,7 @@ from majordomo.planner.vocabulary import (
     singular,
     words_for,
 )
+from majordomo.scene_graph.edges import EdgeType
 from majordomo.scene_graph.identifiers import natural_key
 from majordomo.scene_graph.nodes import DoorNode, ObjectNode, PersonNode, RoomNode, RoomStatus
 from majordomo.scene_graph.snapshot import Snapshot
@@ -32,17 +33,15 @@ def nodes_of(snapshot: Snapshot) -> Iterator[Place]:
 
 def is_first_of_pair(snapshot: Snapshot, door: DoorNode) -> bool:
     """Whether this node stands for its physical door: the lower identifier of a matched pair."""
-    return not any(edge.target == door.id for edge in snapshot.edges_to(door.id) if edge.key.type == "match")
+    return not snapshot.edges_to(door.id, EdgeType.MATCH)
 
 
-def nouns_of(snapshot: Snapshot) -> Iterator[str]:
+def nouns_of(snapshot: Snapshot) -> frozenset[str]:
     """Labels and taught names of the graph; what the lexer must recognize as nouns."""
-    for node in nodes_of(snapshot):
-        if not isinstance(node, PersonNode):
-            yield node.label
-        if isinstance(node, ObjectNode):
-            yield node.name
-            yield from node.categories
+    objects = snapshot.of_type(ObjectNode)
+    said = {(node.label, node.name, node.categories) for node in objects}
+    places = {node.label for node in nodes_of(snapshot) if isinstance(node, RoomNode | DoorNode)}
+    return frozenset(places | {word for label, name, categories in said for word in (label, name, *categories)})
 
 
 def named(head: str, number: int | None, snapshot: Snapshot, *, widely: bool, fixed: bool = False) -> tuple[str, ...]:
@@ -54,7 +53,8 @@ def named(head: str, number: int | None, snapshot: Snapshot, *, widely: bool, fi
     """
     if head in snapshot:
         return (head,)
-    ranked = [(rank, node) for node in nodes_of(snapshot) if (rank := _rank(head, node, fixed=fixed)) is not None]
+    ranks = _Ranks(head, fixed=fixed)
+    ranked = [(rank, node) for node in nodes_of(snapshot) if (rank := ranks.of(node)) is not None]
     if number is not None:
         ranked = [(rank, node) for rank, node in ranked if node.id.rpartition("_")[2] == str(number)]
     closest = min((rank for rank, _ in ranked), default=0)
@@ -70,6 +70,22 @@ def similar(head: str, snapshot: Snapshot) -> tuple[str, ...]:
 
 def _names(snapshot: Snapshot) -> set[str]:
     return {normal(node.name) for node in nodes_of(snapshot) if isinstance(node, ObjectNode | PersonNode) and node.name}
+
+
+class _Ranks:
+    """How closely one noun names nodes; what reads alike is looked at once."""
+
+    def __init__(self, head: str, *, fixed: bool) -> None:
+        self._head, self._fixed = head, fixed
+        self._known: dict[Hashable, int | None] = {}
+
+    def of(self, node: Place) -> int | None:
+        if not isinstance(node, ObjectNode):
+            return _rank(self._head, node, fixed=self._fixed)
+        alike = (node.label, node.name, node.categories, node.graspable, node.support)
+        if alike not in self._known:
+            self._known[alike] = _rank(self._head, node, fixed=self._fixed)
+        return self._known[alike]
 
 
 def _rank(head: str, node: Place, *, fixed: bool) -> int | None:

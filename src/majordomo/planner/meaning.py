@@ -30,6 +30,7 @@ from majordomo.planner.grounding import Ambiguous, Context, Grounding, NoReferen
 from majordomo.planner.meant import Meant
 from majordomo.planner.naming import aim_phrase, name_of
 from majordomo.scene_graph.nodes import ObjectNode, PersonNode, RoomNode
+from majordomo.skills.facts import in_room
 
 MAX_MENTIONED = 6
 SHELF_LIKE = frozenset({"shelf", "bookshelf", "bookcase", "cabinet", "rack", "shelves", "cupboard"})
@@ -117,8 +118,12 @@ class Meaning:
         if not isinstance(place, str):
             return place
         predicate = self._predicate(step.destination.relation, place)
+        room = self._state.room_of(place)
+        here = in_room(self._snapshot, room) if room is not None else ()
         there = frozenset(
-            i for i in self._state.places if holds(Goal(predicate=predicate, args=(i, place)), self._state)
+            i
+            for i in here
+            if i in self._state.places and holds(Goal(predicate=predicate, args=(i, place)), self._state)
         )
         things = self._gathering.to_carry(step.things, context, avoid=there | {place})
         if not isinstance(things, tuple):

@@ -9,7 +9,7 @@ from majordomo.planner.goals import goal
 from majordomo.planner.naming import name_of
 from majordomo.planner.plan import Impossible, Plan, Source, Step
 from majordomo.scene_graph.identifiers import natural_key
-from majordomo.scene_graph.nodes import ObjectNode
+from majordomo.scene_graph.nodes import ObjectNode, RoomNode
 from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.skills.state import PlanState, Thing
 
@@ -29,9 +29,12 @@ def seeking_plan(
     in ``already_looked``, and what cannot be reached.
     """
     last_room = snapshot.room_of(object_id) or state.robot_room
+    rooms = (room.id for room in snapshot.of_type(RoomNode))
+    surfaces = (node.id for node in snapshot.of_type(ObjectNode) if node.support)
+    places = (state.world.things[place] for place in (*rooms, *surfaces) if place in state.world.things)
     open_places = [
         thing
-        for thing in state.world.things.values()
+        for thing in places
         if thing.id != object_id and thing.id not in already_looked and _may_hold(thing, snapshot, since_s)
     ]
     reachable = [thing for thing in open_places if _distance_m(state, state.robot_at, thing.id) < inf]

@@ -22,7 +22,7 @@ def surfaces_near(node_id: str, state: PlanState) -> tuple[str, ...]:
     if place is not None:
         return (place[1],) if _is_surface(state.world.things[place[1]]) else ()
     thing = state.world.things[node_id]
-    gaps = sorted((_gap_m(thing, other), other.id) for other in state.world.things.values() if _is_surface(other))
+    gaps = sorted((_gap_m(thing, other), other.id) for other in state.world.in_room(thing.room) if _is_surface(other))
     close = tuple(surface for gap_m, surface in gaps if gap_m <= NEAR_M and surface not in state.missing)
     return close if thing.support or thing.kind == "person" else close[:1]
 

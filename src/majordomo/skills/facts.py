@@ -2,21 +2,28 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
+from typing import TypeGuard
+
 from majordomo.scene_graph.doors import physical_doors
-from majordomo.scene_graph.errors import FramesNotConnected
+from majordomo.scene_graph.edges import EdgeType
+from majordomo.scene_graph.identifiers import natural_key
 from majordomo.scene_graph.nodes import (
     ROOT_ID,
     DoorNode,
     DoorState,
+    Node,
     ObjectNode,
     ObjectState,
     PersonNode,
     RoomNode,
     RoomStatus,
 )
+from majordomo.scene_graph.poses import MapPoses
 from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.skills.nearness import excess_m
-from majordomo.skills.state import DoorLink, PlaceRelation, PlanState, Thing, World
+from majordomo.skills.placement import Place, Placement, PlaceRelation
+from majordomo.skills.state import DoorLink, PlanState, Thing, World
 
 CONTAINER_LABELS = frozenset(
     {
@@ -35,24 +42,19 @@ CONTAINER_LABELS = frozenset(
     }
 )
 
+_KINDS = (RoomNode, DoorNode, ObjectNode, PersonNode)
+
 
 def read_state(snapshot: Snapshot) -> PlanState:
-    """The facts that ``snapshot`` believes."""
-    world = read_world(snapshot)
-    robot = snapshot.robot
-    room = snapshot.current_room
-    places: dict[str, tuple[PlaceRelation, str]] = {}
-    for node in snapshot.of_type(ObjectNode):
-        if node.graspable and node.state is not ObjectState.HELD:
-            place = _place(snapshot, node)
-            if place is not None:
-                places[node.id] = place
+    """The facts that ``snapshot`` believes. Of thousands of things only those are read that a plan asks for."""
+    robot, room = snapshot.robot, snapshot.current_room
+    places = StoodPlaces(snapshot)
     return PlanState(
-        world=world,
+        world=read_world(snapshot),
         robot_at=room or ROOT_ID,
         robot_room=room,
         holding=robot.holding if robot is not None else None,
-        places=places,
+        places=Placement(places, places.at, {}),
         missing=frozenset(node.id for node in snapshot.of_type(ObjectNode) if node.state is ObjectState.MISSING),
         near=_near(snapshot),
     )
@@ -60,8 +62,75 @@ def read_state(snapshot: Snapshot) -> PlanState:
 
 def read_world(snapshot: Snapshot) -> World:
     """The things that plans speak about, and the physical doors between rooms that both are known."""
-    things = [_thing(snapshot, node) for node in _nodes(snapshot)]
-    return World(things={thing.id: thing for thing in things}, doors=_door_links(snapshot))
+    return World(things=KnownThings(snapshot), doors=_door_links(snapshot), inside=lambda room: in_room(snapshot, room))
+
+
+class KnownThings(Mapping[str, Thing]):
+    """The rooms that stand, doors, objects and persons of a snapshot, each read when it is first asked for."""
+
+    def __init__(self, snapshot: Snapshot) -> None:
+        self._snapshot = snapshot
+        self._poses = MapPoses(snapshot)
+        self._read: dict[str, Thing] = {}
+
+    def __getitem__(self, node_id: str) -> Thing:
+        if node_id not in self._read:
+            node = self._snapshot.get(node_id)
+            if not _is_thing(node):
+                raise KeyError(node_id)
+            self._read[node_id] = _thing(self._snapshot, self._poses, node)
+        return self._read[node_id]
+
+    def __contains__(self, node_id: object) -> bool:
+        return isinstance(node_id, str) and _is_thing(self._snapshot.get(node_id))
+
+    def __iter__(self) -> Iterator[str]:
+        for kind in _KINDS:
+            yield from (node.id for node in self._snapshot.of_type(kind) if _is_thing(node))
+
+    def __len__(self) -> int:
+        return sum(1 for _ in self)
+
+
+class StoodPlaces(Mapping[str, Place]):
+    """Where the objects of a snapshot that can be carried are; held ones are nowhere."""
+
+    def __init__(self, snapshot: Snapshot) -> None:
+        self._snapshot = snapshot
+
+    def at(self, place: str) -> tuple[str, ...]:
+        """The objects on or in a place."""
+        if place not in self._snapshot:
+            return ()
+        standing = (edge.source for edge in self._snapshot.edges_to(place, EdgeType.RELATION))
+        inside = () if not isinstance(self._snapshot.get(place), RoomNode) else in_room(self._snapshot, place)
+        found = dict.fromkeys((*standing, *inside))
+        return tuple(thing for thing in found if (at := self.get(thing)) is not None and at[1] == place)
+
+    def __getitem__(self, object_id: str) -> Place:
+        node = self._snapshot.get(object_id)
+        place = _place(self._snapshot, node) if isinstance(node, ObjectNode) and _can_be_carried(node) else None
+        if place is None:
+            raise KeyError(object_id)
+        return place
+
+    def __iter__(self) -> Iterator[str]:
+        carried = (node.id for node in self._snapshot.of_type(ObjectNode) if _can_be_carried(node))
+        return (object_id for object_id in carried if object_id in self)
+
+    def __len__(self) -> int:
+        return sum(1 for _ in self)
+
+
+def in_room(snapshot: Snapshot, room: str) -> tuple[str, ...]:
+    """Objects and persons in a room, in natural order."""
+    found = {edge.source for edge in snapshot.edges_to(room, EdgeType.IN)}
+    hung = list(snapshot.children(room))
+    for frame in hung:  # grows while it is walked
+        hung += snapshot.children(frame)
+    found.update(frame for frame in hung if snapshot.room_of(frame) == room)
+    here = (node_id for node_id in found if isinstance(snapshot.get(node_id), ObjectNode | PersonNode))
+    return tuple(sorted(here, key=natural_key))
 
 
 def is_container(label: str) -> bool:
@@ -69,14 +138,18 @@ def is_container(label: str) -> bool:
     return label.replace("_", " ") in CONTAINER_LABELS
 
 
-def _nodes(snapshot: Snapshot) -> list[RoomNode | DoorNode | ObjectNode | PersonNode]:
-    rooms = [room for room in snapshot.of_type(RoomNode) if room.status is not RoomStatus.TEMPORARY]
-    return [*rooms, *snapshot.of_type(DoorNode), *snapshot.of_type(ObjectNode), *snapshot.of_type(PersonNode)]
+def _is_thing(node: Node | None) -> TypeGuard[RoomNode | DoorNode | ObjectNode | PersonNode]:
+    return isinstance(node, _KINDS) and not (isinstance(node, RoomNode) and node.status is RoomStatus.TEMPORARY)
 
 
-def _thing(snapshot: Snapshot, node: RoomNode | DoorNode | ObjectNode | PersonNode) -> Thing:
+def _can_be_carried(node: ObjectNode) -> bool:
+    return node.graspable and node.state is not ObjectState.HELD
+
+
+def _thing(snapshot: Snapshot, poses: MapPoses, node: RoomNode | DoorNode | ObjectNode | PersonNode) -> Thing:
     room = snapshot.room_of(node.id)
-    position = _on_map(snapshot, node.id)
+    pose = poses.pose(node.id)
+    position = None if pose is None else (pose.x_m, pose.y_m)
     if isinstance(node, ObjectNode):
         return Thing(
             id=node.id,
@@ -91,14 +164,6 @@ def _thing(snapshot: Snapshot, node: RoomNode | DoorNode | ObjectNode | PersonNo
         )
     kind = {RoomNode: "room", DoorNode: "door", PersonNode: "person"}[type(node)]
     return Thing(id=node.id, kind=kind, label=node.label, room=room, position_m=position)
-
-
-def _on_map(snapshot: Snapshot, node_id: str) -> tuple[float, float] | None:
-    try:
-        x_m, y_m, _ = snapshot.position(node_id, ROOT_ID)
-    except FramesNotConnected:
-        return None
-    return float(x_m), float(y_m)
 
 
 def _door_links(snapshot: Snapshot) -> tuple[DoorLink, ...]:
@@ -120,7 +185,8 @@ def _place(snapshot: Snapshot, node: ObjectNode) -> tuple[PlaceRelation, str] | 
 
 def _near(snapshot: Snapshot) -> frozenset[str]:
     """Objects and persons that the robot is at."""
-    holding = snapshot.robot.holding if snapshot.robot is not None else None
-    nodes = [*(node.id for node in snapshot.of_type(ObjectNode)), *(node.id for node in snapshot.of_type(PersonNode))]
-    gaps = {node_id: excess_m(snapshot, node_id) for node_id in nodes if node_id != holding}
+    room, holding = snapshot.current_room, snapshot.robot.holding if snapshot.robot is not None else None
+    if room is None:
+        return frozenset()
+    gaps = {node_id: excess_m(snapshot, node_id) for node_id in in_room(snapshot, room) if node_id != holding}
     return frozenset(node_id for node_id, gap_m in gaps.items() if gap_m is not None and gap_m <= 0.0)

@@ -51,11 +51,12 @@ class Pick:
     def effects(self, state: PlanState, args: Sequence[str]) -> PlanState:
         """The robot holds the object; it still stands where the object was."""
         (target,) = args
-        places = {thing: place for thing, place in state.places.items() if thing != target}
         robot_at = state.robot_at
         if robot_at == target:
             robot_at = state.places[target][1] if target in state.places else state.robot_room or robot_at
-        return state.after(holding=target, places=places, robot_at=robot_at, near=state.near - {target})
+        return state.after(
+            holding=target, places=state.moved(target, None), robot_at=robot_at, near=state.near - {target}
+        )
 
     def cost_s(self, state: PlanState, args: Sequence[str]) -> float:
         """Looking closely, reaching, closing, lifting, drawing back."""

@@ -68,7 +68,7 @@ class Place:
         """The object is on, in, or with the target; the hand is empty."""
         held, target = args
         relation = relation_to(state.world.things[target])
-        return state.after(holding=None, places={**state.places, held: (relation, target)})
+        return state.after(holding=None, places=state.moved(held, (relation, target)))
 
     def cost_s(self, state: PlanState, args: Sequence[str]) -> float:
         """Choosing a spot, lowering, letting go, drawing back, looking."""

@@ -5,21 +5,17 @@ The verifier's search runs on it, and symbolic execution checks a plan with it b
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
-from enum import StrEnum
 from functools import cached_property
 
 from majordomo.scene_graph.snapshot import Snapshot
+from majordomo.skills.placement import Place, Placement, PlaceRelation
 from majordomo.skills.ways import Ways
 
+__all__ = ["DoorLink", "PlaceRelation", "PlanState", "Thing", "World"]
 
-class PlaceRelation(StrEnum):
-    """How an object is placed."""
-
-    ON = "on"
-    IN = "in"
-    GIVEN = "given"
+_INSIDE = ("object", "person")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -53,11 +49,12 @@ class DoorLink:
 @dataclass(frozen=True, kw_only=True, eq=False)
 class World:
     """What does not change during a plan: things, and the doors between rooms. Two worlds are equal when they are
-    one.
+    one. ``inside``: what is in a room; without it all things are gone through.
     """
 
     things: Mapping[str, Thing]
     doors: tuple[DoorLink, ...]
+    inside: Callable[[str], tuple[str, ...]] | None = None
 
     def distance_m(self, a: str, b: str) -> float | None:
         """Walking distance between two nodes through open doors, ``None`` if there is no way."""
@@ -67,12 +64,23 @@ class World:
         """Closed doors on the shortest way that would lead from one room to the other if every door were open."""
         return self.ways.closed_doors(room_a, room_b)
 
+    def in_room(self, room: str | None) -> tuple[Thing, ...]:
+        """The objects and persons in a room; what can be carried counts where it was before the plan."""
+        if self.inside is not None:
+            return tuple(self.things[node_id] for node_id in self.inside(room)) if room is not None else ()
+        return tuple(thing for thing in self.things.values() if thing.room == room and thing.kind in _INSIDE)
+
     @cached_property
     def ways(self) -> Ways:
         """Shortest ways through the doors, computed once."""
-        rooms = {thing.id: thing.id if thing.kind == "room" else thing.room for thing in self.things.values()}
-        positions = {thing.id: thing.position_m for thing in self.things.values()}
-        return Ways(rooms, positions, tuple((link.door, link.rooms, link.open) for link in self.doors))
+        return Ways(self.whereabouts, tuple((link.door, link.rooms, link.open) for link in self.doors))
+
+    def whereabouts(self, node_id: str) -> tuple[str | None, tuple[float, float] | None]:
+        """Room and position of a node, as far as they are known."""
+        thing = self.things.get(node_id)
+        if thing is None:
+            return None, None
+        return thing.id if thing.kind == "room" else thing.room, thing.position_m
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -89,7 +97,7 @@ class PlanState:
     robot_at: str
     robot_room: str | None
     holding: str | None
-    places: Mapping[str, tuple[PlaceRelation, str]]
+    places: Mapping[str, Place]
     missing: frozenset[str] = frozenset()
     near: frozenset[str] = frozenset()
 
@@ -103,7 +111,8 @@ class PlanState:
     @cached_property
     def key(self) -> tuple[object, ...]:
         """The facts as one hashable value, the same for equal states."""
-        return (self.robot_at, self.holding, frozenset(self.places.items()), self.missing, self.near, self.robot_room)
+        places = self.places.key if isinstance(self.places, Placement) else frozenset(self.places.items())
+        return (self.robot_at, self.holding, places, self.missing, self.near, self.robot_room)
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, PlanState) and self.world is other.world and self.key == other.key
@@ -154,10 +163,22 @@ class PlanState:
 
     def on_top_of(self, node_id: str) -> tuple[str, ...]:
         """Objects that stand on or in ``node_id``, sorted."""
+        if isinstance(self.places, Placement):
+            return tuple(sorted(self.places.at(node_id)))
         return tuple(sorted(thing for thing, (_, place) in self.places.items() if place == node_id))
 
+    def moved(self, object_id: str, place: Place | None) -> Mapping[str, Place]:
+        """``places`` after an object was put somewhere, or taken away (None)."""
+        if isinstance(self.places, Placement):
+            return self.places.with_moved(object_id, place)
+        kept = {thing: at for thing, at in self.places.items() if thing != object_id}
+        return kept if place is None else {**kept, object_id: place}
+
     def after(self, **changes: object) -> PlanState:
-        """A copy with ``changes``."""
+        """A copy with ``changes``; ``places`` may be any mapping."""
+        places = changes.get("places")
+        if isinstance(self.places, Placement) and isinstance(places, Mapping) and not isinstance(places, Placement):
+            changes["places"] = self.places.like(places)
         return replace(self, **changes)  # type: ignore[arg-type]
 
     def _is_spot(self, node_id: str) -> bool:

@@ -30,7 +30,7 @@ from majordomo.planner.grounding import Ambiguous, Context, Grounding, NoReferen
 from majordomo.planner.meant import Meant
 from majordomo.planner.naming import aim_phrase, name_of
 from majordomo.scene_graph.nodes import ObjectNode, PersonNode, RoomNode
-from majordomo.skills.facts import in_room
+from majordomo.skills.rooms import in_room
 
 MAX_MENTIONED = 6
 SHELF_LIKE = frozenset({"shelf", "bookshelf", "bookcase", "cabinet", "rack", "shelves", "cupboard"})

@@ -8,7 +8,7 @@ from majordomo.planner.goals import Goal, Predicate
 from majordomo.planner.plan import Step
 from majordomo.scene_graph.nodes import DoorNode, ObjectNode, PersonNode, RoomNode
 from majordomo.scene_graph.snapshot import Snapshot
-from majordomo.skills.facts import is_container
+from majordomo.skills.containers import is_container
 
 IDENTIFIER = re.compile(r"[a-z][a-z0-9_]*_\d+(?:_pre)?\b")
 

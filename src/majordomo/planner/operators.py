@@ -12,7 +12,7 @@ from math import inf
 from majordomo.planner.goals import PLACING, Goal, Predicate
 from majordomo.planner.plan import Step
 from majordomo.planner.surfaces import surfaces_near
-from majordomo.skills.skill import Skill
+from majordomo.skills.skill import Skill, Unmet
 from majordomo.skills.state import PlanState
 
 GOTO, PICK, PLACE = "GOTO", "PICK", "PLACE"
@@ -31,7 +31,7 @@ class Operators:
         self._legs_s: dict[tuple[str, str], float] = {}
 
     def applicable(
-        self, goal: Goal, state: PlanState, unmet: dict[str, None], to_find: Sequence[str] = ()
+        self, goal: Goal, state: PlanState, unmet: dict[Unmet, None], to_find: Sequence[str] = ()
     ) -> Iterator[Applied]:
         """Steps towards ``goal`` whose conditions hold; the conditions that do not are added to ``unmet``.
 
@@ -41,7 +41,7 @@ class Operators:
             skill = self._skills[step.skill]
             failed = skill.conditions(state, step.args)
             if failed:
-                unmet.update(dict.fromkeys(condition.message for condition in failed))
+                unmet.update(dict.fromkeys(failed))
             else:
                 yield step, skill.cost_s(state, step.args), skill.effects(state, step.args)
 

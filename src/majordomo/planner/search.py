@@ -15,7 +15,7 @@ from itertools import count
 from majordomo.planner.goals import Goal, Predicate, holds, lasting
 from majordomo.planner.operators import Operators
 from majordomo.planner.plan import Step
-from majordomo.skills.skill import Skill
+from majordomo.skills.skill import Skill, Unmet
 from majordomo.skills.state import PlanState
 
 
@@ -34,7 +34,7 @@ class Exhausted:
 
     expanded: int
     out_of_budget: bool
-    unmet: tuple[str, ...]
+    unmet: tuple[Unmet, ...]
 
 
 @dataclass(frozen=True)
@@ -72,7 +72,7 @@ class Search:
         queue = [(self.at_least_s(start, first.ticked), next(order), first)]
         best = {(start, first.ticked): 0.0}
         expanded = 0
-        unmet: dict[str, None] = {}
+        unmet: dict[Unmet, None] = {}
         while queue and expanded < self._budget:
             _, _, node = heapq.heappop(queue)
             if node.cost_s > best[(node.state, node.ticked)]:
@@ -112,7 +112,7 @@ class Search:
         left = self._goals[ticked:] or self._lasting
         return self._operators.at_least_s([goal for goal in left if not holds(goal, state)], state)
 
-    def _successors(self, node: _Node, unmet: dict[str, None]) -> Iterator[_Node]:
+    def _successors(self, node: _Node, unmet: dict[Unmet, None]) -> Iterator[_Node]:
         goal = self.pending(node.state, node.ticked)
         to_find = self._to_find(node.ticked)
         for step, cost_s, state in self._operators.applicable(goal, node.state, unmet, to_find):

@@ -10,7 +10,7 @@ from collections.abc import Collection, Mapping, Sequence
 
 from majordomo.planner.flaws import goal_flaws
 from majordomo.planner.goals import Goal, holds, lasting
-from majordomo.planner.naming import goal_phrase
+from majordomo.planner.naming import goal_phrase, humanize
 from majordomo.planner.plan import Flaw, Impossible, Plan, Source, Step
 from majordomo.planner.search import Exhausted, Search
 from majordomo.planner.seeking import seeking_plan
@@ -108,7 +108,9 @@ def _impossible(goals: Sequence[Goal], exhausted: Exhausted, snapshot: Snapshot,
     if exhausted.out_of_budget:
         reason = f"I found no plan within {exhausted.expanded} steps of thought: ask for less at once."
     elif exhausted.unmet:
-        reason = exhausted.unmet[-1]
+        final = [condition for condition in exhausted.unmet if condition.final]
+        why = final[0] if final else exhausted.unmet[-1]
+        return Impossible(reason=humanize(why.message, snapshot), nodes=why.nodes or left.args)
     else:
         reason = f"I know of no way to make it so that {goal_phrase(left, snapshot)}."
     return Impossible(reason=reason, nodes=left.args)

@@ -7,7 +7,6 @@ from typing import TypeGuard
 
 from majordomo.scene_graph.doors import physical_doors
 from majordomo.scene_graph.edges import EdgeType
-from majordomo.scene_graph.identifiers import natural_key
 from majordomo.scene_graph.nodes import (
     ROOT_ID,
     DoorNode,
@@ -21,26 +20,12 @@ from majordomo.scene_graph.nodes import (
 )
 from majordomo.scene_graph.poses import MapPoses
 from majordomo.scene_graph.snapshot import Snapshot
+from majordomo.skills.capacity import Capacity
+from majordomo.skills.containers import is_container
 from majordomo.skills.nearness import excess_m
 from majordomo.skills.placement import Place, Placement, PlaceRelation
+from majordomo.skills.rooms import in_room
 from majordomo.skills.state import DoorLink, PlanState, Thing, World
-
-CONTAINER_LABELS = frozenset(
-    {
-        "bowl",
-        "box",
-        "basket",
-        "sink",
-        "drawer",
-        "cabinet",
-        "bin",
-        "trash can",
-        "refrigerator",
-        "microwave",
-        "oven",
-        "bag",
-    }
-)
 
 _KINDS = (RoomNode, DoorNode, ObjectNode, PersonNode)
 
@@ -62,7 +47,12 @@ def read_state(snapshot: Snapshot) -> PlanState:
 
 def read_world(snapshot: Snapshot) -> World:
     """The things that plans speak about, and the physical doors between rooms that both are known."""
-    return World(things=KnownThings(snapshot), doors=_door_links(snapshot), inside=lambda room: in_room(snapshot, room))
+    return World(
+        things=KnownThings(snapshot),
+        doors=_door_links(snapshot),
+        inside=lambda room: in_room(snapshot, room),
+        fits=Capacity(snapshot).fits,
+    )
 
 
 class KnownThings(Mapping[str, Thing]):
@@ -122,22 +112,6 @@ class StoodPlaces(Mapping[str, Place]):
         return sum(1 for _ in self)
 
 
-def in_room(snapshot: Snapshot, room: str) -> tuple[str, ...]:
-    """Objects and persons in a room, in natural order."""
-    found = {edge.source for edge in snapshot.edges_to(room, EdgeType.IN)}
-    hung = list(snapshot.children(room))
-    for frame in hung:  # grows while it is walked
-        hung += snapshot.children(frame)
-    found.update(frame for frame in hung if snapshot.room_of(frame) == room)
-    here = (node_id for node_id in found if isinstance(snapshot.get(node_id), ObjectNode | PersonNode))
-    return tuple(sorted(here, key=natural_key))
-
-
-def is_container(label: str) -> bool:
-    """Whether things are put *in* rather than *on* something of this label."""
-    return label.replace("_", " ") in CONTAINER_LABELS
-
-
 def _is_thing(node: Node | None) -> TypeGuard[RoomNode | DoorNode | ObjectNode | PersonNode]:
     return isinstance(node, _KINDS) and not (isinstance(node, RoomNode) and node.status is RoomStatus.TEMPORARY)
 
@@ -160,6 +134,7 @@ def _thing(snapshot: Snapshot, poses: MapPoses, node: RoomNode | DoorNode | Obje
             support=node.support,
             container=is_container(node.label),
             width_m=min(node.size_m[:2]),
+            size_m=node.size_m,
             position_m=position,
         )
     kind = {RoomNode: "room", DoorNode: "door", PersonNode: "person"}[type(node)]

@@ -113,10 +113,10 @@ def held_check(object_id: str) -> Check:
 def _not_graspable(state: PlanState, target: str) -> list[Unmet]:
     thing = state.world.things[target]
     if not thing.graspable:
-        return [Unmet(message=f"{target} cannot be grasped: choose something small.", nodes=(target,))]
+        return [Unmet(message=f"{target} cannot be grasped: choose something small.", nodes=(target,), final=True)]
     if thing.width_m > MAX_WIDTH_M:
         message = f"{target} is {thing.width_m:.2f} m wide, too wide for the fingers: choose something narrower."
-        return [Unmet(message=message, nodes=(target,))]
+        return [Unmet(message=message, nodes=(target,), final=True)]
     return []
 
 

@@ -10,7 +10,7 @@ from majordomo.scene_graph.nodes import ROBOT_ID, ObjectNode, ObjectState, Perso
 from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.skills.action import RobotContext
 from majordomo.skills.anchor import Anchor
-from majordomo.skills.facts import is_container
+from majordomo.skills.containers import is_container
 from majordomo.skills.navigation.local_map import draw_map
 from majordomo.skills.navigation.walls import Walls, door_gaps
 from majordomo.skills.place_spot import Spot, outline_radius_m, spots_on

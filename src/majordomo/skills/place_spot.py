@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import hypot
 
 import numpy as np
 
+from majordomo.scene_graph.edges import EdgeType
+from majordomo.scene_graph.identifiers import natural_key
 from majordomo.scene_graph.nodes import ObjectNode, ObjectState
 from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.skills.anchor import Anchor
-from majordomo.skills.facts import is_container
+from majordomo.skills.containers import is_container
 from majordomo.skills.geometry import Points
+from majordomo.skills.rooms import in_room
 
 EDGE_MARGIN_M = 0.04
 GAP_M = 0.03
@@ -46,12 +50,8 @@ def spots_on(snapshot: Snapshot, support_id: str, size_m: tuple[float, float, fl
     if is_container(support.label):
         return [Spot(anchor=Anchor(support_id, (0.0, 0.0, top_m)), room_m=0.0, inside=True)]
     radius_m = outline_radius_m(size_m)
-    half = np.array(support.size_m[:2]) / 2 - EDGE_MARGIN_M - radius_m
-    if (half < 0).any():
-        return []
-    points = _lattice(half)
-    points = points[_edge_distance_m(points, support.size_m) <= STRIP_M]
-    room = _room_m(snapshot, support_id, points, radius_m, held)
+    points = lattice(support.size_m, radius_m)
+    room = room_m(snapshot, support_id, points, stands_on(snapshot, support_id, held)) - radius_m
     order = np.argsort(-np.minimum(room, 0.10), kind="stable")
     return [
         Spot(anchor=Anchor(support_id, (float(points[i, 0]), float(points[i, 1]), top_m)), room_m=float(room[i]))
@@ -67,7 +67,7 @@ def surface_m(snapshot: Snapshot, support_id: str, held: str | None) -> float:
     support = snapshot.object(support_id)
     bottoms = [
         snapshot.position(node.id, support_id)[2] - node.size_m[2] / 2
-        for node in snapshot.of_type(ObjectNode)
+        for node in _objects_beside(snapshot, support_id)
         if node.id != held and node.state is ObjectState.PRESENT and snapshot.support_of(node.id) == support_id
     ]
     share = SEAT_SHARES.get(support.label.replace("_", " "), 1.0)
@@ -85,7 +85,7 @@ def stands_on(snapshot: Snapshot, support_id: str, held: str | None) -> list[Obj
     """Objects whose extent touches the top of ``support_id``, by relation or by geometry."""
     support = snapshot.object(support_id)
     found = []
-    for node in snapshot.of_type(ObjectNode):
+    for node in _objects_beside(snapshot, support_id):
         if node.id in (support_id, held) or node.state is not ObjectState.PRESENT:
             continue
         if snapshot.support_of(node.id) == support_id:
@@ -100,25 +100,39 @@ def stands_on(snapshot: Snapshot, support_id: str, held: str | None) -> list[Obj
     return found
 
 
-def _lattice(half: Points) -> Points:
-    """Points (N, 2) about ``STEP_M`` apart within plus or minus ``half``, its border included."""
+def _objects_beside(snapshot: Snapshot, support_id: str) -> list[ObjectNode]:
+    """Objects of the support's room, and whatever is said to be on it."""
+    room = snapshot.room_of(support_id)
+    related = (edge.source for edge in snapshot.edges_to(support_id, EdgeType.RELATION))
+    near = dict.fromkeys((*(in_room(snapshot, room) if room is not None else ()), *related))
+    nodes = (snapshot.get(node_id) for node_id in sorted(near, key=natural_key))
+    return [node for node in nodes if isinstance(node, ObjectNode)]
+
+
+def lattice(size_m: tuple[float, float, float], radius_m: float) -> Points:
+    """Points (N, 2) about ``STEP_M`` apart on a top of ``size_m``, in rows, where a disc stands within the arm's reach;
+    none where it is too large.
+    """
+    half = np.array(size_m[:2]) / 2 - EDGE_MARGIN_M - radius_m
+    if (half < 0).any():
+        return np.zeros((0, 2))
     x, y = (np.linspace(-h, h, max(int(2 * h / STEP_M) + 1, 1)) if h > 0 else np.zeros(1) for h in half)
-    grid = np.meshgrid(x, y, indexing="ij")
-    return np.stack([axis.ravel() for axis in grid], axis=1)
+    points = np.stack([axis.ravel() for axis in np.meshgrid(x, y, indexing="ij")], axis=1)
+    return np.asarray(points[_edge_distance_m(points, size_m) <= STRIP_M])
+
+
+def room_m(snapshot: Snapshot, support_id: str, points: Points, others: Sequence[ObjectNode]) -> Points:
+    """Distance (N,) from points on a support to the nearest of ``others``, at most 1 m."""
+    room = np.full(len(points), 1.0)
+    for node in others:
+        T_support_node = snapshot.transform(support_id, node.id)
+        c, s = np.cos(T_support_node.yaw_rad), np.sin(T_support_node.yaw_rad)
+        local = (points - T_support_node.translation_m[:2]) @ np.array([[c, -s], [s, c]])
+        beyond = np.maximum(np.abs(local) - np.array(node.size_m[:2]) / 2, 0.0)
+        room = np.minimum(room, np.hypot(*beyond.T))
+    return room
 
 
 def _edge_distance_m(points: Points, size_m: tuple[float, float, float]) -> Points:
     half = np.array(size_m[:2]) / 2
     return np.asarray((half - np.abs(points)).min(axis=1))
-
-
-def _room_m(snapshot: Snapshot, support_id: str, points: Points, radius_m: float, held: str | None) -> Points:
-    """Air between the object and the nearest thing on the support, for each point (N,)."""
-    room = np.full(len(points), 1.0)
-    for node in stands_on(snapshot, support_id, held):
-        T_support_node = snapshot.transform(support_id, node.id)
-        c, s = np.cos(T_support_node.yaw_rad), np.sin(T_support_node.yaw_rad)
-        local = (points - T_support_node.translation_m[:2]) @ np.array([[c, -s], [s, c]])
-        beyond = np.maximum(np.abs(local) - np.array(node.size_m[:2]) / 2, 0.0)
-        room = np.minimum(room, np.hypot(*beyond.T) - radius_m)
-    return room

@@ -39,6 +39,10 @@ class Placement(Mapping[str, Place]):
         """Hashable; equal for two placements over one base that hold the same."""
         return frozenset(self._moved.items())
 
+    def is_moved(self, object_id: str) -> bool:
+        """Whether an object is elsewhere than in the base."""
+        return object_id in self._moved
+
     def with_moved(self, object_id: str, place: Place | None) -> Placement:
         """The placement after one object was put somewhere, or taken away (None)."""
         return Placement(self._base, self._at, {**self._moved, object_id: place})

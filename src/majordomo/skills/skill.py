@@ -32,10 +32,14 @@ class Parameter:
 
 @dataclass(frozen=True, kw_only=True)
 class Unmet:
-    """A condition that does not hold: one sentence naming the fix, and the nodes it is about."""
+    """A condition that does not hold: one sentence naming the fix, and the nodes it is about.
+
+    ``final``: no step can make it hold, so that it is a reason why there is no plan.
+    """
 
     message: str
     nodes: tuple[str, ...] = ()
+    final: bool = False
 
 
 class Skill(Protocol):

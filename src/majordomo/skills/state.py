@@ -5,7 +5,7 @@ The verifier's search runs on it, and symbolic execution checks a plan with it b
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -23,7 +23,8 @@ class Thing:
     """What planning needs to know of one node, and never changes while planning.
 
     ``kind`` is ``object``, ``room``, ``person`` or ``door``. ``room`` is where a fixed thing stands. ``width_m`` is the
-    smaller horizontal extent, what the fingers must span. ``position_m``: map frame (``root``), on the floor.
+    smaller horizontal extent, what the fingers must span. ``size_m``: extents, 0 where unknown. ``position_m``: map
+    frame (``root``), on the floor.
     """
 
     id: str
@@ -34,6 +35,7 @@ class Thing:
     support: bool = False
     container: bool = False
     width_m: float = 0.0
+    size_m: tuple[float, float, float] = (0.0, 0.0, 0.0)
     position_m: tuple[float, float] | None = None
 
 
@@ -49,12 +51,14 @@ class DoorLink:
 @dataclass(frozen=True, kw_only=True, eq=False)
 class World:
     """What does not change during a plan: things, and the doors between rooms. Two worlds are equal when they are
-    one. ``inside``: what is in a room; without it all things are gone through.
+    one. ``inside``: what is in a room; without it all things are gone through. ``fits``: whether things that
+    come fit at a place beside those that stay; without it everything fits.
     """
 
     things: Mapping[str, Thing]
     doors: tuple[DoorLink, ...]
     inside: Callable[[str], tuple[str, ...]] | None = None
+    fits: Callable[[Thing, Collection[str], Collection[str]], bool] | None = None
 
     def distance_m(self, a: str, b: str) -> float | None:
         """Walking distance between two nodes through open doors, ``None`` if there is no way."""
@@ -166,6 +170,19 @@ class PlanState:
         if isinstance(self.places, Placement):
             return tuple(sorted(self.places.at(node_id)))
         return tuple(sorted(thing for thing, (_, place) in self.places.items() if place == node_id))
+
+    def has_room_for(self, object_id: str, place: str) -> bool:
+        """Whether an object fits on or in a place beside what is there in this state."""
+        target = self.world.things[place]
+        if self.world.fits is None or target.kind != "object":
+            return True
+        there = self.on_top_of(place)
+        stays = frozenset(thing for thing in there if not self._came(thing))
+        return self.world.fits(target, stays, (object_id, *(thing for thing in there if thing not in stays)))
+
+    def _came(self, object_id: str) -> bool:
+        """Whether a plan has put an object where the graph did not have it."""
+        return isinstance(self.places, Placement) and self.places.is_moved(object_id)
 
     def moved(self, object_id: str, place: Place | None) -> Mapping[str, Place]:
         """``places`` after an object was put somewhere, or taken away (None)."""

@@ -7,7 +7,7 @@ supersedes it (see ``superseded``): nobody stays in the kitchen who was then sen
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import StrEnum
 from math import hypot
 
@@ -51,10 +51,15 @@ PLACING = frozenset({Predicate.ON, Predicate.IN, Predicate.NEAR, Predicate.GIVEN
 
 @dataclass(frozen=True, kw_only=True)
 class Goal:
-    """One predicate over graph identifiers: ``on(cup_1, table_2)``."""
+    """One predicate over graph identifiers: ``on(cup_1, table_2)``.
+
+    ``any_order``: nobody said whether it comes before or after the goal before it, as among *all the cups*; no part of
+    what the goal says, so it does not count when goals are compared.
+    """
 
     predicate: Predicate
     args: tuple[str, ...]
+    any_order: bool = field(default=False, compare=False)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "predicate", Predicate(self.predicate))

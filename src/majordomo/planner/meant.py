@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from majordomo.planner.goals import Goal, Predicate
 from majordomo.planner.plan import Query
@@ -26,9 +26,14 @@ class Meant:
 def without_steps_between(meanings: list[Meant], state: PlanState) -> tuple[Goal, ...]:
     """The goals of all steps in order, without those that only lead to a later one about the same object.
 
-    *Take the cup and put it on the desk* is about the desk; so is *take it to the office and put it on the desk*.
+    *Take the cup and put it on the desk* is about the desk; so is *take it to the office and put it on the desk*. The
+    order of steps was told, that of goals within a step was not.
     """
-    tagged = [(goal, meant.implied) for meant in meanings for goal in meant.goals]
+    tagged = [
+        (replace(goal, any_order=index > 0), meant.implied)
+        for meant in meanings
+        for index, goal in enumerate(meant.goals)
+    ]
     kept = []
     for index, (goal, implied) in enumerate(tagged):
         later = [

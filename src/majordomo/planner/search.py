@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import heapq
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import count
 
 from majordomo.planner.goals import Goal, Predicate, holds, lasting
@@ -122,3 +122,24 @@ class Search:
         """What is still to be found when ``ticked`` goals are ticked off, each once."""
         left = self._goals[ticked:] or self._lasting
         return tuple(dict.fromkeys(goal.args[0] for goal in left if goal.predicate is Predicate.FOUND))
+
+
+def one_by_one(
+    goals: Sequence[Goal], skills: Mapping[str, Skill], start: PlanState, *, budget: int
+) -> Found | Exhausted:
+    """Steps that achieve one goal after the other, each as cheaply as it can be from where the last one leaves off.
+
+    Not the cheapest together, but found for any number of goals, and each may take the whole ``budget``.
+    """
+    steps: list[Step] = []
+    state, cost_s, expanded = start, 0.0, 0
+    for goal in goals:
+        found = Search([goal], skills, budget=budget).run(state)
+        expanded += found.expanded
+        if isinstance(found, Exhausted):
+            return replace(found, expanded=expanded)
+        steps += found.steps
+        cost_s += found.cost_s
+        for step in found.steps:
+            state = skills[step.skill].effects(state, step.args)
+    return Found(steps=tuple(steps), cost_s=cost_s, expanded=expanded)

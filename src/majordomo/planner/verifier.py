@@ -8,11 +8,13 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 
+from majordomo.planner.arranging import Leg, arranged
 from majordomo.planner.flaws import goal_flaws
 from majordomo.planner.goals import Goal, holds, lasting
 from majordomo.planner.naming import goal_phrase, humanize
+from majordomo.planner.operators import GOTO
 from majordomo.planner.plan import Flaw, Impossible, Plan, Source, Step
-from majordomo.planner.search import Exhausted, Search
+from majordomo.planner.search import Exhausted, Found, Search, one_by_one
 from majordomo.planner.seeking import seeking_plan
 from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.skills.skill import Skill
@@ -44,7 +46,7 @@ class Verifier:
         if flaws:
             return Impossible(reason=flaws[0].message, nodes=flaws[0].nodes)
         state = self.state(snapshot)
-        found = Search(goals, self._skills, budget=self._budget).run(state)
+        found = self._searched(goals, state)
         if isinstance(found, Exhausted):
             return _impossible(goals, found, snapshot, state)
         plan = Plan(
@@ -57,6 +59,32 @@ class Verifier:
         )
         unproven = self.check_plan(plan, snapshot)
         return Impossible(reason=unproven[0].message, nodes=unproven[0].nodes) if unproven else plan
+
+    def _searched(self, goals: Sequence[Goal], state: PlanState) -> Found | Exhausted:
+        """The cheapest steps, all goals considered at once; where that takes too long, the cheapest for each in turn.
+
+        Goals whose order is open come in the cheapest one, and as they were told where that leads nowhere.
+        """
+        orders = dict.fromkeys((arranged(goals, state, self._leg_s(state)), tuple(goals)))
+        outcomes = []
+        for order in orders:
+            found = Search(order, self._skills, budget=self._budget).run(state)
+            if isinstance(found, Exhausted) and found.out_of_budget:
+                found = one_by_one(order, self._skills, state, budget=self._budget)
+            if isinstance(found, Found):
+                return found
+            outcomes.append(found)
+        return outcomes[-1]
+
+    def _leg_s(self, state: PlanState) -> Leg:
+        """Seconds to go from one node to another; far when there is no way."""
+
+        def leg_s(here: str, there: str) -> float:
+            if state.anchor(here) == state.anchor(there):
+                return 0.0
+            return self._skills[GOTO].cost_s(state.after(robot_at=here, near=frozenset()), (there,))
+
+        return leg_s
 
     def check_plan(self, plan: Plan, snapshot: Snapshot) -> list[Flaw]:
         """What keeps ``plan`` from being carried out on this graph, by symbolic execution; empty when nothing does.
@@ -97,9 +125,9 @@ class Verifier:
     def _length_m(self, steps: Sequence[Step], state: PlanState) -> float:
         length_m = 0.0
         for step in steps:
-            if step.skill == "GOTO":
-                length_m += state.distance_m(state.robot_at, step.args[0]) or 0.0
-            state = self._skills[step.skill].effects(state, step.args)
+            after = self._skills[step.skill].effects(state, step.args)
+            length_m += state.distance_m(state.robot_at, after.robot_at) or 0.0
+            state = after
         return length_m
 
 

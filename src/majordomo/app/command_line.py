@@ -1,8 +1,9 @@
-"""The command line: ``majordomo demo | serve | ask | house | evaluate | doctor``."""
+"""The command line: ``majordomo demo | serve | ask | plan | house | evaluate | doctor``."""
 
 from __future__ import annotations
 
 import asyncio
+import json
 import logging
 import os
 import sys
@@ -149,6 +150,26 @@ def ask(
         complaints.print(str(error), style="red", markup=False, highlight=False, soft_wrap=True)
         raise typer.Exit(2) from None
     raise typer.Exit(0 if succeeded else 1)
+
+
+@application.command("plan")
+def plan_on_graph(
+    request: Annotated[str, typer.Argument(help="What you want, in plain words.")],
+    graph: Annotated[Path, typer.Option(help="A stored scene graph, JSON of GET /v1/scene or your own; - reads it.")],
+    pddl: Annotated[Path | None, typer.Option(help="Where to write the problem as PDDL, its domain beside.")] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
+) -> None:
+    """Plan for a request on a stored scene graph and print the plan, or the reason why there is none."""
+    from majordomo.app.planning import document, plan_on, told, write_problem
+    from majordomo.app.stored_graph import load_graph
+
+    snapshot = load_graph(graph)
+    outcome = plan_on(snapshot, request)
+    print(json.dumps(document(outcome, request), indent=1) if as_json else told(outcome, snapshot))
+    if pddl is not None and outcome.problem is not None:
+        domain = write_problem(outcome.problem, pddl)
+        complaints.print(f"wrote {pddl} and {domain}", markup=False, highlight=False, soft_wrap=True)
+    raise typer.Exit(0 if outcome.succeeded else 1)
 
 
 @application.command("house")

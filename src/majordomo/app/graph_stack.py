@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-import json
 import time
 from collections.abc import Sequence
 from pathlib import Path
 
 from majordomo.app.scheduler import Agent
+from majordomo.app.stored_graph import load_graph
 from majordomo.planner.grammar.parser import CommandGrammar
 from majordomo.planner.models.protocol import LanguageModel
 from majordomo.planner.paper import PaperMission
 from majordomo.planner.queue import TaskQueue
 from majordomo.planner.task_planner import TaskPlanner
 from majordomo.planner.verifier import Verifier
-from majordomo.scene_graph.errors import SceneFormatError
-from majordomo.scene_graph.interchange import from_json
 from majordomo.scene_graph.memory import WorkingMemory
 from majordomo.skills.registry import load_registry
 
@@ -39,11 +37,7 @@ class GraphStack:
         Raises:
             SceneFormatError: naming the offending field.
         """
-        try:
-            document = json.loads(path.read_text(encoding="utf-8"))
-        except json.JSONDecodeError as error:
-            raise SceneFormatError(str(path), f"line {error.lineno}, column {error.colno}: {error.msg}") from error
-        return cls(WorkingMemory(from_json(document)), queue, model)
+        return cls(WorkingMemory(load_graph(path)), queue, model)
 
     @property
     def path_room(self) -> tuple[tuple[float, float], ...]:

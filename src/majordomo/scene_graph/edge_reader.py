@@ -61,7 +61,10 @@ class EdgeReader:
         A node whose frame the document states comes from a full document: nothing is added to it.
         """
         if ROBOT_ID not in self._places.records:
-            yield self._rt(ROOT_ID, ROBOT_ID)
+            room = self._places.first_room()
+            yield self._rt(room or ROOT_ID, ROBOT_ID)
+            if room is not None:
+                yield InEdge(source=ROBOT_ID, target=room)
         for record in self._document.nodes:
             if isinstance(record, AffordanceRecord):
                 yield from self._owner(record)

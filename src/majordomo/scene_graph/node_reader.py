@@ -18,6 +18,7 @@ from majordomo.scene_graph.document import (
     RootRecord,
     WallRecord,
 )
+from majordomo.scene_graph.everyday import bears, is_carried
 from majordomo.scene_graph.nodes import (
     AffordanceNode,
     CornerNode,
@@ -131,10 +132,15 @@ def _door(record: DoorRecord, places: Places) -> DoorNode:
 
 
 def _object(record: ObjectRecord, places: Places, stamp_s: float) -> ObjectNode:
-    """Something is a support when things are on or in it, and graspable when it is on or in something and is none."""
+    """Something is a support when things are on or in it, or it stands on the floor and its label says so; graspable
+    when it is on or in something or its label says so, and it is no support.
+    """
     label = record.label or _NUMBER.sub("", record.id).replace("_", " ")
-    supports = places.supports(record.id) if record.support is None else record.support
-    graspable = places.is_supported(record.id) and not supports if record.graspable is None else record.graspable
+    standing = places.is_supported(record.id)
+    carried = is_carried(label) or standing
+    supports = places.supports(record.id) or (bears(label) and not standing and not record.graspable)
+    supports = supports if record.support is None else record.support
+    graspable = carried and not supports if record.graspable is None else record.graspable
     held = ObjectState.HELD if places.is_held(record) else ObjectState.PRESENT
     return ObjectNode(
         id=record.id,

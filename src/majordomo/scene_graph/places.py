@@ -151,7 +151,14 @@ class Places:
         edge = self._supports.get(record.id)
         if edge is not None and edge.target in self.records and edge.target not in above:
             return self.room(self.records[edge.target], (*above, record.id))
+        if isinstance(record, RobotRecord) and record.position_m is None:
+            return self.first_room()
         return next(iter(self._rooms)) if len(self._rooms) == 1 else None
+
+    def first_room(self) -> str | None:
+        """The room of a robot of which nothing is told: around the origin of the map, or the first."""
+        around = (room.id for room in self._rooms.values() if _contains(room.polygon_m, (0.0, 0.0)))
+        return next(around, next(iter(self._rooms), None))
 
     def _is_support(self, edge: EdgeRecord) -> bool:
         predicate = edge.label if edge.type == "relation" else edge.type

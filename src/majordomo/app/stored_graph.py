@@ -1,0 +1,36 @@
+"""Reads a stored scene graph: the JSON of ``GET /v1/scene?frame=map``, or one written by hand."""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+
+from majordomo.scene_graph.errors import SceneFormatError
+from majordomo.scene_graph.interchange import from_json
+from majordomo.scene_graph.snapshot import Snapshot
+
+STANDARD_INPUT = Path("-")
+
+
+def load_graph(path: Path) -> Snapshot:
+    """The graph in a file; ``-`` is standard input.
+
+    Raises:
+        SceneFormatError: naming the offending field, line or file.
+        OSError: the file cannot be read.
+    """
+    if path.is_dir():
+        raise SceneFormatError(f"graph {str(path)!r}", "this is a folder: name the file of a scene graph")
+    try:
+        text = sys.stdin.read() if path == STANDARD_INPUT else path.read_text(encoding="utf-8")
+        document = json.loads(text)
+    except json.JSONDecodeError as error:
+        raise SceneFormatError(str(path), f"line {error.lineno}, column {error.colno}: {error.msg}") from error
+    except UnicodeDecodeError as error:
+        raise SceneFormatError(str(path), f"byte {error.start}: this is no UTF-8 text") from error
+    except RecursionError as error:
+        raise SceneFormatError(str(path), "its brackets are nested too deeply") from error
+    if not isinstance(document, dict):
+        raise SceneFormatError("$", "a scene graph is an object with nodes and edges")
+    return from_json(document)

@@ -17,12 +17,15 @@ from majordomo.skills.state import PlanState, Thing
 GOAL_KINDS = ("object", "room", "person", "door")
 
 
-def goal_flaws(goals: Sequence[Goal], snapshot: Snapshot, state: PlanState) -> list[Flaw]:
-    """Everything wrong with ``goals``: unknown or unfit nodes, places out of reach, contradictions."""
+def goal_flaws(goals: Sequence[Goal], snapshot: Snapshot, state: PlanState, *, opens_doors: bool = False) -> list[Flaw]:
+    """Everything wrong with ``goals``: unknown or unfit nodes, places out of reach, contradictions.
+
+    ``opens_doors``: a skill may do something about closed doors, so that only the search can tell.
+    """
     found: list[Flaw] = []
     for goal in goals:
         unknown = list(_unknown(goal, snapshot, state))
-        found += unknown or [*_unfit(goal, snapshot, state), *_unreachable(goal, snapshot, state)]
+        found += unknown or [*_unfit(goal, snapshot, state), *_unreachable(goal, snapshot, state, opens_doors)]
     found += _contradictions(goals, snapshot)
     return list({flaw.message: flaw for flaw in found}.values())
 
@@ -88,7 +91,7 @@ def _has_no_surface(place: Thing, state: PlanState) -> bool:
     return not place.graspable and not surfaces_near(place.id, state)
 
 
-def _unreachable(goal: Goal, snapshot: Snapshot, state: PlanState) -> Iterator[Flaw]:
+def _unreachable(goal: Goal, snapshot: Snapshot, state: PlanState, opens_doors: bool) -> Iterator[Flaw]:
     for arg in dict.fromkeys(goal.args):
         if arg == state.holding or (arg == goal.args[0] and goal.object_id in state.missing):
             continue
@@ -97,7 +100,9 @@ def _unreachable(goal: Goal, snapshot: Snapshot, state: PlanState) -> Iterator[F
             yield Flaw(message=f"I do not know which room {_name(arg, snapshot)} is in.", nodes=(arg,))
         elif state.robot_room is None:
             yield Flaw(message="I do not know yet which room I am in: let me look around first.", nodes=(ROBOT_ID,))
-        elif room is not None and state.distance_m(state.robot_room, room) is None and room != state.robot_room:
+        elif room is None or room == state.robot_room or state.distance_m(state.robot_room, room) is not None:
+            continue
+        elif not opens_doors or not state.world.closed_doors(state.robot_room, room):
             yield _no_way(arg, room, snapshot, state)
 
 

@@ -21,17 +21,13 @@ from majordomo.planner.models.protocol import (
 from majordomo.planner.outline import Outline, outline
 from majordomo.planner.plan import Dialogue, Impossible, Interpretation, Kind, Source
 from majordomo.planner.proposal import Proposal, goals_of, read_proposal, schema
+from majordomo.planner.skill_planner import skill_lines
 from majordomo.planner.verifier import Verifier
 from majordomo.prompts.templates import render
 from majordomo.scene_graph.nodes import ObjectNode, ObjectState
 from majordomo.scene_graph.snapshot import Snapshot
 
 MAX_ROUNDS = 5
-SKILLS = (
-    "GOTO(room, object, person or door)",
-    "PICK(object)",
-    "PLACE(object, furniture, container, person or room)",
-)
 
 
 class ModelRounds:
@@ -86,7 +82,7 @@ class ModelRounds:
             dialogue="; ".join(part for part in (*said, mentioned) if part) or "nothing",
             request=json.dumps(text, ensure_ascii=False),
         )
-        rules = render("task_planner", skills="\n".join(f"- {skill}" for skill in SKILLS))
+        rules = render("task_planner", skills=skill_lines(self._verifier.skills))
         return [Message(role=Role.SYSTEM, text=rules), Message(role=Role.USER, text=request)]
 
     async def _ask(self, request: ModelRequest, deadline_s: float, number: int) -> ModelReply | ModelFailure:

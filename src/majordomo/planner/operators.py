@@ -6,14 +6,14 @@ put them come into question, so a building of thousands of nodes branches no mor
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from math import inf
 
 from majordomo.planner.goals import PLACING, Goal, Predicate
 from majordomo.planner.plan import Step
 from majordomo.planner.surfaces import surfaces_near
 from majordomo.skills.skill import Skill, Unmet
-from majordomo.skills.state import PlanState
+from majordomo.skills.state import PlanState, World
 
 GOTO, PICK, PLACE = "GOTO", "PICK", "PLACE"
 
@@ -28,7 +28,7 @@ class Operators:
 
     def __init__(self, skills: Mapping[str, Skill]) -> None:
         self._skills = skills
-        self._legs_s: dict[tuple[str, str], float] = {}
+        self._legs_s: dict[tuple[World, str, str], float] = {}
 
     def applicable(
         self, goal: Goal, state: PlanState, unmet: dict[Unmet, None], to_find: Sequence[str] = ()
@@ -37,13 +37,31 @@ class Operators:
 
         ``to_find``: objects that are to be found, by this goal or later ones.
         """
+        in_the_way: dict[str, None] = {}
         for step in self._steps(goal, state, to_find):
-            skill = self._skills[step.skill]
-            failed = skill.conditions(state, step.args)
-            if failed:
-                unmet.update(dict.fromkeys(failed))
-            else:
-                yield step, skill.cost_s(state, step.args), skill.effects(state, step.args)
+            failed = self._skills[step.skill].conditions(state, step.args)
+            if not failed:
+                yield self._applied(step, state)
+            unmet.update(dict.fromkeys(failed))
+            in_the_way.update((node, None) for condition in failed if condition.final for node in condition.nodes)
+        yield from (self._applied(step, state) for step in self._remedies(in_the_way, state))
+
+    def _applied(self, step: Step, state: PlanState) -> Applied:
+        skill = self._skills[step.skill]
+        return step, skill.cost_s(state, step.args), skill.effects(state, step.args)
+
+    def _remedies(self, nodes: Iterable[str], state: PlanState) -> Iterator[Step]:
+        """What the skills of other packages can do about nodes that conditions name, and the way there."""
+        others = [skill for name, skill in self._skills.items() if name not in (GOTO, PICK, PLACE)]
+        for node in nodes:
+            thing = state.world.things.get(node)
+            for skill in others:
+                if thing is None or len(skill.parameters) != 1 or not skill.parameters[0].accepts(thing):
+                    continue
+                if not skill.conditions(state, (node,)):
+                    yield Step(skill=skill.name, args=(node,))
+                elif not self._skills[GOTO].conditions(state, (node,)):
+                    yield from self._goto(state, node)
 
     def at_least_s(self, goals: Sequence[Goal], state: PlanState) -> float:
         """Seconds that ``goals``, none of which holds, take at least from ``state``.
@@ -150,10 +168,11 @@ class Operators:
     def _leg_s(self, state: PlanState, start: str | None, target: str) -> float:
         """Seconds of one GOTO from ``start`` (the robot's own place when None); a detour takes no less."""
         origin = state.robot_at if start is None else start
-        key = (state.anchor(origin), state.anchor(target))
+        here, goal = state.anchor(origin), state.anchor(target)
+        key = (state.world, here, goal)
         if key not in self._legs_s:
-            there = state.after(robot_at=key[0], robot_room=state.room_of(key[0]), near=frozenset())
-            self._legs_s[key] = self._skills[GOTO].cost_s(there, (key[1],))
+            there = state.after(robot_at=here, robot_room=state.room_of(here), near=frozenset())
+            self._legs_s[key] = self._skills[GOTO].cost_s(there, (goal,))
         return self._legs_s[key]
 
 

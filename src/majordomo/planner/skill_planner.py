@@ -58,3 +58,13 @@ def _description(skill: Skill) -> dict[str, Any]:
     parameters = [{"name": p.name, "kinds": sorted(p.kinds)} for p in skill.parameters]
     text = inspect.getdoc(type(skill)) or ""
     return {"name": skill.name, "description": text, "parameters": parameters, "schema": skill.schema()}
+
+
+def skill_lines(skills: Mapping[str, Skill]) -> str:
+    """The skills as a prompt lists them, one a line: the first paragraph of the docstring."""
+    return "\n".join(f"- {_summary(skill)}" for skill in skills.values())
+
+
+def _summary(skill: Skill) -> str:
+    first = (inspect.getdoc(type(skill)) or skill.name).split("\n\n")[0]
+    return " ".join(first.split())

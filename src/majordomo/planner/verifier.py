@@ -32,11 +32,18 @@ class Verifier:
     def __init__(self, skills: Mapping[str, Skill], *, budget: int = 20_000) -> None:
         self._skills = skills
         self._budget = budget
+        others = (skill for name, skill in skills.items() if name != GOTO)
+        self._opens_doors = any("door" in parameter.kinds for skill in others for parameter in skill.parameters)
         self._read: tuple[Snapshot, PlanState] | None = None
+
+    @property
+    def skills(self) -> Mapping[str, Skill]:
+        """The registered skills by name."""
+        return self._skills
 
     def verify_goals(self, goals: Sequence[Goal], snapshot: Snapshot) -> list[Flaw]:
         """What is wrong with ``goals`` on this graph; empty when they make sense. Missing objects are no flaw."""
-        return goal_flaws(goals, snapshot, self.state(snapshot))
+        return goal_flaws(goals, snapshot, self.state(snapshot), opens_doors=self._opens_doors)
 
     def plan_for(
         self, goals: Sequence[Goal], snapshot: Snapshot, *, source: Source = Source.GRAMMAR

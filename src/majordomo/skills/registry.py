@@ -57,6 +57,11 @@ class SkillRegistry(Mapping[str, Skill]):
         """What a language model reads of each skill: its docstring."""
         return {name: (type(skill).__doc__ or "").strip() for name, skill in self._skills.items()}
 
+    def phrases(self) -> dict[str, tuple[str, ...]]:
+        """What a person says for the skills of installed packages: *open {door}*, parameters in braces."""
+        declared = {name: tuple(getattr(skill, "phrases", ())) for name, skill in self._skills.items()}
+        return {name: phrases for name, phrases in declared.items() if phrases}
+
 
 def load_registry(more: Iterable[tuple[str, object]] | None = None) -> SkillRegistry:
     """The built-in skills, then those of installed packages; ``more`` (origin, skill) replaces the latter in tests.

@@ -45,7 +45,9 @@ class Unmet:
 class Skill(Protocol):
     """One thing the robot can do. Its docstring is what the language model reads.
 
-    An installed package adds a skill through the entry point group ``majordomo.skills``.
+    An installed package adds a skill through the entry point group ``majordomo.skills``. One that takes a single node
+    is planned for when that node is named by a ``final`` condition that keeps another skill from it, such as a closed
+    door. It may declare ``phrases``, what a person says for it: ``("open {door}",)``.
     """
 
     name: str

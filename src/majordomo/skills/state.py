@@ -6,7 +6,7 @@ The verifier's search runs on it, and symbolic execution checks a plan with it b
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 from majordomo.scene_graph.snapshot import Snapshot
@@ -59,6 +59,18 @@ class World:
     doors: tuple[DoorLink, ...]
     inside: Callable[[str], tuple[str, ...]] | None = None
     fits: Callable[[Thing, Collection[str], Collection[str]], bool] | None = None
+    variants: dict[tuple[DoorLink, ...], World] = field(default_factory=dict, repr=False)
+
+    def with_door(self, door: str, *, is_open: bool) -> World:
+        """The world after a skill has opened or closed a door; one and the same however it came about."""
+        self.variants.setdefault(self.doors, self)
+        links = tuple(replace(link, open=is_open) if link.door == door else link for link in self.doors)
+        return self.variants.setdefault(links, replace(self, doors=links))
+
+    @cached_property
+    def sides(self) -> Mapping[str, tuple[str, str]]:
+        """The two rooms of each door."""
+        return {link.door: link.rooms for link in self.doors}
 
     def distance_m(self, a: str, b: str) -> float | None:
         """Walking distance between two nodes through open doors, ``None`` if there is no way."""
@@ -140,7 +152,7 @@ class PlanState:
             node_id = place[1]
 
     def room_of(self, node_id: str) -> str | None:
-        """Room of a node as things stand in this state."""
+        """Room of a node as things stand in this state; of a door, the one on the robot's side."""
         for link in self.chain(node_id):
             if link == self.holding:
                 return self.robot_room
@@ -148,7 +160,16 @@ class PlanState:
         thing = self.world.things.get(last)
         if thing is None:
             return None
+        if thing.kind == "door" and thing.id in self.world.sides:
+            return self._near_side(self.world.sides[thing.id])
         return thing.id if thing.kind == "room" else thing.room
+
+    def _near_side(self, rooms: tuple[str, str]) -> str:
+        """The robot's room, or one it can get to; the first, where it can get to neither."""
+        here = self.robot_room
+        if here is None or here in rooms:
+            return here or rooms[0]
+        return next((room for room in rooms if self.world.distance_m(here, room) is not None), rooms[0])
 
     def anchor(self, node_id: str) -> str:
         """The node whose known position stands for ``node_id`` in this state: itself unless it can be carried."""

@@ -33,7 +33,7 @@ export function step({ skill, args }, nodes) {
     case "GOTO": return `Go to ${first}`;
     case "PICK": return `Pick up ${first}`;
     case "PLACE": return kind === "person" ? `Hand ${first} to ${second}` : `Put ${first} ${kind === "room" ? "down in" : "on"} ${second}`;
-    default: return `${skill} ${args.map(spaced).join(", ")}`;
+    default: return `${skill.charAt(0)}${spaced(skill.slice(1).toLowerCase())} ${args.map((id) => definite(id, nodes)).join(", ")}`;
   }
 }
 

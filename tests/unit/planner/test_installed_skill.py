@@ -1,0 +1,62 @@
+"""A skill from an installed package: search, verifier, schema and prompt know it without other change."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from majordomo.planner.goals import goal
+from majordomo.planner.naming import step_phrase
+from majordomo.planner.plan import Impossible, Plan
+from majordomo.planner.sketch import Sketch
+from majordomo.planner.skill_planner import SkillPlanner, skill_lines
+from majordomo.planner.verifier import Verifier
+from majordomo.scene_graph.nodes import DoorState
+from majordomo.skills.registry import load_registry
+
+PACKAGES = Path(__file__).parents[2] / "packages"
+
+
+@pytest.fixture
+def skills(monkeypatch):
+    monkeypatch.syspath_prepend(str(PACKAGES))
+    return load_registry()
+
+
+def three_rooms():
+    """Kitchen, hall and office in a row behind closed doors, a cup in the kitchen, the robot in the office."""
+    sketch = Sketch().room("room_1", "kitchen", at=(0.0, 0.0)).room("room_2", "hall", at=(4.2, 0.0))
+    sketch.room("room_3", "office", at=(8.4, 0.0))
+    sketch.door("room_1", "room_2", at=(2.1, 0.0), state=DoorState.CLOSED)
+    sketch.door("room_2", "room_3", at=(6.3, 0.0), state=DoorState.CLOSED)
+    sketch.furniture("table_1", "table", "room_1", at=(0.0, 1.0)).furniture("desk_1", "desk", "room_3", at=(8.4, 1.0))
+    return sketch.thing("cup_1", "cup", on="table_1").snapshot(robot_in="room_3", at=(8.4, 0.0))
+
+
+GOALS = [goal("on", "cup_1", "desk_1")]
+
+
+def test_a_plan_opens_the_doors_on_its_way_and_is_proven(skills):
+    snapshot, verifier = three_rooms(), Verifier(skills)
+    plan = verifier.plan_for(GOALS, snapshot)
+    assert isinstance(plan, Plan), plan
+    assert [step.skill for step in plan.steps] == [*("GOTO", "OPEN") * 2, "GOTO", "PICK", "GOTO", "PLACE"]
+    assert verifier.check_plan(plan, snapshot) == []
+    without = replace(plan, steps=tuple(step for step in plan.steps if step.skill != "OPEN"))
+    assert "is closed" in verifier.check_plan(without, snapshot)[0].message
+    assert step_phrase(plan.steps[1], snapshot) == "open the door between the hall and the office"
+
+
+def test_without_the_package_the_closed_doors_are_the_reason():
+    refusal = Verifier(load_registry([])).plan_for(GOALS, three_rooms())
+    assert isinstance(refusal, Impossible)
+    assert "cannot open doors" in refusal.reason
+
+
+def test_schema_prompt_and_phrases_know_it(skills):
+    described = {entry["name"]: entry for entry in SkillPlanner(skills).describe()}
+    assert described["OPEN"]["schema"]["required"] == ["door"]
+    assert "- OPEN(door): open a closed door." in skill_lines(Verifier(skills).skills)
+    assert skills.phrases() == {"OPEN": ("open {door}", "unlock {door}")}

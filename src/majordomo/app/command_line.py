@@ -37,6 +37,7 @@ Data = Annotated[Path, typer.Option(help="Folder of token, logs and memory.")]
 
 def main() -> None:
     """Entry point; expected problems end with a sentence and exit code 2, never with a stack trace."""
+    from majordomo.app.evaluations.planning.errors import LineError
     from majordomo.app.runtime import RobotUnavailable
     from majordomo.app.server import RefusedToBind
     from majordomo.perception.network.errors import NetworkRefused
@@ -48,7 +49,7 @@ def main() -> None:
         application()
     except (
         RefusedToBind, HouseError, SimulatorError, RobotUnavailable, SceneFormatError, BadModelKey, BadModelSpec,
-        NetworkRefused, OSError,
+        NetworkRefused, LineError, OSError,
     ) as error:  # fmt: skip
         complaints.print(f"majordomo: {error}", style="red", markup=False, highlight=False)
         sys.exit(2)

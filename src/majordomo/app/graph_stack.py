@@ -21,13 +21,20 @@ from majordomo.skills.registry import load_registry
 class GraphStack:
     """A stored scene graph and a planner; nothing moves."""
 
-    def __init__(self, memory: WorkingMemory, queue: TaskQueue, model: LanguageModel | None) -> None:
+    def __init__(
+        self,
+        memory: WorkingMemory,
+        queue: TaskQueue,
+        model: LanguageModel | None,
+        *,
+        grammar: CommandGrammar | None = None,
+    ) -> None:
         self.memory = memory
         self._started = time.monotonic() - memory.snapshot().stamp_s
         self._stopped = False
         skills = load_registry()
         verifier = Verifier(skills)
-        planner = TaskPlanner(CommandGrammar(), verifier, model)
+        planner = TaskPlanner(grammar or CommandGrammar(), verifier, model)
         self.agents: Sequence[Agent] = [PaperMission(memory, queue, planner, verifier)]
 
     @classmethod

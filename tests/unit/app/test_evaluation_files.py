@@ -6,10 +6,14 @@ import pytest
 from typer.testing import CliRunner
 
 from majordomo.app.evaluations.commands import evaluations
+from majordomo.app.evaluations.planning.errors import LineError
 from majordomo.perception.network.errors import NetworkRefused
 from majordomo.simulation.errors import HouseError
 
-WITH_JSON = ("demo", "mapping", "noise", "localization", "resources", "rates", "tracking", "perception", "changes")
+WITH_JSON = (
+    *("demo", "mapping", "noise", "localization", "resources", "rates", "tracking"),
+    *("perception", "changes", "planning"),
+)
 WITH_PLOT = ("mapping", "noise", "localization", "resources", "tracking", "perception", "changes")
 
 
@@ -60,3 +64,14 @@ def test_what_is_no_house_and_what_is_no_network_is_said_before_anything_is_meas
     assert isinstance(no_house.exception, HouseError)
     no_network = CliRunner().invoke(evaluations, [evaluation, "--house", "flat", "--model", str(file)])
     assert isinstance(no_network.exception, NetworkRefused)
+
+
+def test_requests_that_cannot_be_read_are_named_by_line_and_field(tmp_path):
+    (tmp_path / "mine.txt").write_text("@studio\n== go\ngo\n> robot -> attic\n", encoding="utf-8")
+    refused = CliRunner().invoke(evaluations, ["planning", "--commands", str(tmp_path / "mine.txt")])
+    assert isinstance(refused.exception, LineError)
+    assert "mine, line 4, attic" in str(refused.exception)
+
+
+def test_a_share_of_slips_is_at_most_all():
+    assert "is not in the range" in refusal("planning", "--corrupt", "1.5")

@@ -6,16 +6,17 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from majordomo.planner.grammar.syntax import Ask, NounPhrase, Reference, Restriction
+from majordomo.planner.grammar.syntax import Ask, NounPhrase, Quantity, Reference, Restriction
 from majordomo.planner.grounding import Ambiguous, Context, Grounding, NoReferent
 from majordomo.planner.matching import nodes_of
 from majordomo.planner.naming import at, listed, name_of
-from majordomo.planner.narrowing import Narrowing
+from majordomo.planner.narrowing import BUILDING, Narrowing
 from majordomo.planner.phrasing import article, describe, described, phrase_text, place_phrase
 from majordomo.planner.plan import Query, QueryKind
+from majordomo.planner.reports import REPORTED, Report, Reports
 from majordomo.planner.vocabulary import singular
 from majordomo.planner.whereabouts import NOW_S, Whereabouts, capital
-from majordomo.scene_graph.nodes import ObjectNode, ObjectState, PersonNode, RoomNode
+from majordomo.scene_graph.nodes import DoorNode, ObjectNode, ObjectState, PersonNode, RoomNode
 
 ABILITIES = (
     "I can go to places and people, find things, pick them up, put them somewhere, bring them, and answer questions."
@@ -25,10 +26,14 @@ MAX_NAMED = 6
 
 @dataclass(frozen=True, kw_only=True)
 class Answer:
-    """What is said, and the question as the graph understood it."""
+    """What is said, and the question as the graph understood it.
+
+    ``holds``: the truth of what was asked, if it has one.
+    """
 
     text: str
     query: Query
+    holds: bool | None = None
 
 
 class Answers:
@@ -38,11 +43,14 @@ class Answers:
         self._grounding = grounding
         self._snapshot, self._state = grounding.snapshot, grounding.state
         self._narrowing = Narrowing(grounding.snapshot, grounding.state, grounding)
+        self._reports = Reports(grounding)
         self._told = Whereabouts(grounding.snapshot, grounding.state)
 
     def of(self, ask: Ask, context: Context) -> Answer | NoReferent | Ambiguous:
         """The answer, or why the question cannot be put to the graph."""
         nodes: tuple[str, ...] = ()
+        if ask.kind in REPORTED:
+            return self._reported(ask, context)
         match ask.kind:
             case QueryKind.ROBOT_ROOM:
                 text = self._robot_room()
@@ -60,7 +68,25 @@ class Answers:
                     return found
                 nodes = found
                 text = self._about(ask, found, context)
-        return Answer(text=text, query=Query(kind=ask.kind, nodes=nodes, phrase=_phrase(ask)))
+        query = Query(kind=ask.kind, nodes=nodes, phrase=_phrase(ask))
+        return Answer(text=text, query=query, holds=self._holds(ask, nodes))
+
+    def _reported(self, ask: Ask, context: Context) -> Answer | NoReferent | Ambiguous:
+        told = self._reports.of(ask, context)
+        if not isinstance(told, Report):
+            return told
+        return Answer(text=told.text, query=Query(kind=ask.kind, nodes=told.nodes, phrase=_phrase(ask)))
+
+    def _holds(self, ask: Ask, found: Sequence[str]) -> bool | None:
+        if ask.kind not in (QueryKind.EXISTS, QueryKind.HOLDING):
+            return None
+        number = len([i for i in found if i not in self._state.missing])
+        enough = (1 if ask.most is None else 0) if ask.least is None else ask.least
+        wanted = ask.things[0] if ask.things else None
+        if isinstance(wanted, NounPhrase) and wanted.quantity is Quantity.SOME:
+            enough = wanted.count or enough
+        so = number >= enough and (ask.most is None or number <= ask.most)
+        return so != ask.negated
 
     def _found(self, ask: Ask, context: Context) -> tuple[str, ...] | NoReferent | Ambiguous:
         """Everything the question is about, present or missing."""
@@ -78,6 +104,8 @@ class Answers:
         return tuple(found)
 
     def _candidates(self, reference: Reference | None, context: Context) -> tuple[str, ...] | NoReferent | Ambiguous:
+        if isinstance(reference, NounPhrase) and reference.words == ("anything",):
+            reference = None
         if reference is None:
             return tuple(node.id for node in nodes_of(self._snapshot) if isinstance(node, ObjectNode | PersonNode))
         if isinstance(reference, NounPhrase):
@@ -85,6 +113,8 @@ class Answers:
         return self._grounding.things(reference, context)
 
     def _unknown_place(self, place: Restriction, context: Context) -> NoReferent | None:
+        if isinstance(place.reference, NounPhrase) and place.reference.head in BUILDING:
+            return None
         if place.reference is None or self._narrowing.targets(place, context):
             return None
         if isinstance(place.reference, NounPhrase):
@@ -162,6 +192,12 @@ class Answers:
         return described(node_id, self._snapshot)
 
     def _exists(self, ask: Ask, found: Sequence[str], context: Context) -> str:
+        place = ask.place
+        if place is not None and place.relation in ("state", "color"):
+            return self._is_so(ask, found, context)
+        if ask.negated or ask.least is not None or ask.most is not None:
+            so = "Yes" if self._holds(ask, found) else "No"
+            return f"{so}. {self._where(found, rooms_only=False) or self._none(ask, context)}"
         if found:
             return f"Yes. {self._where(found, rooms_only=False)}"
         if ask.place is None:
@@ -169,6 +205,21 @@ class Answers:
         elsewhere = self._candidates(ask.things[0], context) if ask.things else ()
         rest = self._where(elsewhere, rooms_only=False) if isinstance(elsewhere, tuple) else ""
         return f"Not that I know of. {rest}".strip() if rest else f"No. {self._none(ask, context)}"
+
+    def _is_so(self, ask: Ask, found: Sequence[str], context: Context) -> str:
+        """*The door is open*: the answer with what is so instead."""
+        about = self._candidates(ask.things[0], context)
+        told = " ".join(self._state_of(i) for i in about[:MAX_NAMED]) if isinstance(about, tuple) else ""
+        if not told:
+            return self._none(ask, context)
+        return f"{'Yes' if self._holds(ask, found) else 'No'}. {told}"
+
+    def _state_of(self, node_id: str) -> str:
+        node = self._snapshot.node(node_id)
+        if isinstance(node, ObjectNode):
+            return self._color(node)
+        name = capital(name_of(node_id, self._snapshot))
+        return f"{name} is {node.state.value}." if isinstance(node, DoorNode) else f"{name}: I cannot tell."
 
     def _colors(self, found: Sequence[str]) -> str:
         objects = [node for i in found if isinstance(node := self._snapshot.node(i), ObjectNode)]

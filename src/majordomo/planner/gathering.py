@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from majordomo.planner.grammar.syntax import NounPhrase, Quantity, Reference
 from majordomo.planner.grounding import Ambiguous, Context, Grounding, NoReferent
+from majordomo.planner.vocabulary import singular
 
 Trouble = NoReferent | Ambiguous
 
@@ -31,7 +32,7 @@ class Gathering:
         self, references: tuple[Reference, ...], context: Context, *, avoid: frozenset[str] = frozenset()
     ) -> tuple[str, ...] | Trouble:
         """Everything the references mean, each once. A last restriction may be meant for all of them."""
-        references = _same_quantity(references)
+        references = _same_noun(_same_quantity(references))
         shared = _shared(references)
         if shared != references:
             found = self._each(shared, context, avoid)
@@ -56,10 +57,10 @@ class Gathering:
 def _shared(references: tuple[Reference, ...]) -> tuple[Reference, ...]:
     """The references with the last one's restriction given to those before it that have none."""
     last = references[-1]
-    if len(references) < 2 or not isinstance(last, NounPhrase) or last.restriction is None:
+    if len(references) < 2 or not isinstance(last, NounPhrase) or not last.restrictions:
         return references
     return tuple(
-        replace(r, restriction=last.restriction) if isinstance(r, NounPhrase) and r.restriction is None else r
+        replace(r, restrictions=last.restrictions) if isinstance(r, NounPhrase) and not r.restrictions else r
         for r in references
     )
 
@@ -71,6 +72,20 @@ def _same_quantity(references: tuple[Reference, ...]) -> tuple[Reference, ...]:
         before = settled[-1] if settled else None
         settled.append(_like(before, reference) if isinstance(before, NounPhrase) else reference)
     return tuple(settled)
+
+
+def _same_noun(references: tuple[Reference, ...]) -> tuple[Reference, ...]:
+    """*The red and the green cup*: what comes without a noun before one that has it."""
+    last = references[-1]
+    if not isinstance(last, NounPhrase) or last.head in ("one", "ones"):
+        return references
+    first = references[0]
+    if not isinstance(first, NounPhrase) or first.words != ("one",):
+        return references
+    return tuple(
+        replace(r, words=(singular(last.head),)) if isinstance(r, NounPhrase) and r.words == ("one",) else r
+        for r in references
+    )
 
 
 def _like(before: NounPhrase, reference: Reference) -> Reference:

@@ -9,10 +9,12 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
-from majordomo.planner.grammar.syntax import NounPhrase, Pronoun, Quantity, Reference
+from majordomo.planner.grammar.syntax import NounPhrase, Pronoun, Quantity, Reference, Restriction, Spot
 from majordomo.planner.matching import named
+from majordomo.planner.naming import name_of
 from majordomo.planner.narrowing import Narrowing
 from majordomo.planner.phrasing import alternatives, describe, phrase_text, which_question
+from majordomo.planner.plan import Exchange
 from majordomo.planner.vocabulary import is_plural
 from majordomo.scene_graph.nodes import ObjectNode, PersonNode
 from majordomo.scene_graph.snapshot import Snapshot
@@ -21,10 +23,14 @@ from majordomo.skills.state import PlanState
 
 @dataclass(frozen=True, kw_only=True)
 class NoReferent:
-    """A reference names nothing; ``reason`` says so, with what there is instead. ``unknown``: no word is known."""
+    """A reference names nothing; ``reason`` says so, with what there is instead.
+
+    ``unknown``: no word is known. ``asks``: the reason is a question, and an answer would settle it.
+    """
 
     reason: str
     unknown: bool = False
+    asks: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -45,6 +51,7 @@ class Context:
 
     ``mentioned``: identifiers, the newest first. ``places``: places spoken of, the newest first. ``choices``: answers
     to earlier questions, by phrase. ``focus``: the room the request has just gone to. ``noun``: for *the red one*.
+    ``origins``: where things were before they were moved. ``earlier``: what was asked before, the newest first.
     """
 
     speaker: str | None = None
@@ -54,6 +61,8 @@ class Context:
     choices: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     focus: str | None = None
     noun: str = ""
+    origins: Mapping[str, str] = field(default_factory=dict)
+    earlier: tuple[Exchange, ...] = ()
 
 
 class Grounding:
@@ -67,6 +76,8 @@ class Grounding:
         """What is to be carried, found or asked about. ``avoid``: not these, when any one will do."""
         if isinstance(reference, Pronoun):
             return self._pronoun(reference.word, context)
+        if isinstance(reference, Spot):
+            return self.spot(reference, context)
         return self._phrase(reference, context, carried=True, avoid=avoid)
 
     def place(self, reference: Reference, context: Context) -> Grounded:
@@ -74,7 +85,31 @@ class Grounding:
         if isinstance(reference, Pronoun):
             found = self._pronoun(reference.word, context)
             return found[:1] if isinstance(found, tuple) else found
+        if isinstance(reference, Spot):
+            return self.spot(reference, context)
         return self._phrase(reference, context, carried=False)
+
+    def spot(self, spot: Spot, context: Context) -> Grounded:
+        """*where the apple is*: what the apple stands on, or its room; *where it was*: before it was moved."""
+        found = self.things(spot.thing, context)
+        if not isinstance(found, tuple):
+            return found
+        origins = context.origins if spot.past else {}
+        spots = {i: origins.get(i) or self.origin(i) for i in found}
+        unknown = next((i for i, place in spots.items() if place is None), None)
+        if unknown is not None:
+            return NoReferent(reason=f"I do not know where {name_of(unknown, self.snapshot)} is.")
+        return tuple(dict.fromkeys(place for place in spots.values() if place is not None))
+
+    def origin(self, node_id: str) -> str | None:
+        """Where a thing is now, as a place to put it back: its support, else its room."""
+        return self.snapshot.support_of(node_id) or self.state.room_of(node_id)
+
+    def unseen(self, place: str) -> NoReferent:
+        """Why *left of* and the like have no meaning from another room."""
+        return NoReferent(
+            reason=f"I cannot tell what is {place} from here: that depends on where one stands.", asks=True
+        )
 
     def matches(
         self, phrase: NounPhrase, context: Context, *, widely: bool = True, fixed: bool = False
@@ -105,6 +140,8 @@ class Grounding:
             speaker = self.speaker(context)
             room = self.snapshot.current_room
             return (room,) if isinstance(speaker, NoReferent) and room is not None else speaker
+        if word == "that":
+            return self._it(replace(context, fresh=context.fresh[:1]))
         if word == "there":
             return context.places[:1] or NoReferent(reason="I do not know which place you mean by “there”.")
         if word == "him":
@@ -126,11 +163,17 @@ class Grounding:
         many = phrase.quantity in (Quantity.ALL, Quantity.BOTH, Quantity.SOME, Quantity.EXACTLY) or _plural(phrase)
         found = self._suited(self.matches(phrase, context, widely=many), carried=carried)
         text = phrase_text(phrase)
+        if phrase.exceptions and (lost := self._narrowing.missing_reference(phrase, context)) is not None:
+            return lost
+        if phrase.other:
+            found = self._others(found, context)
         chosen = tuple(i for i in context.choices.get(text, ()) if i in found)
         if chosen:
             return chosen
         if not found:
             return self.nothing(phrase, context)
+        if phrase.rank is not None and phrase.superlative is None:
+            return self._ranked(phrase, found, context)
         match phrase.quantity:
             case Quantity.A | Quantity.SOME:
                 return self._any(phrase, found, avoid)
@@ -143,6 +186,21 @@ class Grounding:
             case _:
                 return self._one(text, found, context)
 
+    def _others(self, found: tuple[str, ...], context: Context) -> tuple[str, ...]:
+        """Those that were not spoken of; *other* means nothing when none was."""
+        spoken = [i for i in (*context.fresh, *context.mentioned) if i in found]
+        left = tuple(i for i in found if i not in spoken)
+        return left or tuple(i for i in found if i not in spoken[:1])
+
+    def _ranked(self, phrase: NounPhrase, found: tuple[str, ...], context: Context) -> Grounded:
+        """*The second cup*: nobody said in which order, so it is asked, unless there are too few."""
+        if len(found) >= (phrase.rank or 0):
+            return self._ambiguous(
+                phrase_text(phrase), found, context, "I know no order of them. Which one do you mean"
+            )
+        seen = "; ".join(describe(i, self.snapshot) for i in found)
+        return NoReferent(reason=f"I know of only {len(found)}: {seen}.")
+
     def _one(self, text: str, found: tuple[str, ...], context: Context) -> Grounded:
         if len(found) > 1:
             spoken = tuple(i for i in found if i in context.fresh)
@@ -151,6 +209,14 @@ class Grounding:
                 if len(preferred) == 1:
                     return preferred
         return found if len(found) == 1 else self._ambiguous(text, found, context, "Which one do you mean")
+
+    def targets(self, restriction: Restriction, context: Context) -> tuple[str, ...]:
+        """What the reference of a restriction may mean."""
+        return self._narrowing.targets(restriction, context)
+
+    def nearest(self, found: tuple[str, ...]) -> tuple[str, ...]:
+        """The nearest of several that can be reached, as one; else the first."""
+        return tuple(self._narrowing.by_distance(found)[:1]) or found[:1]
 
     def _any(self, phrase: NounPhrase, found: tuple[str, ...], avoid: frozenset[str]) -> Grounded:
         """The nearest of those that will do, unless there are too few."""
@@ -177,7 +243,7 @@ class Grounding:
         return Ambiguous(question=which_question(ask, text, found, self.snapshot), phrase=text, candidates=found)
 
     def nothing(self, phrase: NounPhrase, context: Context) -> NoReferent:
-        bare = replace(phrase, colors=(), sizes=(), superlative=None, restriction=None, number=None)
+        bare = NounPhrase(words=phrase.words, person=phrase.person)
         same = self.matches(bare, context)
         missing = self._narrowing.missing_reference(phrase, context)
         if missing is not None:
@@ -197,7 +263,7 @@ class Grounding:
         """*the kitchen table*: a table in the kitchen."""
         rooms = [i for i in named(phrase.words[0], None, self.snapshot, widely=True) if self.snapshot.room_of(i) == i]
         rest = named(" ".join(phrase.words[1:]), phrase.number, self.snapshot, widely=widely)
-        return tuple(i for i in rest if self.state.room_of(i) in rooms and i not in rooms)
+        return tuple(i for i in rest if i not in rooms and any(self._narrowing.is_at(i, room) for room in rooms))
 
     def _suited(self, found: tuple[str, ...], *, carried: bool) -> tuple[str, ...]:
         """Of several, those that can be carried, or that one can put something on, in or before, if there are any."""

@@ -10,7 +10,8 @@ from typing import Any, Protocol
 from majordomo.planner.executor import OnEvent, ignore_event
 from majordomo.planner.explainer import plan_sentence
 from majordomo.planner.goals import Goal
-from majordomo.planner.plan import Dialogue, Impossible, Interpretation, Kind, Plan, Source
+from majordomo.planner.lessons import teach
+from majordomo.planner.plan import Dialogue, Exchange, Impossible, Interpretation, Kind, Plan, Source
 from majordomo.planner.queue import TaskQueue
 from majordomo.planner.replanner import Replanner, Verifier
 from majordomo.planner.tasks import Approval, PlanReport, StepReport, Task, TaskStatus
@@ -21,6 +22,8 @@ logger = logging.getLogger(__name__)
 
 MENTIONS = 20
 """Identifiers remembered for pronouns in later requests."""
+MAX_EARLIER = 10
+"""Earlier requests that can be asked about."""
 
 
 class Interpreter(Protocol):
@@ -70,6 +73,7 @@ class Intake:
         self._interpreter, self._verifier = interpreter, verifier
         self._on_event, self._interpret_s, self._paper = on_event, interpret_s, paper
         self._mentioned: tuple[str, ...] = ()
+        self._origins: dict[str, str] = {}
 
     async def take(self, task: Task, stamp_s: float, *, busy: bool = False) -> Ready | None:
         """Plan for a task in status ``planning``; ``None`` when it is not to run now.
@@ -79,7 +83,9 @@ class Intake:
         if task.approved and task.plan is not None:
             return self._plan(task, task.plan.goals, Source(task.plan.source), stamp_s)
         snapshot = self._memory.building()
-        dialogue = Dialogue(answers=task.dialogue, mentioned=self._mentioned)
+        dialogue = Dialogue(
+            answers=task.dialogue, mentioned=self._mentioned, earlier=self._earlier(task), origins=self._origins
+        )
         try:
             async with asyncio.timeout(self._interpret_s):
                 meaning = await self._interpreter.interpret(task.request, snapshot, dialogue)
@@ -105,6 +111,8 @@ class Intake:
         said = {"kind": meaning.kind.value, "reply": meaning.reply}
         goals = [str(goal) for goal in meaning.goals]
         self._remember(meaning)
+        for lesson in meaning.lessons:
+            teach(self._memory, lesson.node, label=lesson.label, name=lesson.name, stamp_s=stamp_s)
         self._emit(stamp_s, "understood", task=task.id, source=meaning.source.value, **said, goals=goals)
         match meaning.kind:
             case Kind.ANSWER:
@@ -127,6 +135,7 @@ class Intake:
             self.end(task, TaskStatus.REFUSED, plan.reason, stamp_s, reply=plan.reason)
             return None
         report = _report(plan, goals)
+        self._origins |= _origins(plan, snapshot)
         same = task.plan is not None and _outline(task.plan) == _outline(report)
         task = self._queue.amend(task.id, plan=report, times=replace(task.times, planned_s=stamp_s))
         self._emit(stamp_s, "planned", task=task.id, plan=str(plan), revision=plan.revision)
@@ -140,12 +149,32 @@ class Intake:
             return Ready(task=task, goals=goals, plan=plan, replanner=replanner, intent=intent)
         return None
 
+    def _earlier(self, task: Task) -> tuple[Exchange, ...]:
+        """What was asked before ``task``, the newest first."""
+        tasks = [other for other in self._queue.tasks if other.id != task.id]
+        return tuple(
+            Exchange(
+                request=other.request,
+                goals=other.plan.goals if other.plan is not None else (),
+                status=other.status.value,
+                explanation=other.explanation or other.reply,
+            )
+            for other in reversed(tasks[-MAX_EARLIER:])
+        )
+
     def _remember(self, meaning: Interpretation) -> None:
         spoken = (*meaning.mentioned, *(arg for goal in meaning.goals for arg in goal.args))
         self._mentioned = tuple(dict.fromkeys((*spoken, *self._mentioned)))[:MENTIONS]
 
     def _emit(self, stamp_s: float, event: str, **fields: Any) -> None:
         self._on_event({"stamp_s": round(stamp_s, 3), "by": "mission", "event": event, **fields})
+
+
+def _origins(plan: Plan, snapshot: Snapshot) -> dict[str, str]:
+    """Where everything that the plan picks up is now: what it stands on, else its room."""
+    picked = [step.args[0] for step in plan.steps if step.skill == "PICK"]
+    places = {i: snapshot.support_of(i) or snapshot.room_of(i) for i in picked if i in snapshot}
+    return {i: place for i, place in places.items() if place is not None}
 
 
 def _report(plan: Plan, goals: tuple[Goal, ...]) -> PlanReport:

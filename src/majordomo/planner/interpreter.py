@@ -6,20 +6,32 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from majordomo.planner.answers import ABILITIES
+from majordomo.planner.discourse import Discourse, Stuck
+from majordomo.planner.gathering import Trouble
 from majordomo.planner.grammar.lexer import Lexicon
-from majordomo.planner.grammar.parser import CommandGrammar, NotUnderstood, ParsedStep, Unable, Understood
+from majordomo.planner.grammar.parser import (
+    Choice,
+    CommandGrammar,
+    NotUnderstood,
+    ParsedStep,
+    Unable,
+    Understood,
+    flattened,
+)
 from majordomo.planner.grammar.tokens import text_flaw
 from majordomo.planner.grounding import Ambiguous, Context, Grounding, NoReferent
 from majordomo.planner.matching import nouns_of
-from majordomo.planner.meaning import Meaning
 from majordomo.planner.meant import Meant, without_steps_between
-from majordomo.planner.naming import listed
+from majordomo.planner.naming import aim_phrase, listed, name_of
 from majordomo.planner.plan import Dialogue, Interpretation, Kind
+from majordomo.planner.revision import Reviser, Revision, revision
 from majordomo.planner.verifier import Verifier
 from majordomo.scene_graph.nodes import PersonNode
 from majordomo.scene_graph.snapshot import Snapshot
 
 Choices = dict[str, tuple[str, ...]]
+DOUBT = "did you mean"
+"""The phrase that is settled by *yes*."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -47,16 +59,21 @@ class Interpreter:
         flaw = text_flaw(text)
         if flaw is not None:
             return _reading(Kind.REFUSE, flaw)
+        about = revision(text)
+        if about is not None and dialogue.earlier:
+            revised = self._revised(about, snapshot, dialogue, choices or {})
+            if revised is not None:
+                return revised
         steps = self._grammar.parse(text, self.lexicon(snapshot))
         if not steps:
             return _reading(Kind.ANSWER, f"What can I do for you? {ABILITIES}")
-        unable = [step for step in steps if isinstance(step, Unable)]
+        every = list(flattened(steps))
+        unable = [step for step in every if isinstance(step, Unable)]
         if unable:
-            return _reading(Kind.REFUSE, _unable_reply(unable, len(steps)))
-        if any(isinstance(step, NotUnderstood) for step in steps):
-            return _reading(Kind.CLARIFY, _not_understood_reply(steps), wholly=False)
-        understood = [step for step in steps if isinstance(step, Understood)]
-        return self._ground(understood, snapshot, dialogue, choices or {})
+            return _reading(Kind.REFUSE, _unable_reply(unable, len(every)))
+        if any(isinstance(step, NotUnderstood) or _is_open(step) for step in every):
+            return _reading(Kind.CLARIFY, _not_understood_reply(every), wholly=False)
+        return self._ground(steps, snapshot, dialogue, choices or {})
 
     def grounding(self, snapshot: Snapshot) -> Grounding:
         """References on ``snapshot``."""
@@ -69,47 +86,89 @@ class Interpreter:
             self._lexicon = (snapshot, Lexicon.of(nouns_of(snapshot), names))
         return self._lexicon[1]
 
-    def _ground(self, steps: Sequence[Understood], snapshot: Snapshot, dialogue: Dialogue, choices: Choices) -> Reading:
-        meaning = Meaning(self.grounding(snapshot))
-        context = Context(speaker=dialogue.speaker, mentioned=dialogue.mentioned, choices=choices)
-        meanings: list[Meant] = []
-        for step in steps:
-            outcome = meaning.of(step.readings, context)
-            if isinstance(outcome, Ambiguous):
-                reply = outcome.question
-                found = Interpretation(kind=Kind.CLARIFY, reply=reply, candidates=outcome.candidates)
-                return Reading(interpretation=found, asked=outcome.phrase)
-            if isinstance(outcome, NoReferent):
-                return _reading(Kind.REFUSE, _whole(outcome.reason, step, steps), wholly=not outcome.unknown)
-            meanings.append(outcome)
-            context = _carried_on(context, outcome)
-        return Reading(interpretation=self._checked(meanings, snapshot))
+    def _revised(self, about: Revision, snapshot: Snapshot, dialogue: Dialogue, choices: Choices) -> Reading | None:
+        """A remark about the request before, if it is one; a whole request is read as such."""
+        earlier, lexicon = dialogue.earlier[0], self.lexicon(snapshot)
+        if not earlier.goals:
+            return self.read(about.rest, snapshot, replace(dialogue, earlier=())) if about.how == "correct" else None
+        reviser = Reviser(self.grounding(snapshot), _context(dialogue, choices))
+        if about.how == "again":
+            return self.checked([reviser.again(earlier)], snapshot, choices)
+        outcome = reviser.by_phrase(about.how, self._grammar.phrase(about.rest, lexicon), earlier)
+        if outcome is None and about.how == "correct":
+            steps = self._grammar.parse(f"put it {about.rest}", lexicon)
+            understood = steps[0] if len(steps) == 1 and isinstance(steps[0], Understood) else None
+            outcome = reviser.by_place(understood.readings, earlier) if understood is not None else None
+        if outcome is None:
+            return self.read(about.rest, snapshot, replace(dialogue, earlier=()), choices)
+        return self.checked([outcome], snapshot, choices) if isinstance(outcome, Meant) else _troubled(outcome)
+
+    def _ground(self, steps: Sequence[ParsedStep], snapshot: Snapshot, dialogue: Dialogue, choices: Choices) -> Reading:
+        context = _context(dialogue, choices)
+        meanings = Discourse(self.grounding(snapshot), context).meanings(steps)
+        if isinstance(meanings, Stuck):
+            return _stuck(meanings, steps)
+        return self.checked(meanings, snapshot, choices)
+
+    def checked(self, meanings: list[Meant], snapshot: Snapshot, choices: Choices) -> Reading:
+        """What steps mean together, if the verifier finds no flaw; what was not said as a request is asked about."""
+        found = self._checked(meanings, snapshot)
+        doubtful = found.kind is Kind.PLAN or found.lessons
+        if doubtful and any(meant.doubt for meant in meanings) and DOUBT not in choices:
+            asked = Interpretation(kind=Kind.CLARIFY, reply=_did_you_mean(found, snapshot), mentioned=found.mentioned)
+            return Reading(interpretation=asked, asked=DOUBT)
+        return Reading(interpretation=found)
 
     def _checked(self, meanings: list[Meant], snapshot: Snapshot) -> Interpretation:
         goals = without_steps_between(meanings, self._verifier.state(snapshot))
         answers = " ".join(meant.answer for meant in meanings if meant.answer)
         mentioned = tuple(dict.fromkeys(i for meant in reversed(meanings) for i in (*meant.things, *meant.places)))
         queries = [meant.query for meant in meanings if meant.query is not None]
+        lessons = tuple(lesson for meant in meanings for lesson in meant.lessons)
         if not goals:
             query = queries[0] if queries else None
-            return Interpretation(kind=Kind.ANSWER, reply=answers, query=query, mentioned=mentioned)
+            return Interpretation(kind=Kind.ANSWER, reply=answers, query=query, mentioned=mentioned, lessons=lessons)
         flaws = self._verifier.verify_goals(goals, snapshot)
         if flaws:
             reasons = " ".join(flaw.message[:1].upper() + flaw.message[1:] for flaw in flaws[:3])
             return Interpretation(kind=Kind.REFUSE, reply=reasons, mentioned=mentioned)
-        return Interpretation(kind=Kind.PLAN, goals=goals, reply=answers, mentioned=mentioned)
+        return Interpretation(kind=Kind.PLAN, goals=goals, reply=answers, mentioned=mentioned, lessons=lessons)
 
 
-def _carried_on(context: Context, meant: Meant) -> Context:
-    """The context for the next step."""
-    return replace(
-        context,
-        fresh=meant.things or context.fresh,
-        mentioned=tuple(dict.fromkeys((*meant.things, *meant.places, *context.mentioned))),
-        places=(*meant.places, *context.places),
-        focus=meant.focus or context.focus,
-        noun=meant.noun or context.noun,
+def _is_open(step: ParsedStep) -> bool:
+    return isinstance(step, Choice) and step.condition == ()
+
+
+def _context(dialogue: Dialogue, choices: Choices) -> Context:
+    return Context(
+        speaker=dialogue.speaker,
+        mentioned=dialogue.mentioned,
+        choices=choices,
+        origins=dialogue.origins,
+        earlier=dialogue.earlier,
     )
+
+
+def _stuck(stuck: Stuck, steps: Sequence[ParsedStep]) -> Reading:
+    trouble = stuck.trouble
+    if isinstance(trouble, NoReferent):
+        trouble = replace(trouble, reason=_whole(trouble.reason, stuck.step, steps))
+    return _troubled(trouble)
+
+
+def _troubled(trouble: Trouble) -> Reading:
+    """A question or a refusal."""
+    if isinstance(trouble, Ambiguous):
+        found = Interpretation(kind=Kind.CLARIFY, reply=trouble.question, candidates=trouble.candidates)
+        return Reading(interpretation=found, asked=trouble.phrase)
+    return _reading(Kind.CLARIFY if trouble.asks else Kind.REFUSE, trouble.reason, wholly=not trouble.unknown)
+
+
+def _did_you_mean(found: Interpretation, snapshot: Snapshot) -> str:
+    if found.lessons:
+        lesson = found.lessons[0]
+        return f"Shall I call {name_of(lesson.node, snapshot)} “{lesson.label or lesson.name}” from now on?"
+    return f"Did you mean: {listed([aim_phrase(goal, snapshot) for goal in found.goals])}?"
 
 
 def _reading(kind: Kind, reply: str, *, wholly: bool = True) -> Reading:
@@ -125,7 +184,9 @@ def _unable_reply(unable: Sequence[Unable], count: int) -> str:
 
 def _not_understood_reply(steps: Sequence[ParsedStep]) -> str:
     clear = [f"“{step.text}”" for step in steps if isinstance(step, Understood)]
-    unclear = [f"“{_short(step.text)}”{_at(step)}" for step in steps if isinstance(step, NotUnderstood)]
+    unclear = [
+        f"“{_short(step.text)}”{_at(step)}" for step in steps if isinstance(step, NotUnderstood) or _is_open(step)
+    ]
     lead = (
         f"I understood {listed(clear)}, but not {listed(unclear)}."
         if clear
@@ -134,13 +195,13 @@ def _not_understood_reply(steps: Sequence[ParsedStep]) -> str:
     return f"{lead} I have done nothing. Can you say it differently?"
 
 
-def _at(step: NotUnderstood) -> str:
-    return f" because of “{step.at}”" if step.at else ""
+def _at(step: ParsedStep) -> str:
+    return f" because of “{step.at}”" if isinstance(step, NotUnderstood) and step.at else ""
 
 
 def _short(text: str) -> str:
     return text if len(text) <= 120 else f"{text[:117]}..."
 
 
-def _whole(reason: str, step: Understood, steps: Sequence[Understood]) -> str:
+def _whole(reason: str, step: ParsedStep, steps: Sequence[ParsedStep]) -> str:
     return reason if len(steps) == 1 else f"{reason} So I cannot do “{_short(step.text)}”, and have not started."

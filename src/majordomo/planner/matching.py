@@ -17,7 +17,7 @@ from majordomo.planner.vocabulary import (
 )
 from majordomo.scene_graph.edges import EdgeType
 from majordomo.scene_graph.identifiers import natural_key
-from majordomo.scene_graph.nodes import DoorNode, ObjectNode, PersonNode, RoomNode, RoomStatus
+from majordomo.scene_graph.nodes import DoorNode, ObjectNode, PersonNode, RegionNode, RoomNode, RoomStatus
 from majordomo.scene_graph.snapshot import Snapshot
 
 Place = RoomNode | ObjectNode | PersonNode | DoorNode
@@ -41,6 +41,7 @@ def nouns_of(snapshot: Snapshot) -> frozenset[str]:
     objects = snapshot.of_type(ObjectNode)
     said = {(node.label, node.name, node.categories) for node in objects}
     places = {node.label for node in nodes_of(snapshot) if isinstance(node, RoomNode | DoorNode)}
+    places |= {region.label for region in snapshot.of_type(RegionNode)}
     return frozenset(places | {word for label, name, categories in said for word in (label, name, *categories)})
 
 
@@ -59,6 +60,7 @@ def named(head: str, number: int | None, snapshot: Snapshot, *, widely: bool, fi
         ranked = [(rank, node) for rank, node in ranked if node.id.rpartition("_")[2] == str(number)]
     closest = min((rank for rank, _ in ranked), default=0)
     kept = [node.id for rank, node in ranked if widely or rank == closest]
+    kept += [region.id for region in snapshot.of_type(RegionNode) if region.label and normal(region.label) == head]
     return tuple(sorted(kept, key=natural_key))
 
 

@@ -17,6 +17,7 @@ from majordomo.planner.grammar.syntax import (
     Find,
     Go,
     NounPhrase,
+    Perhaps,
     Pick,
     Pronoun,
     PutBack,
@@ -25,11 +26,13 @@ from majordomo.planner.grammar.syntax import (
     Restriction,
     Several,
     Step,
+    Teach,
 )
 from majordomo.planner.grounding import Ambiguous, Context, Grounding, NoReferent
 from majordomo.planner.meant import Meant
 from majordomo.planner.naming import aim_phrase, name_of
-from majordomo.scene_graph.nodes import ObjectNode, PersonNode, RoomNode
+from majordomo.planner.teaching import Teaching
+from majordomo.scene_graph.nodes import ObjectNode, PersonNode, RegionNode, RoomNode
 from majordomo.skills.rooms import in_room
 
 MAX_MENTIONED = 6
@@ -48,6 +51,7 @@ class Meaning:
         self._snapshot, self._state = grounding.snapshot, grounding.state
         self._answers = Answers(grounding)
         self._gathering = Gathering(grounding)
+        self._teaching = Teaching(grounding)
 
     def of(self, readings: tuple[Step, ...], context: Context) -> Outcome:
         """The one meaning of a step, or why there is none.
@@ -68,7 +72,7 @@ class Meaning:
         if not meant:
             return _clearest([outcome for outcome in outcomes if not isinstance(outcome, Meant)])
         news = [m for m in meant if not m.goals or not all(holds(goal, self._state) for goal in m.goals)] or meant
-        distinct = list({m.goals: m for m in news}.values())
+        distinct = list({(m.goals, m.lessons): m for m in reversed(news)}.values())[::-1]
         strongest = [m for m in distinct if not any(self._follows(m, other) for other in distinct if other is not m)]
         return strongest[0] if len(strongest) == 1 else self._either(strongest or distinct)
 
@@ -100,7 +104,12 @@ class Meaning:
             case PutDown():
                 return self._put_down(step, context)
             case PutBack():
-                return NoReferent(reason="I do not keep record of where things were. Tell me where to put it.")
+                return self._put_back(step, context)
+            case Perhaps():
+                outcome = self._carry(step.step, context)
+                return replace(outcome, doubt=True) if isinstance(outcome, Meant) else outcome
+            case Teach():
+                return self._teaching.of(step, context)
             case Ask():
                 answer = self._answers.of(step, context)
                 if not isinstance(answer, Answer):
@@ -108,6 +117,9 @@ class Meaning:
                 return Meant(answer=answer.text, query=answer.query, things=answer.query.nodes[:MAX_MENTIONED])
 
     def _carry(self, step: Carry, context: Context) -> Outcome:
+        if step.destination is not None and step.destination.relation not in ("to", "in", "on", "near"):
+            relation = step.destination.relation
+            return NoReferent(reason=f"I can put things on, in or next to something, not “{relation}” it.")
         if step.destination is None:
             things = self._gathering.all_of(step.things, context)
             if not isinstance(things, tuple):
@@ -117,7 +129,7 @@ class Meaning:
         place = self._destination(step.destination, step.things, context)
         if not isinstance(place, str):
             return place
-        predicate = self._predicate(step.destination.relation, place)
+        predicate = self.predicate(step.destination.relation, place)
         room = self._state.room_of(place)
         here = in_room(self._snapshot, room) if room is not None else ()
         there = frozenset(
@@ -130,17 +142,36 @@ class Meaning:
             return things
         goals = tuple(Goal(predicate=predicate, args=(i, place)) for i in things)
         noun = noun_of(step.things, context)
-        return Meant(goals=goals, implied=step.implied, things=things, places=(place,), noun=noun)
+        origins = {i: origin for i in things if (origin := self._grounding.origin(i)) is not None}
+        return Meant(goals=goals, implied=step.implied, things=things, places=(place,), noun=noun, origins=origins)
 
     def _several(self, step: Several, context: Context) -> Outcome:
         goals: tuple[Goal, ...] = ()
         things: tuple[str, ...] = ()
         places: tuple[str, ...] = ()
-        for carry in step.steps:
-            outcome = self._carry(carry, context)
+        for part in step.steps:
+            outcome = self._carry(part, context) if isinstance(part, Carry) else self._go(part, context)
             if not isinstance(outcome, Meant):
                 return outcome
             goals, things, places = goals + outcome.goals, things + outcome.things, outcome.places + places
+            mentioned = (*outcome.things, *outcome.places, *context.mentioned)
+            context = replace(context, mentioned=mentioned, noun=outcome.noun or context.noun)
+        origins = {i: place for i in things if (place := self._grounding.origin(i)) is not None}
+        return Meant(goals=goals, things=things, places=places, noun=context.noun, origins=origins)
+
+    def _put_back(self, step: PutBack, context: Context) -> Outcome:
+        things = self._gathering.to_carry(step.things, context)
+        if not isinstance(things, tuple):
+            return things
+        unknown = next((i for i in things if i not in context.origins), None)
+        if unknown is not None:
+            name = name_of(unknown, self._snapshot)
+            return NoReferent(reason=f"I do not remember that I moved {name}. Tell me where to put it.")
+        places = tuple(context.origins[i] for i in things)
+        goals = tuple(
+            Goal(predicate=self.predicate("to", place), args=(i, place))
+            for i, place in zip(things, places, strict=True)
+        )
         return Meant(goals=goals, things=things, places=places)
 
     def _destination(self, destination: Destination, things: tuple[Reference, ...], context: Context) -> str | Trouble:
@@ -156,7 +187,8 @@ class Meaning:
             return Ambiguous(question=question, phrase="", candidates=found)
         return found[0]
 
-    def _predicate(self, relation: str, place: str) -> Predicate:
+    def predicate(self, relation: str, place: str) -> Predicate:
+        """What putting something *to*, *in*, *on* or *near* a place means there."""
         node, thing = self._snapshot.get(place), self._state.world.things.get(place)
         if relation == "near":
             return Predicate.NEAR
@@ -172,10 +204,18 @@ class Meaning:
             return Predicate.NEAR
         return Predicate.IN if container else Predicate.ON
 
+    def _taken_out(self, references: tuple[Reference, ...], context: Context) -> bool:
+        """Whether things are to leave a room, which does not say where to."""
+        away = [x for r in references if isinstance(r, NounPhrase) for x in r.restrictions if x.relation == "out of"]
+        places = [i for x in away for i in self._grounding.targets(x, context)]
+        return any(isinstance(self._snapshot.get(i), RoomNode) for i in places)
+
     def _handle(self, references: tuple[Reference, ...], predicate: Predicate, context: Context) -> Outcome:
         things = self._gathering.to_carry(references, context)
         if not isinstance(things, tuple):
             return things
+        if self._taken_out(references, context):
+            return Ambiguous(question="Where should I take it?", phrase="destination", candidates=())
         goals = tuple(Goal(predicate=predicate, args=(i,)) for i in things)
         return Meant(
             goals=goals, implied=predicate is Predicate.HOLDING, things=things, noun=noun_of(references, context)
@@ -186,7 +226,7 @@ class Meaning:
         if step.place is not None:
             within = Restriction(relation="at", reference=step.place)
             references = tuple(
-                replace(r, restriction=within) if isinstance(r, NounPhrase) and r.restriction is None else r
+                replace(r, restrictions=(within,)) if isinstance(r, NounPhrase) and not r.restrictions else r
                 for r in references
             )
         found = self._gathering.all_of(references, context)
@@ -201,6 +241,7 @@ class Meaning:
         found = self._grounding.place(step.target, context)
         if not isinstance(found, tuple):
             return found
+        found = tuple(room for i in found for room in self._rooms_of(i))
         if len(found) > 1:
             return Ambiguous(question="I can be in one place only. Which one?", phrase="", candidates=found)
         (place,) = found
@@ -208,6 +249,10 @@ class Meaning:
         things = (place,) if self._is_object(place) else ()
         goals = (Goal(predicate=Predicate.ROBOT_AT, args=(place,)),)
         return Meant(goals=goals, places=(place,), things=things, focus=focus)
+
+    def _rooms_of(self, node_id: str) -> tuple[str, ...]:
+        """A region's rooms; any other node itself."""
+        return self._snapshot.rooms_in(node_id) if isinstance(self._snapshot.get(node_id), RegionNode) else (node_id,)
 
     def _put_down(self, step: PutDown, context: Context) -> Outcome:
         things = self._gathering.all_of(step.things, context)

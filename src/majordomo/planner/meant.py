@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 
 from majordomo.planner.goals import Goal, Predicate
-from majordomo.planner.plan import Query
+from majordomo.planner.plan import Lesson, Query
 from majordomo.skills.state import PlanState
 
 
 @dataclass(frozen=True, kw_only=True)
 class Meant:
-    """What one step means: goals, or the answer to a question; and what it mentioned."""
+    """What one step means: goals, or the answer to a question; and what it mentioned.
+
+    ``doubt``: it was not said as a request, and is asked about first. ``origins``: where its things were before.
+    """
 
     goals: tuple[Goal, ...] = ()
     implied: bool = False
@@ -21,6 +25,9 @@ class Meant:
     places: tuple[str, ...] = ()
     focus: str | None = None
     noun: str = ""
+    doubt: bool = False
+    lessons: tuple[Lesson, ...] = ()
+    origins: Mapping[str, str] = field(default_factory=dict)
 
 
 def without_steps_between(meanings: list[Meant], state: PlanState) -> tuple[Goal, ...]:

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import replace
 from math import hypot, inf, prod
 from typing import TYPE_CHECKING
 
 from majordomo.planner.goals import gap_m
-from majordomo.planner.grammar.syntax import NounPhrase, Pronoun, Restriction
+from majordomo.planner.grammar.syntax import NounPhrase, Reference, Restriction
+from majordomo.planner.naming import name_of
+from majordomo.planner.spatial import VIEWED, is_between, is_in_view, is_related, leftwards_m, relation_name
 from majordomo.scene_graph.identifiers import natural_key
-from majordomo.scene_graph.nodes import ObjectNode, RoomNode
+from majordomo.scene_graph.nodes import DoorNode, DoorState, ObjectNode, RegionNode, RoomNode
 from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.skills.state import PlanState
 
@@ -21,14 +24,15 @@ BESIDE_M = 0.6
 LOOSELY_BESIDE_M = 1.5
 CLEARLY = 1.2
 """*Big* fits what has more than this many times the volume of the next."""
-SPATIAL = {
-    "under": ("under", "below", "beneath", "underneath"),
-    "behind": ("behind",),
-    "in front of": ("in front of",),
-    "over": ("over", "above"),
-    "against": ("against", "attached to", "leaning on"),
+BUILDING = frozenset({"house", "home", "building", "flat", "apartment", "place", "whole house", "entire house"})
+"""Words for all that is known, which narrow nothing."""
+_COMPARATIVE = {
+    "bigger": "largest",
+    "larger": "largest",
+    "taller": "largest",
+    "smaller": "smallest",
+    "shorter": "smallest",
 }
-"""Relations that a panoptic scene graph may hold, by the word that asks for them."""
 
 
 class Narrowing:
@@ -39,21 +43,48 @@ class Narrowing:
 
     def narrow(self, found: tuple[str, ...], phrase: NounPhrase, context: Context) -> tuple[str, ...]:
         """Those of ``found`` that fit color, restriction, size and superlative, in this order."""
-        kept = [i for i in found if self._has_colors(i, phrase.colors)]
+        has = any if phrase.either else all
+        kept = [i for i in found if not phrase.colors or has(self._has_color(i, color) for color in phrase.colors)]
         if phrase.quantity == "this":
             kept = [i for i in kept if self._state.room_of(i) == self._snapshot.current_room] or kept
-        if phrase.restriction is not None:
-            kept = self.restricted(kept, phrase.restriction, context)
+        for restriction in phrase.restrictions:
+            kept = self.restricted(kept, restriction, context)
+        kept = self._without(kept, phrase, context)
         for size in phrase.sizes:
             kept = self._sized(kept, size)
         if phrase.superlative is not None and kept:
-            kept = self._extreme(kept, phrase.superlative)
+            kept = self._extreme(kept, phrase.superlative, phrase.rank or 1)
         return tuple(kept)
+
+    def _without(self, found: list[str], phrase: NounPhrase, context: Context) -> list[str]:
+        excluded = {i for exception in phrase.exceptions for i in self.excepted(exception, phrase, context)}
+        return [i for i in found if i not in excluded]
+
+    def excepted(self, exception: Reference, phrase: NounPhrase, context: Context) -> tuple[str, ...]:
+        """What *except the red one* leaves out of ``phrase``."""
+        if isinstance(exception, NounPhrase):
+            return self._grounding.matches(exception, replace(context, noun=phrase.head))
+        found = self._grounding.things(exception, context)
+        return found if isinstance(found, tuple) else ()
 
     def restricted(self, found: Iterable[str], restriction: Restriction, context: Context) -> list[str]:
         """Those of ``found`` that are where ``restriction`` says."""
-        relation = restriction.relation
         candidates = list(found)
+        if restriction.relation == "color":
+            candidates = [i for i in candidates if isinstance(self._snapshot.get(i), ObjectNode)]
+        if restriction.negated:
+            fitting = self._fitting(candidates, replace(restriction, negated=False), context)
+            return [i for i in candidates if i not in fitting]
+        return self._fitting(candidates, restriction, context)
+
+    def _fitting(self, candidates: list[str], restriction: Restriction, context: Context) -> list[str]:
+        relation, reference = restriction.relation, restriction.reference
+        if isinstance(reference, NounPhrase) and reference.head in BUILDING:
+            return candidates
+        if relation == "color":
+            return [i for i in candidates if self._has_color(i, restriction.word)]
+        if relation == "state":
+            return [i for i in candidates if self._is_state(i, restriction.word)]
         if relation == "held":
             return [i for i in candidates if i == self._state.holding]
         if relation in ("here", "there"):
@@ -62,42 +93,84 @@ class Narrowing:
         targets = self.targets(restriction, context)
         if relation == "nearest":
             return self._closest(candidates, targets)
+        if relation == "near" and any(isinstance(self._snapshot.get(i), RoomNode) for i in candidates):
+            doors = [set(door.rooms) for door in self._state.world.doors]
+            return [i for i in candidates if any({i, target} in doors for target in targets)]
         if relation == "near":
             return self._beside(candidates, targets)
-        if relation in ("on", "in", "from", "at"):
+        if relation == "between":
+            others = self.targets(Restriction(relation="at", reference=restriction.other), context)
+            return [i for i in candidates if any(self._is_between(i, a, b) for a in targets for b in others)]
+        if relation == "with":
+            return [i for i in candidates if any(self.is_at(target, i) for target in targets if target != i)]
+        if relation == "same room":
+            rooms = {self._state.room_of(target) for target in targets}
+            return [i for i in candidates if self._state.room_of(i) in rooms and i not in targets]
+        if relation in ("on", "in", "from", "at", "to", "of", "into", "out of"):
             return [i for i in candidates if any(self.is_at(i, target) for target in targets if target != i)]
-        return [i for i in candidates if any(self._related(i, relation, target) for target in targets)]
+        return [i for i in candidates if any(is_related(i, relation, target, self._snapshot) for target in targets)]
+
+    def _is_between(self, node_id: str, one: str, other: str) -> bool:
+        node = self._snapshot.get(node_id)
+        if isinstance(node, DoorNode):
+            return {one, other} <= set(node.rooms)
+        return is_between(node_id, one, other, self._snapshot)
+
+    def _is_state(self, node_id: str, word: str) -> bool:
+        node = self._snapshot.get(node_id)
+        return isinstance(node, DoorNode) and (node.state is not DoorState.CLOSED) == (word == "open")
 
     def targets(self, restriction: Restriction, context: Context) -> tuple[str, ...]:
         """Every node the restriction's reference may mean; *the cup on the table* does not ask which table."""
         reference = restriction.reference
         if reference is None:
             return ()
-        if isinstance(reference, Pronoun):
+        if not isinstance(reference, NounPhrase):
             found = self._grounding.place(reference, context)
             return found if isinstance(found, tuple) else ()
         return self._grounding.matches(reference, context, widely=False)
 
     def missing_reference(self, phrase: NounPhrase, context: Context) -> NoReferent | None:
         """When it is the place in a restriction that nobody knows, that is the news."""
-        restriction = phrase.restriction
-        if restriction is None or not isinstance(restriction.reference, NounPhrase):
+        for restriction in phrase.restrictions:
+            for reference in (restriction.reference, restriction.other):
+                trouble = self._unmet(replace(restriction, reference=reference), context)
+                if trouble is not None:
+                    return trouble
+        for exception in phrase.exceptions:
+            if isinstance(exception, NounPhrase) and not self.excepted(exception, phrase, context):
+                return self._grounding.nothing(exception, replace(context, noun=phrase.head))
+        return None
+
+    def _unmet(self, restriction: Restriction, context: Context) -> NoReferent | None:
+        reference = restriction.reference
+        if not isinstance(reference, NounPhrase) or reference.head in BUILDING:
             return None
-        if self.targets(restriction, context):
-            return None
-        return self._grounding.nothing(restriction.reference, context)
+        targets = self.targets(restriction, context)
+        if not targets:
+            return self._grounding.nothing(reference, context)
+        relation = relation_name(restriction.relation)
+        if relation in VIEWED and not any(is_in_view(target, self._snapshot) for target in targets):
+            return self._grounding.unseen(f"{relation} {name_of(targets[0], self._snapshot)}")
+        return None
 
     def by_distance(self, found: Iterable[str]) -> list[str]:
         """Reachable ones, the nearest to the robot first."""
         distances = [(self._distance_m(self._state.robot_at, i), natural_key(i), i) for i in found]
         return [i for distance_m, _, i in sorted(distances) if distance_m < inf]
 
-    def _has_colors(self, node_id: str, colors: tuple[str, ...]) -> bool:
+    def _has_color(self, node_id: str, color: str) -> bool:
         node = self._snapshot.node(node_id)
-        return not colors or (isinstance(node, ObjectNode) and all(_color(node.color) == c for c in colors))
+        return isinstance(node, ObjectNode) and _color(node.color) == color
 
     def is_at(self, node_id: str, place: str) -> bool:
-        """Whether a node is in a room, or on or in a thing, perhaps with others in between."""
+        """Whether a node is in a room or region, or on or in a thing, perhaps with others in between."""
+        node = self._snapshot.get(node_id)
+        if isinstance(node, DoorNode):
+            return place in node.rooms
+        if isinstance(self._snapshot.get(place), RegionNode):
+            room = self._state.room_of(node_id)
+            return room is not None and room in self._snapshot.rooms_in(place)
         if isinstance(self._snapshot.get(place), RoomNode):
             return node_id != place and self._state.room_of(node_id) == place
         return place in list(self._chain(node_id))[1:]
@@ -119,6 +192,8 @@ class Narrowing:
         return close or [i for i in found if gaps[i] <= LOOSELY_BESIDE_M]
 
     def _together(self, node_id: str, target: str) -> bool:
+        if isinstance(self._snapshot.get(node_id), RoomNode):
+            return False
         return node_id != target and self._state.room_of(node_id) == self._state.room_of(target)
 
     def _closest(self, found: list[str], targets: tuple[str, ...]) -> list[str]:
@@ -126,25 +201,36 @@ class Narrowing:
         reachable = [(distance_m, i) for distance_m, i in others if distance_m < inf]
         return [min(reachable, key=lambda pair: (pair[0], natural_key(pair[1])))[1]] if reachable else []
 
-    def _related(self, node_id: str, relation: str, target: str) -> bool:
-        names = next((words for words in SPATIAL.values() if relation in words), (relation,))
-        return any(self._snapshot.relations(node_id, name, target) for name in names)
-
     def _sized(self, found: list[str], size: str) -> list[str]:
         """Of several, those clearly at that end of the sizes."""
         if len(found) < 2:
             return found
+        if size in _COMPARATIVE:
+            if len(found) == 2:
+                return self._extreme(found, _COMPARATIVE[size], 1)
+            size = "big" if _COMPARATIVE[size] == "largest" else "small"
         ordered = sorted(found, key=self._volume_m3, reverse=size == "big")
         edge = self._volume_m3(ordered[0])
         limit = edge / CLEARLY if size == "big" else edge * CLEARLY
         return [i for i in found if (self._volume_m3(i) >= limit) == (size == "big") or self._volume_m3(i) == limit]
 
-    def _extreme(self, found: list[str], superlative: str) -> list[str]:
-        if superlative == "nearest":
-            return self.by_distance(found)[:1]
-        best = max if superlative == "largest" else min
-        edge = best(self._volume_m3(i) for i in found)
-        return [i for i in found if self._volume_m3(i) == edge]
+    def _extreme(self, found: list[str], superlative: str, rank: int) -> list[str]:
+        """The first, second … at one end; several when they are as near or large as each other."""
+        if superlative in ("nearest", "farthest"):
+            ordered = self.by_distance(found)
+            return (ordered if superlative == "nearest" else ordered[::-1])[rank - 1 : rank]
+        if superlative in ("leftmost", "rightmost"):
+            return self._at_side(found, superlative)[rank - 1 : rank]
+        volumes = sorted({self._volume_m3(i) for i in found}, reverse=superlative == "largest")
+        edge = volumes[rank - 1 : rank]
+        return [i for i in found if self._volume_m3(i) in edge]
+
+    def _at_side(self, found: list[str], side: str) -> list[str]:
+        """From left to right or back, as the robot sees them; all as they are when it does not."""
+        if not all(is_in_view(i, self._snapshot) for i in found):
+            return []
+        left = {i: leftwards_m(i, tuple(found), self._snapshot) for i in found}
+        return sorted(found, key=lambda i: -left[i] if side == "leftmost" else left[i])
 
     def _volume_m3(self, node_id: str) -> float:
         node = self._snapshot.node(node_id)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from majordomo.planner.grammar.syntax import NounPhrase, Pronoun, Quantity
+from majordomo.planner.grammar.syntax import NounPhrase, Pronoun, Quantity, Reference, Spot
 from majordomo.planner.matching import nodes_of, similar
 from majordomo.planner.naming import at, listed, name_of
 from majordomo.planner.vocabulary import is_plural, normal, singular
@@ -27,18 +27,32 @@ def phrase_text(phrase: NounPhrase) -> str:
     words = [*phrase.sizes, *phrase.colors, *phrase.words]
     if phrase.superlative is not None:
         words.insert(0, phrase.superlative)
+    if phrase.rank is not None:
+        words.insert(0, ("first", "second", "third", "fourth", "fifth")[phrase.rank - 1])
+    if phrase.other:
+        words.insert(0, "other")
     if phrase.quantity in (Quantity.SOME, Quantity.EXACTLY, Quantity.BOTH) and phrase.count:
         words.insert(0, str(phrase.count))
     if phrase.number is not None:
         words.append(str(phrase.number))
-    if phrase.restriction is not None:
-        words.append(phrase.restriction.relation)
-        reference = phrase.restriction.reference
-        if isinstance(reference, Pronoun):
-            words.append(reference.word)
-        elif reference is not None:
-            words.append(f"the {phrase_text(reference)}")
+    for restriction in phrase.restrictions:
+        words += [*(["not"] if restriction.negated else []), restriction.word or restriction.relation]
+        for reference in (restriction.reference, restriction.other):
+            words += [] if reference is None else ["and"] if reference is restriction.other else []
+            words += [] if reference is None else [_reference_text(reference)]
+    for exception in phrase.exceptions:
+        words.append(f"except {_reference_text(exception)}")
     return " ".join(words)
+
+
+def _reference_text(reference: Reference) -> str:
+    match reference:
+        case NounPhrase():
+            return f"the {phrase_text(reference)}"
+        case Pronoun():
+            return reference.word
+        case Spot():
+            return f"where {_reference_text(reference.thing)} {'was' if reference.past else 'is'}"
 
 
 def describe(node_id: str, snapshot: Snapshot) -> str:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from enum import StrEnum
 
 from majordomo.planner.goals import Goal
@@ -86,6 +87,16 @@ class QueryKind(StrEnum):
     ROOMS = "rooms"
     COLOR = "color"
     ABILITIES = "abilities"
+    DISTANCE = "distance"
+    SIZE = "size"
+    PATH = "path"
+    LAST_SEEN = "last_seen"
+    DONE = "done"
+    FAILURE = "failure"
+    DOING = "doing"
+    BATTERY = "battery"
+    NAME = "name"
+    CAPABLE = "capable"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -98,12 +109,32 @@ class Query:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Exchange:
+    """An earlier request: its words, what it was understood to be, and how it stands, in a sentence."""
+
+    request: str
+    goals: tuple[Goal, ...] = ()
+    status: str = ""
+    explanation: str = ""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Lesson:
+    """What a person teaches: the label of a room or object, or the name of an object or person."""
+
+    node: str
+    label: str | None = None
+    name: str | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
 class Interpretation:
     """What a request means on one revision of the graph.
 
     ``kind`` plan: ``goals`` are set and checked. answer: ``reply`` holds the answer, ``query`` the question. clarify:
     ``reply`` is the question to ask, ``candidates`` the identifiers to choose from, if that is the question.
-    refuse: ``reply`` says why. ``mentioned``: identifiers that were spoken of, for later pronouns, the newest first.
+    refuse: ``reply`` says why. ``lessons``: for the graph.
+    ``mentioned``: identifiers that were spoken of, for later pronouns, the newest first.
     """
 
     kind: Kind
@@ -113,6 +144,7 @@ class Interpretation:
     candidates: tuple[str, ...] = ()
     query: Query | None = None
     mentioned: tuple[str, ...] = ()
+    lessons: tuple[Lesson, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -121,8 +153,11 @@ class Dialogue:
 
     ``answers``: the robot's questions about this very request and what was answered, oldest first. ``mentioned``:
     identifiers spoken of in earlier requests, the newest first. ``speaker``: the person who asks, if known.
+    ``earlier``: what was asked before, the newest first. ``origins``: where things were before they were last moved.
     """
 
     answers: tuple[tuple[str, str], ...] = ()
     mentioned: tuple[str, ...] = ()
     speaker: str | None = None
+    earlier: tuple[Exchange, ...] = ()
+    origins: Mapping[str, str] = field(default_factory=dict)

@@ -13,7 +13,30 @@ from majordomo.scene_graph.snapshot import Snapshot
 _ORDINALS = {"first": 0, "1": 0, "second": 1, "2": 1, "third": 2, "3": 2, "fourth": 3, "4": 3, "fifth": 4, "5": 4}
 _ALL = {"all", "both", "all of them", "both of them", "everything", "every one"}
 _ANY = {"any", "any of them", "either", "whichever", "does not matter", "it does not matter", "any one", "you choose"}
-_DROPPED = frozenset({"please", "the", "one", "number", "take", "i", "mean", "meant", "bring"})
+_DROPPED = frozenset({"please", "the", "one", "number", "take", "i", "mean", "meant", "bring", "option", "a", "an"})
+_YES = {"yes", "yeah", "yep", "sure", "ok", "okay", "right", "correct", "exactly", "yes please", "please do", "do it",
+        "that is right", "yes do it", "go ahead", "of course", "indeed", "yes that is right", "i did",
+        "yes i did"}  # fmt: skip
+_NO = {"no", "nope", "neither", "none", "none of them", "nothing", "no thanks", "neither of them", "never mind",
+    "nevermind",
+       "forget it", "do not", "none of those", "neither one", "no thank you", "not at all", "neither of those",
+       "cancel",
+       "none of these", "no one", "nothing thanks"}  # fmt: skip
+NOTHING_THEN = "All right, I do nothing."
+
+
+def agrees(answer: str) -> bool:
+    """Whether an answer is *yes*."""
+    return _said(answer) in _YES
+
+
+def declines(answer: str) -> bool:
+    """Whether an answer is *no*, *neither*, *never mind*."""
+    return _said(answer) in _NO
+
+
+def _said(answer: str) -> str:
+    return " ".join(word.text for word in words_of(answer) if word.kind == "word" and word.text != "please")
 
 
 def select(

@@ -13,11 +13,11 @@ from typing import Any
 
 from majordomo.planner.grammar.parser import CommandGrammar
 from majordomo.planner.grammar.tokens import text_flaw
-from majordomo.planner.interpreter import Choices, Interpreter, Reading
+from majordomo.planner.interpreter import DOUBT, Choices, Interpreter, Reading
 from majordomo.planner.model_rounds import ModelRounds
 from majordomo.planner.models.protocol import CORRECTABLE, FailureKind, LanguageModel, ModelFailure
 from majordomo.planner.plan import Dialogue, Interpretation, Kind
-from majordomo.planner.selection import select
+from majordomo.planner.selection import NOTHING_THEN, agrees, declines, select
 from majordomo.planner.verifier import Verifier
 from majordomo.scene_graph.snapshot import Snapshot
 
@@ -75,6 +75,8 @@ class TaskPlanner:
                 break
             if not answer.strip():
                 continue
+            if declines(answer):
+                return text, Reading(interpretation=Interpretation(kind=Kind.REFUSE, reply=NOTHING_THEN))
             text, choices = self._take_answer(text, answer, reading, choices, snapshot)
             reading = self._interpreter.read(text, snapshot, dialogue, choices)
         return text, reading
@@ -85,6 +87,8 @@ class TaskPlanner:
         """The request and the settled phrases after one answer: a choice, a destination, or a new request."""
         if text_flaw(answer) is not None:
             return text, choices
+        if reading.asked == DOUBT and agrees(answer):
+            return text, {**choices, DOUBT: (DOUBT,)}
         candidates = reading.interpretation.candidates
         if candidates:
             chosen = select(answer, candidates, snapshot, self._interpreter, self._grammar)

@@ -77,8 +77,39 @@ SYNONYMS: tuple[tuple[str, ...], ...] = (
     ("storage", "storage room", "storeroom", "store room", "utility room"),
     ("laundry", "laundry room"),
     ("garage", "carport"),
+    ("library", "reading room"),
+    ("workshop", "studio"),
+    ("lobby", "reception", "vestibule"),
+    ("meeting room", "conference room", "boardroom"),
+    ("attic", "loft"),
+    ("basement", "cellar"),
+    ("lab", "laboratory"),
+    ("nursery", "playroom", "kids room", "children's room"),
+    ("gym", "fitness room"),
+    ("balcony", "terrace"),
+    ("stairs", "staircase", "stairwell"),
+    ("ward", "patient room"),
+    ("canteen", "cafeteria", "break room"),
 )
 """Groups of words for one thing; the first is only the name of the group, any of them may be a graph's label."""
+
+ROOM_LABELS = frozenset(
+    {"living room", "bedroom", "bathroom", "hall", "office", "dining room", "kitchen", "pantry", "storage", "laundry"}
+    | {
+        "garage",
+        "library",
+        "workshop",
+        "lobby",
+        "meeting room",
+        "conference room",
+        "attic",
+        "basement",
+        "cellar",
+        "lab",
+    }
+    | {"nursery", "playroom", "gym", "balcony", "stairs", "ward", "classroom", "canteen", "break room", "reception"}
+)
+"""Groups of ``SYNONYMS`` that name rooms, by their first word."""
 
 KINDS: dict[str, tuple[str, ...]] = {
     "fruit": ("apple", "banana", "orange", "pear", "lemon", "grape", "mango", "peach"),
@@ -179,6 +210,17 @@ def normal(label: str) -> str:
     return " ".join(label.lower().replace("_", " ").split())
 
 
+def is_room_label(word: str) -> bool:
+    """Whether ``word`` names a kind of room."""
+    return normal(word).rpartition(" ")[2] == "room" or bool(_ROOM_LABELS & words_for(word))
+
+
+def is_known(word: str) -> bool:
+    """Whether ``word`` is a noun of this table."""
+    base = normal(word)
+    return bool({base, singular(base)} & _NOUNS) or is_room_label(word)
+
+
 def known_nouns() -> Iterable[str]:
     """Every noun of this table, for recognizing multi-word names."""
     for group in SYNONYMS:
@@ -198,3 +240,5 @@ def _groups() -> dict[str, frozenset[str]]:
 
 
 _GROUPS = _groups()
+_NOUNS = frozenset(known_nouns())
+_ROOM_LABELS = frozenset(word for group in SYNONYMS if group[0] in ROOM_LABELS for word in group)

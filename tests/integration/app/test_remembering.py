@@ -10,7 +10,7 @@ from majordomo.app.remembering import building_folder
 from majordomo.app.runtime import Runtime
 from majordomo.app.scene_documents import document_nodes
 from majordomo.app.settings import ClockMode, Settings
-from majordomo.app.teaching import teach
+from majordomo.planner.lessons import teach
 from majordomo.scene_graph.nodes import RoomNode
 
 pytestmark = [pytest.mark.anyio, pytest.mark.slow]

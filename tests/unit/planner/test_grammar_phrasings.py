@@ -81,7 +81,7 @@ PLANS = [
     ("move the cups from the kitchen to the desk", "on(cup_1, desk_1) on(cup_2, desk_1)"),
     ("bring me two cups", "given(cup_1, person_2) given(cup_3, person_2)"),
     ("bring me 2 of the cups", "given(cup_1, person_2) given(cup_3, person_2)"),
-    ("bring me all three cups", None),
+    ("bring me all three cups", "given(cup_1, person_2) given(cup_2, person_2) given(cup_3, person_2)"),
     ("bring me the three cups", "given(cup_1, person_2) given(cup_2, person_2) given(cup_3, person_2)"),
     ("bring me a cup", "given(cup_1, person_2)"),
     ("bring me any of the cups", "given(cup_1, person_2)"),
@@ -126,7 +126,7 @@ PLANS = [
     ("come back", "robot_at(person_2)"),
     ("return to me", "robot_at(person_2)"),
     ("come over here please", "robot_at(person_2)"),
-    ("go to the kitchen and then to the office", None),
+    ("go to the kitchen and then to the office", "robot_at(room_1) robot_at(room_4)"),
     ("go to the kitchen, then go to the office", "robot_at(room_1) robot_at(room_4)"),
     # find, pick
     ("find the remote control", "found(remote_1)"),
@@ -150,7 +150,7 @@ PLANS = [
     ("bring me the apple and then go to the kitchen", "given(apple_1, person_2) robot_at(room_1)"),
     ("first bring the book to the kitchen, after that come back", "in(book_1, room_1) robot_at(person_2)"),
     ("put the apple on the desk; then put the book next to it", "on(apple_1, desk_1) near(book_1, apple_1)"),
-    ("bring the apple to Anna, then the user the book", None),
+    ("bring the apple to Anna, then the user the book", "given(apple_1, person_1) given(book_1, person_2)"),
     ("take the blue bottle to the office, put it on the desk, and come back",
      "on(bottle_1, desk_1) robot_at(person_2)"),
     ("drive to the living room and look for the remote there", "robot_at(room_3) found(remote_1)"),
@@ -169,15 +169,14 @@ CLARIFIED = [
     ("bring both cups", "cup_1 cup_2 cup_3"),
     ("put the book", ""),
     ("carry the book", ""),
-    ("bring me the cup unless it is red", ""),
+    ("bring me the cup unless it is red", "cup_1 cup_2 cup_3"),
     ("do not bring me the apple", ""),
-    ("bring me everything except the apple", ""),
     ("bring the apple or the book", ""),
-    ("if the door is open, go to the kitchen", ""),
-    ("bring me the second cup", ""),
+    ("the apple belongs on the desk", ""),
+    ("bring me the second cup", "cup_1 cup_2 cup_3"),
     ("bring me the apple tomorrow", ""),
     ("go to the kitchen without the bottle", ""),
-    ("bring me the other cup", ""),
+    ("bring me the other cup", "cup_1 cup_2 cup_3"),
     ("go to the kitchen and frobnicate the flumox", ""),
     ("the apple", ""),
     ("apple desk put", ""),
@@ -278,18 +277,10 @@ def read(text):
     return INTERPRETER.read(text, SNAPSHOT, Dialogue()).interpretation
 
 
-@pytest.mark.parametrize(("text", "goals"), [case for case in PLANS if case[1] is not None])
+@pytest.mark.parametrize(("text", "goals"), PLANS)
 def test_a_command_becomes_these_goals(text, goals):
     found = read(text)
     assert (found.kind, " ".join(map(str, found.goals))) == (Kind.PLAN, goals), found.reply
-
-
-@pytest.mark.parametrize("text", [case[0] for case in PLANS if case[1] is None])
-def test_elliptic_commands_are_asked_about_rather_than_half_done(text):
-    found = read(text)
-    assert found.kind in (Kind.CLARIFY, Kind.REFUSE)
-    assert found.goals == ()
-    assert found.reply
 
 
 @pytest.mark.parametrize(("text", "candidates"), CLARIFIED)

@@ -11,7 +11,7 @@ from majordomo.app.http.problems import Problem
 from majordomo.app.map_picture import map_svg
 from majordomo.app.runtime import Runtime
 from majordomo.app.scene_documents import InvalidQuery, document_nodes, query_scene, scene_path
-from majordomo.app.teaching import NotTeachable, teach
+from majordomo.planner.lessons import NotTeachable, teach
 from majordomo.scene_graph.errors import NodeNotFound, TransactionRejected, UnknownLayer, UnknownRegion, UnknownRoom
 
 Frame = Literal["map", "room"]

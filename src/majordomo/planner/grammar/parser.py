@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cache
 from importlib import resources
@@ -12,35 +12,19 @@ from lark import Lark, Token, Tree, UnexpectedInput
 from lark.lexer import Lexer
 from lark.visitors import CollapseAmbiguities
 
-from majordomo.planner.grammar.lexer import Lexicon, Terminal, clauses, typed
+from majordomo.planner.grammar.lexer import ACTING, Lexicon, Terminal, asks, clauses, sentences, typed
+from majordomo.planner.grammar.lookahead import LookaheadParser
 from majordomo.planner.grammar.phrases import is_sensible
 from majordomo.planner.grammar.reading import Reader
-from majordomo.planner.grammar.syntax import NounPhrase, Step
+from majordomo.planner.grammar.sentences import Clause, Forbidden, Fork, Part, Structure, Unclear
+from majordomo.planner.grammar.syntax import Ask, Carry, NounPhrase, Step
 
 MAX_STEPS = 20
 MAX_STEP_TOKENS = 60
+MAX_SENTENCE_TOKENS = 200
 MAX_READINGS = 24
-_QUESTION_STARTS = frozenset(
-    [
-        "WHERE",
-        "WHAT",
-        "WHICH",
-        "WHO",
-        "HOW_MANY",
-        "COUNT",
-        "LIST",
-        "TELL",
-        "BE",
-        "DO",
-        "CAN",
-        "CAN_YOU",
-        "WHICH_ROOM",
-        "WHICH_ROOMS",
-        "LIST_ROOMS",
-        "WHETHER",
-        "HELP",
-    ]
-)
+_SOFT = frozenset({"tidy", "call", "label", "rename", "relabel"})
+"""Verbs that are understood in some sentences only, and refused by name in all others."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -67,11 +51,38 @@ class Unable:
     verb: str
 
 
-ParsedStep = Understood | NotUnderstood | Unable
+@dataclass(frozen=True, kw_only=True)
+class Refrain:
+    """One step that is not to be done: its words, and every reading of what it forbids."""
+
+    text: str
+    readings: tuple[Step, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Choice:
+    """Steps that depend on a question; ``condition`` None: ``otherwise`` is for when ``then`` has no referent."""
+
+    text: str
+    condition: tuple[Ask, ...] | None
+    negated: bool
+    then: tuple[ParsedStep, ...]
+    otherwise: tuple[ParsedStep, ...]
+
+
+ParsedStep = Understood | NotUnderstood | Unable | Refrain | Choice
+
+
+def flattened(steps: Iterable[ParsedStep]) -> Iterator[ParsedStep]:
+    """Every step, those of both branches of a choice included."""
+    for step in steps:
+        yield step
+        if isinstance(step, Choice):
+            yield from flattened((*step.then, *step.otherwise))
 
 
 class _TokenStream(Lexer):
-    """Hands Lark the terminals that ``lexer.clauses`` found."""
+    """Hands Lark the terminals that ``lexer.sentences`` found."""
 
     __future_interface__ = 1
 
@@ -80,8 +91,7 @@ class _TokenStream(Lexer):
 
     def lex(self, lexer_state: Any, parser_state: Any = None) -> Iterator[Token]:
         del parser_state
-        for terminal in lexer_state.text:
-            yield Token(terminal.type, terminal.value)
+        yield from lexer_state.text
 
 
 class CommandGrammar:
@@ -93,50 +103,104 @@ class CommandGrammar:
 
     def parse(self, text: str, lexicon: Lexicon) -> list[ParsedStep]:
         """The steps of ``text`` in order; empty when it holds only courtesy, one not understood when too many."""
-        steps = clauses(text, lexicon)
-        if len(steps) > MAX_STEPS:
-            return [NotUnderstood(text=f"{len(steps)} steps at once; I take at most {MAX_STEPS}")]
-        return [self._step(step) for step in steps]
+        found = sentences(text, lexicon)
+        count = sum(len(clauses(sentence)) for sentence in found)
+        if count > MAX_STEPS:
+            return [NotUnderstood(text=f"{count} steps at once; I take at most {MAX_STEPS}")]
+        long = next((sentence for sentence in found if len(sentence) > MAX_SENTENCE_TOKENS), None)
+        if long is not None:
+            return [NotUnderstood(text=typed(long)[:200])]
+        structure = Structure(_parses)
+        for sentence in found:
+            structure.add(sentence)
+        return [_parsed(part) for part in structure.parts]
 
     def phrase(self, text: str, lexicon: Lexicon) -> tuple[NounPhrase, ...]:
         """Readings of ``text`` as a single noun phrase (*the blue one*), for answers to a question."""
-        steps = clauses(text, lexicon)
-        if len(steps) != 1:
+        found = sentences(text, lexicon)
+        if len(found) != 1 or len(found[0]) > MAX_STEP_TOKENS:
             return ()
-        readings = _readings("np", steps[0])
+        readings = _readings("np", found[0])
         return tuple(reading for reading in readings if isinstance(reading, NounPhrase))
 
-    def _step(self, step: Sequence[Terminal]) -> ParsedStep:
-        text = typed(step)
-        unable = next((token for token in step if token.type == "UNABLE"), None)
-        if unable is not None:
-            return Unable(text=text, verb=unable.value)
-        if len(step) > MAX_STEP_TOKENS:
-            return NotUnderstood(text=text[:200])
-        strange = next((token for token in step if token.type in ("MEANING", "JUNK")), None)
-        if strange is not None:
-            return NotUnderstood(text=text, at=strange.typed)
-        readings = tuple(_readings("question" if step[0].type in _QUESTION_STARTS else "command", step))
-        return Understood(text=text, readings=readings) if readings else NotUnderstood(text=text)
+
+def _parsed(part: Part) -> ParsedStep:
+    match part:
+        case Clause():
+            return _step(part.tokens)
+        case Forbidden():
+            verb = next((k for k, token in enumerate(part.tokens) if token.type in ACTING), len(part.tokens))
+            readings = tuple(_readings("command", part.tokens[verb:])) if verb < len(part.tokens) else ()
+            return Refrain(text=typed(part.tokens), readings=readings)
+        case Unclear():
+            unable = next((token for token in part.tokens if token.type == "UNABLE"), None)
+            text = typed(part.tokens)
+            return Unable(text=text, verb=unable.value) if unable is not None else NotUnderstood(text=text)
+        case Fork():
+            asked = tuple(r for r in _readings("condition", part.condition) if isinstance(r, Ask))
+            return Choice(
+                text=typed(part.condition),
+                condition=asked if part.condition else None,
+                negated=part.negated,
+                then=tuple(map(_parsed, part.then)),
+                otherwise=tuple(map(_parsed, part.otherwise)),
+            )
+
+
+def _step(step: Sequence[Terminal]) -> ParsedStep:
+    text = typed(step)
+    unable = next((token for token in step if token.type == "UNABLE"), None)
+    if unable is not None:
+        return Unable(text=text, verb=unable.value)
+    if len(step) > MAX_STEP_TOKENS:
+        return NotUnderstood(text=text[:200])
+    strange = next((token for token in step if token.type in ("MEANING", "JUNK", "PAST")), None)
+    if strange is not None:
+        return NotUnderstood(text=text, at=strange.typed)
+    readings = tuple(_readings("question" if asks(step) else "command", step))
+    if step[0].typed in _SOFT and not any(_is_settled(reading) for reading in readings):
+        return Unable(text=text, verb=step[0].typed)
+    if readings:
+        return Understood(text=text, readings=readings)
+    return NotUnderstood(text=text, at=step[0].typed if step[0].type == "WORD" else "")
+
+
+def _is_settled(reading: Step) -> bool:
+    return not isinstance(reading, Carry) or reading.destination is not None
 
 
 @cache
-def _lark() -> Lark:
+def _lark() -> LookaheadParser:
     source = resources.files(__package__).joinpath("commands.lark").read_text(encoding="utf-8")
-    return Lark(
+    lark = Lark(
         source,
         parser="earley",
         lexer=_TokenStream,
         ambiguity="explicit",
-        start=["command", "question", "np"],
+        start=["command", "deed", "question", "condition", "np"],
         maybe_placeholders=False,
     )
+    return LookaheadParser(lark)
+
+
+def _forest(start: str, step: Sequence[Terminal]) -> Tree[Token] | None:
+    tokens = tuple(Token(terminal.type, terminal.value) for terminal in step)
+    try:
+        return _lark().parse(tokens, start)
+    except UnexpectedInput:
+        return None
+
+
+def _parses(start: str, tokens: Sequence[Terminal]) -> bool:
+    """Whether ``start`` derives ``tokens``; a bare statement is no command."""
+    if len(tokens) > MAX_STEP_TOKENS or any(token.type in ("UNABLE", "MEANING", "JUNK") for token in tokens):
+        return False
+    return _forest(start, tokens) is not None
 
 
 def _readings(start: str, step: Sequence[Terminal]) -> list[Any]:
-    try:
-        forest: Tree[Token] = _lark().parse(step, start=start)
-    except UnexpectedInput:
+    forest = _forest(start, step)
+    if forest is None:
         return []
     trees = CollapseAmbiguities().transform(forest)
     found: list[Any] = []

@@ -7,12 +7,29 @@ from typing import Any
 
 from lark import Token, Transformer
 
-from majordomo.planner.grammar.syntax import NounPhrase, Pronoun, Quantity, Reference, Restriction
+from majordomo.planner.grammar.syntax import NounPhrase, Pronoun, Quantity, Reference, Restriction, Spot
 from majordomo.planner.vocabulary import is_plural
 
 Children = list[Any]
 _SIZE = {"BIG": "big", "SMALL": "small"}
-_SUPERLATIVE = {"NEAREST": "nearest", "LARGEST": "largest", "SMALLEST": "smallest"}
+SUPERLATIVE = {
+    "NEAREST": "nearest",
+    "FARTHEST": "farthest",
+    "LARGEST": "largest",
+    "SMALLEST": "smallest",
+    "LEFTMOST": "leftmost",
+    "RIGHTMOST": "rightmost",
+}
+_COMPARATIVE = {
+    "bigger": "largest",
+    "larger": "largest",
+    "taller": "largest",
+    "smaller": "smallest",
+    "shorter": "smallest",
+}
+ORDINALS = {
+    "first": 1, "1st": 1, "second": 2, "2nd": 2, "third": 3, "3rd": 3, "fourth": 4, "4th": 4, "fifth": 5, "5th": 5
+}  # fmt: skip
 
 
 def values_of(children: Children) -> Children:
@@ -30,9 +47,18 @@ class PhraseReader(Transformer[Token, Any]):
 
     def np(self, children: Children) -> NounPhrase:
         phrase = NounPhrase(words=())
-        for part in children:
+        for part in values_of(children):
             phrase = replace(phrase, **_merged(phrase, part))
-        return phrase
+        if any(isinstance(child, Token) and child.type in ("OF", "ONE") for child in children):
+            phrase = replace(phrase, quantity=Quantity.THE, count=None, **_of_several(phrase))
+        return phrase if _may_except(phrase) else replace(phrase, words=())
+
+    def door_to(self, children: Children) -> NounPhrase:
+        phrase = NounPhrase(words=("door",))
+        *parts, reference = values_of(children)
+        for part in parts:
+            phrase = replace(phrase, **_merged(phrase, part))
+        return replace(phrase, restrictions=(Restriction(relation="to", reference=reference),))
 
     def the(self, _: Children) -> dict[str, Any]:
         return {"quantity": Quantity.THE}
@@ -58,10 +84,23 @@ class PhraseReader(Transformer[Token, Any]):
     def modifier(self, children: Children) -> dict[str, Any]:
         (token,) = children
         if token.type in _SIZE:
-            return {"sizes": (_SIZE[token.type],)}
-        if token.type in _SUPERLATIVE:
-            return {"superlative": _SUPERLATIVE[token.type]}
+            return {"sizes": (str(token) if str(token) in _COMPARATIVE else _SIZE[token.type],)}
+        if token.type in SUPERLATIVE:
+            return {"superlative": SUPERLATIVE[token.type]}
+        if token.type == "ORDINAL":
+            return {"rank": ORDINALS[str(token)]}
+        if token.type == "OTHER":
+            return {"other": True}
+        if token.type == "STATE":
+            return {"restrictions": (Restriction(relation="state", word=str(token)),)}
         return {"colors": (str(token),)}
+
+    def modifier_not(self, children: Children) -> dict[str, Any]:
+        return {"restrictions": (Restriction(relation="color", word=str(children[-1]), negated=True),)}
+
+    def modifier_either(self, children: Children) -> dict[str, Any]:
+        colors = tuple(str(token) for token in children if token.type == "COLOR")
+        return {"colors": colors, "either": True}
 
     def head(self, children: Children) -> dict[str, Any]:
         numbers = [int(token) for token in children if token.type == "NUMBER"]
@@ -70,22 +109,69 @@ class PhraseReader(Transformer[Token, Any]):
         return {"words": words, "number": numbers[0] if numbers else None, "person": person}
 
     def everything(self, children: Children) -> NounPhrase:
-        restrictions = values_of(children)
-        return NounPhrase(
-            words=("things",), quantity=Quantity.ALL, restriction=restrictions[0] if restrictions else None
-        )
+        phrase = NounPhrase(words=("things",), quantity=Quantity.ALL)
+        for part in values_of(children):
+            phrase = replace(phrase, **_merged(phrase, part))
+        return phrase
+
+    def headless(self, children: Children) -> NounPhrase:
+        token = children[-1]
+        if token.type in _SIZE:
+            return NounPhrase(words=("one",), quantity=Quantity.THE, sizes=(_SIZE[token.type],))
+        if any(child.type == "NOT" for child in children):
+            color = Restriction(relation="color", word=str(token), negated=True)
+            return NounPhrase(words=("one",), quantity=Quantity.THE, restrictions=(color,))
+        return NounPhrase(words=("one",), quantity=Quantity.THE, colors=(str(token),))
+
+    def whatever(self, children: Children) -> NounPhrase:
+        return NounPhrase(words=("things",), quantity=Quantity.THE, restrictions=tuple(values_of(children)))
+
+    def exception(self, children: Children) -> tuple[str, tuple[Reference, ...]]:
+        return ("exceptions", tuple(values_of(children)))
+
+    def spot(self, children: Children) -> Spot:
+        return Spot(thing=values_of(children)[0], past="was" in tokens_of(children) or "were" in tokens_of(children))
 
     def held(self, _: Children) -> NounPhrase:
-        return NounPhrase(words=("thing",), quantity=Quantity.THE, restriction=Restriction(relation="held"))
+        return NounPhrase(words=("thing",), quantity=Quantity.THE, restrictions=(Restriction(relation="held"),))
 
     def relation(self, children: Children) -> str:
         token = children[0]
-        names: dict[str, str] = {"ONTO": "on", "INTO": "in", "BESIDE": str(token)}
+        names: dict[str, str] = {"ONTO": "on", "INTO": "in", "OFF": "from", "BESIDE": str(token)}
+        if str(token) == "out of":
+            return "out of"
         return names.get(token.type, str(token.type).lower())
 
     def restriction(self, children: Children) -> Restriction:
         relation, reference = values_of(children)
         return Restriction(relation=relation, reference=reference)
+
+    def things_two(self, children: Children) -> tuple[Reference, Reference]:
+        one, other = values_of(children)
+        return one, other
+
+    def restricted_between(self, children: Children) -> Restriction:
+        relation, (one, other) = values_of(children)
+        return Restriction(relation=relation, reference=one, other=other)
+
+    def restricted_not(self, children: Children) -> Restriction:
+        return replace(self.restriction(children), negated=True)
+
+    def restricted_color(self, children: Children) -> Restriction:
+        token = next(child for child in children if child.type in ("COLOR", "ORANGE"))
+        return Restriction(relation="color", word=str(token))
+
+    def restricted_not_color(self, children: Children) -> Restriction:
+        return replace(self.restricted_color(children), negated=True)
+
+    def restricted_state(self, children: Children) -> Restriction:
+        return Restriction(relation="state", word=str(children[-1]), negated=_has(children, "NOT"))
+
+    def restricted_with(self, children: Children) -> Restriction:
+        return Restriction(relation="with", reference=values_of(children)[0])
+
+    def restricted_same_room(self, children: Children) -> Restriction:
+        return Restriction(relation="same room", reference=values_of(children)[0])
 
     def restricted_here(self, _: Children) -> Restriction:
         return Restriction(relation="here")
@@ -102,11 +188,14 @@ class PhraseReader(Transformer[Token, Any]):
     def pronoun(self, children: Children) -> Pronoun:
         return Pronoun(word=children[0].type.lower())
 
-    def it(self, _: Children) -> Pronoun:
-        return Pronoun(word="it")
+    def it(self, children: Children) -> Pronoun:
+        return Pronoun(word="that" if children[0].type == "THIS" else "it")
 
     def things(self, children: Children) -> tuple[Reference, ...]:
-        return tuple(values_of(children))
+        values = values_of(children)
+        if [token.type for token in tokens_of(children)] == ["COMMA"] and len(values) == 2:
+            return _apposed(*values)
+        return tuple(values)
 
     def recipient(self, children: Children) -> Reference:
         token = children[-1]
@@ -118,11 +207,40 @@ class PhraseReader(Transformer[Token, Any]):
         return NounPhrase(words=(str(children[0]),), quantity=Quantity.THE, person=True)
 
 
-def _merged(phrase: NounPhrase, part: dict[str, Any] | Restriction) -> dict[str, Any]:
+def _may_except(phrase: NounPhrase) -> bool:
+    """Whether something can be left out of it: of *all cups* or *any cup*, not of *the box*."""
+    several = phrase.quantity not in (Quantity.THE, Quantity.THIS, Quantity.BARE)
+    return not phrase.exceptions or several or is_plural(phrase.words[-1])
+
+
+def _apposed(first: Reference, second: Reference) -> tuple[Reference, ...]:
+    """*The cup, the red one*: one thing, said twice."""
+    if not isinstance(first, NounPhrase) or not isinstance(second, NounPhrase) or second.words != ("one",):
+        return (first, second)
+    superlative, rank = second.superlative or first.superlative, second.rank or first.rank
+    colors, sizes = (*first.colors, *second.colors), (*first.sizes, *second.sizes)
+    restrictions = (*first.restrictions, *second.restrictions)
+    return (replace(first, colors=colors, sizes=sizes, restrictions=restrictions, superlative=superlative, rank=rank),)
+
+
+def _has(children: Children, kind: str) -> bool:
+    return any(isinstance(child, Token) and child.type == kind for child in children)
+
+
+def _of_several(phrase: NounPhrase) -> dict[str, Any]:
+    """*The bigger of the two cups*: of a comparative, the one at that end."""
+    comparative = {"big": "largest", "small": "smallest", **_COMPARATIVE}
+    ends = [comparative[size] for size in phrase.sizes if size in comparative]
+    return {"superlative": ends[0], "sizes": ()} if ends else {}
+
+
+def _merged(phrase: NounPhrase, part: Any) -> dict[str, Any]:
     if isinstance(part, Restriction):
-        return {"restriction": part}
+        return {"restrictions": (*phrase.restrictions, part)}
+    if isinstance(part, tuple):
+        return {part[0]: part[1]}
     merged = dict(part)
-    for name in ("colors", "sizes"):
+    for name in ("colors", "sizes", "restrictions"):
         if name in merged:
             merged[name] = (*getattr(phrase, name), *merged[name])
     return merged
@@ -134,6 +252,12 @@ def _number(children: Children) -> int:
 
 def is_sensible(phrase: NounPhrase) -> bool:
     """Whether number and noun agree: *both the cup* is not English, so such a reading is dropped."""
+    if not phrase.words:
+        return False
+    if phrase.either:
+        return is_plural(phrase.words[-1]) or phrase.words[-1] == "ones"
+    if phrase.other and phrase.rank is not None:
+        return False
     if phrase.quantity in (Quantity.BOTH, Quantity.EXACTLY) and (phrase.count or 0) > 1:
         return is_plural(phrase.words[-1]) or phrase.words[-1] in ("ones", "people")
     return True

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
-from majordomo.planner.grammar.phrases import Children, PhraseReader, tokens_of, values_of
+from majordomo.planner.grammar.phrases import ORDINALS, SUPERLATIVE, Children, PhraseReader, tokens_of, values_of
 from majordomo.planner.grammar.syntax import (
     Ask,
     Carry,
@@ -12,6 +13,7 @@ from majordomo.planner.grammar.syntax import (
     Find,
     Go,
     NounPhrase,
+    Perhaps,
     Pick,
     Pronoun,
     PutBack,
@@ -20,8 +22,14 @@ from majordomo.planner.grammar.syntax import (
     Reference,
     Restriction,
     Several,
+    Spot,
+    Step,
+    Teach,
 )
 from majordomo.planner.plan import QueryKind
+
+NONSENSE = NounPhrase(words=())
+"""Stands where words would be dropped; no reading with it is kept."""
 
 
 class Reader(PhraseReader):
@@ -45,9 +53,32 @@ class Reader(PhraseReader):
     def dest_there(self, _: Children) -> Destination:
         return Destination(relation="to", reference=Pronoun(word="there"))
 
+    def dest_beside(self, children: Children) -> Destination:
+        return Destination(relation=str(tokens_of(children)[0]), reference=values_of(children)[0])
+
+    def dest_spot(self, children: Children) -> Destination:
+        return Destination(relation="to", reference=values_of(children)[0])
+
     def place(self, children: Children) -> Destination:
         destination: Destination = children[0]
         return destination
+
+    def with_exception(self, children: Children) -> Step:
+        deed, (_, left_out) = values_of(children)
+        things = tuple(
+            replace(thing, exceptions=(*thing.exceptions, *left_out)) if isinstance(thing, NounPhrase) else thing
+            for thing in getattr(deed, "things", ())
+        )
+        return replace(deed, things=things) if things else Go(target=NONSENSE)
+
+    def statement(self, children: Children) -> Perhaps:
+        things, destination = values_of(children)
+        return Perhaps(step=Carry(things=_as_things(things), destination=destination))
+
+    def wants(self, children: Children) -> Perhaps:
+        person = NounPhrase(words=(str(children[0]),), quantity=Quantity.THE, person=True)
+        destination = Destination(relation="to", reference=person)
+        return Perhaps(step=Carry(things=values_of(children)[0], destination=destination, verb="bring"))
 
     def bring(self, children: Children) -> Carry:
         values = values_of(children)
@@ -69,13 +100,21 @@ class Reader(PhraseReader):
         values = values_of(children)
         pairs = zip(values[::2], values[1::2], strict=True)
         verb = _verb(children)
-        return Several(steps=tuple(Carry(things=things, destination=to, verb=verb) for things, to in pairs))
+        return Several(steps=tuple(_carried(one, other, verb) for one, other in pairs))
+
+    def go_several(self, children: Children) -> Several:
+        return Several(steps=tuple(Go(target=target) for target in values_of(children)))
 
     def carry_nowhere(self, children: Children) -> Carry:
         return Carry(things=values_of(children)[0], destination=None, verb=_verb(children))
 
     def put_back(self, children: Children) -> PutBack:
-        return PutBack(things=values_of(children)[0])
+        values = values_of(children)
+        meant = all(value.past for value in values[1:])
+        return PutBack(things=values[0] if meant else (NONSENSE,))
+
+    def past_spot(self, children: Children) -> Spot:
+        return Spot(thing=Pronoun(word="it"), past=str(tokens_of(children)[-1]) in ("was", "were"))
 
     def put_down(self, children: Children) -> PutDown:
         return PutDown(things=values_of(children)[0])
@@ -101,6 +140,27 @@ class Reader(PhraseReader):
 
     def pick(self, children: Children) -> Pick:
         return Pick(things=values_of(children)[0])
+
+    def called(self, children: Children) -> Teach:
+        words = tuple(str(token) for token in children if token.type not in ("THE", "A", "MY", "THAT"))
+        return Teach(words=words, named=not any(token.type == "A" for token in children))
+
+    def called_mine(self, children: Children) -> Teach:
+        called: Teach = self.called(children)
+        return replace(called, mine=True)
+
+    def teach_this(self, children: Children) -> Teach:
+        return replace(_teach(children), target=Pronoun(word="this"))
+
+    def teach_that(self, children: Children) -> Teach:
+        return replace(_teach(children), target=Pronoun(word="that"))
+
+    def teach_me(self, children: Children) -> Teach:
+        sure = tokens_of(children)[0].type == "MY_NAME"
+        return replace(_teach(children), target=Pronoun(word="me"), named=sure)
+
+    def teach_np(self, children: Children) -> Teach:
+        return replace(_teach(children), target=values_of(children)[0])
 
     def question(self, children: Children) -> Ask:
         asked: Ask = values_of(children)[0]
@@ -130,11 +190,99 @@ class Reader(PhraseReader):
     def seen(self, _: Children) -> Ask:
         return Ask(kind=QueryKind.SEEN)
 
+    def describe(self, children: Children) -> Ask:
+        return Ask(kind=QueryKind.LIST, place=Restriction(relation="at", reference=values_of(children)[0]))
+
     def exists(self, children: Children) -> Ask:
         return _about(QueryKind.EXISTS, children)
 
+    def exists_no(self, children: Children) -> Ask:
+        return replace(_about(QueryKind.EXISTS, children), negated=True)
+
     def exists_at(self, children: Children) -> Ask:
         return _about(QueryKind.EXISTS, children)
+
+    def seen_if(self, children: Children) -> Ask:
+        return _about(QueryKind.EXISTS, children)
+
+    def compared(self, children: Children) -> Ask:
+        (least, most), phrase = values_of(children)
+        return replace(_about(QueryKind.EXISTS, [phrase]), least=least, most=most)
+
+    def comparison(self, children: Children) -> tuple[int | None, int | None]:
+        kind, number = children[0].type, int(children[1])
+        return {
+            "MORE_THAN": (number + 1, None),
+            "AT_LEAST": (number, None),
+            "LESS_THAN": (None, number - 1),
+            "AT_MOST": (None, number),
+        }[kind]
+
+    def open_closed(self, children: Children) -> Ask:
+        return _is_so("state", children)
+
+    def is_colored(self, children: Children) -> Ask:
+        return _is_so("color", children)
+
+    def which_most(self, children: Children) -> Ask:
+        phrase, *rest = values_of(children)
+        merged = replace(phrase, quantity=Quantity.ALL, **(rest[0] if rest else {}))
+        return Ask(kind=QueryKind.WHERE, things=(merged,))
+
+    def most(self, children: Children) -> dict[str, Any]:
+        found: dict[str, Any] = {}
+        for token in tokens_of(children):
+            if token.type == "ORDINAL":
+                found["rank"] = ORDINALS[str(token)]
+            elif token.type in ("BIG", "SMALL"):
+                found["superlative"] = "largest" if token.type == "BIG" else "smallest"
+            elif token.type in SUPERLATIVE:
+                found["superlative"] = SUPERLATIVE[token.type]
+        values = values_of(children)
+        if values and isinstance(values[0], Restriction):
+            found["restrictions"] = (values[0],)
+        elif values:
+            found["superlative"] = None
+            found["restrictions"] = (Restriction(relation="nearest", reference=values[0]),)
+        return found
+
+    def support(self, children: Children) -> Ask:
+        return Ask(kind=QueryKind.WHERE, things=next(v for v in values_of(children) if isinstance(v, tuple)))
+
+    def distance(self, children: Children) -> Ask:
+        return Ask(kind=QueryKind.DISTANCE, things=tuple(values_of(children)))
+
+    def size(self, children: Children) -> Ask:
+        return _about(QueryKind.SIZE, children)
+
+    def way(self, children: Children) -> Ask:
+        values = values_of(children)
+        backwards = [token.type for token in tokens_of(children)][:2] == ["WAY", "FROM"]
+        return Ask(kind=QueryKind.PATH, things=tuple(reversed(values)) if backwards else tuple(values))
+
+    def last_seen(self, children: Children) -> Ask:
+        return Ask(kind=QueryKind.LAST_SEEN, things=values_of(children)[0])
+
+    def did(self, _: Children) -> Ask:
+        return Ask(kind=QueryKind.DONE)
+
+    def failure(self, _: Children) -> Ask:
+        return Ask(kind=QueryKind.FAILURE)
+
+    def doing(self, _: Children) -> Ask:
+        return Ask(kind=QueryKind.DOING)
+
+    def battery(self, _: Children) -> Ask:
+        return Ask(kind=QueryKind.BATTERY)
+
+    def own_name(self, _: Children) -> Ask:
+        return Ask(kind=QueryKind.NAME)
+
+    def own_self(self, _: Children) -> Ask:
+        return Ask(kind=QueryKind.NAME, things=(Pronoun(word="me"),))
+
+    def capable(self, children: Children) -> Ask:
+        return Ask(kind=QueryKind.CAPABLE, things=tuple(values_of(children)))
 
     def holding(self, children: Children) -> Ask:
         return Ask(kind=QueryKind.HOLDING, things=tuple(values_of(children)))
@@ -154,6 +302,19 @@ class Reader(PhraseReader):
         return Ask(kind=QueryKind.LIST, things=(people,), place=places[0] if places else None)
 
 
+def _is_so(relation: str, children: Children) -> Ask:
+    tokens = tokens_of(children)
+    place = Restriction(relation=relation, word=str(tokens[-1]))
+    negated = any(token.type == "NOT" for token in tokens)
+    return Ask(kind=QueryKind.EXISTS, things=(values_of(children)[0],), place=place, negated=negated)
+
+
+def _carried(one: Any, other: Any, verb: str) -> Carry:
+    if isinstance(other, Destination):
+        return Carry(things=_as_things(one), destination=other, verb=verb)
+    return Carry(things=_as_things(other), destination=Destination(relation="to", reference=one), verb=verb)
+
+
 def _about(kind: QueryKind, children: Children) -> Ask:
     values = values_of(children)
     place = next((value for value in values if isinstance(value, Restriction)), None)
@@ -167,3 +328,8 @@ def _verb(children: Children) -> str:
 
 def _as_things(value: Any) -> tuple[Reference, ...]:
     return value if isinstance(value, tuple) else (value,)
+
+
+def _teach(children: Children) -> Teach:
+    teach: Teach = values_of(children)[-1]
+    return teach

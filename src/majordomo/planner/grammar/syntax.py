@@ -23,15 +23,24 @@ class Quantity(StrEnum):
 
 @dataclass(frozen=True, kw_only=True)
 class Restriction:
-    """Narrows a noun phrase. ``relation``: on, in, near, from, at, nearest, held, here, there, or as typed."""
+    """Narrows a noun phrase. ``relation``: on, in, near, from, at, nearest, held, here, there, with, color, state, or
+    as typed. ``other``: the second reference of *between*. ``word``: the color or state. ``negated``: *not on*.
+    """
 
     relation: str
     reference: Reference | None = None
+    other: Reference | None = None
+    word: str = ""
+    negated: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)
 class NounPhrase:
-    """*the two big red cups on the table*: head words, quantity with its number, modifiers, restriction."""
+    """*the two big red cups on the table*: head words, quantity with its number, modifiers, restrictions.
+
+    ``rank``: of a superlative, 2 for *second largest*; alone, *the second cup*. ``other``: *the other cup*, not one
+    spoken of. ``either``: one of the colors is enough, *the red and green cups*. ``exceptions``: what is left out.
+    """
 
     words: tuple[str, ...]
     quantity: Quantity = Quantity.BARE
@@ -39,9 +48,13 @@ class NounPhrase:
     colors: tuple[str, ...] = ()
     sizes: tuple[str, ...] = ()
     superlative: str | None = None
-    restriction: Restriction | None = None
+    restrictions: tuple[Restriction, ...] = ()
     number: int | None = None
     person: bool = False
+    rank: int | None = None
+    other: bool = False
+    either: bool = False
+    exceptions: tuple[Reference, ...] = ()
 
     @property
     def head(self) -> str:
@@ -56,7 +69,15 @@ class Pronoun:
     word: str
 
 
-Reference = NounPhrase | Pronoun
+@dataclass(frozen=True, kw_only=True)
+class Spot:
+    """*where the apple is*, *where it was*: a place named by what is there, or was before it was moved."""
+
+    thing: Reference
+    past: bool = False
+
+
+Reference = NounPhrase | Pronoun | Spot
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -81,7 +102,24 @@ class Carry:
 class Several:
     """*Put the cup on the table and the book on the desk*: one verb, several things with a destination each."""
 
-    steps: tuple[Carry, ...]
+    steps: tuple[Carry | Go, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Perhaps:
+    """What a statement may be asking for: *the apple belongs on the desk*. It is asked about before it is done."""
+
+    step: Carry
+
+
+@dataclass(frozen=True, kw_only=True)
+class Teach:
+    """*This room is the office*: what ``target`` is called from now on. ``target`` None: whatever is pointed at."""
+
+    words: tuple[str, ...]
+    target: Reference | None = None
+    mine: bool = False
+    named: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -122,11 +160,17 @@ class Pick:
 
 @dataclass(frozen=True, kw_only=True)
 class Ask:
-    """A question about ``things``, limited to ``place``."""
+    """A question about ``things``, limited to ``place``.
+
+    ``negated``: *is the cup not on the table*. ``least``, ``most``: *are there at least two cups*.
+    """
 
     kind: QueryKind
     things: tuple[Reference, ...] = ()
     place: Restriction | None = None
+    negated: bool = False
+    least: int | None = None
+    most: int | None = None
 
 
-Step = Carry | Several | PutDown | PutBack | Go | Find | Pick | Ask
+Step = Carry | Several | Perhaps | PutDown | PutBack | Go | Find | Pick | Teach | Ask

@@ -20,6 +20,9 @@ _TOKEN = re.compile(
     """,
     re.VERBOSE,
 )
+_NON = re.compile(r"\bnon-(?=\w)")
+_COLORED = re.compile(r"(?<=\w)[- ]colou?red\b")
+_LISTED = re.compile(r"(?:(?<=^)|(?<=[\s.,;:]))(\d{1,2}[.)]|[-*•])\s+(?=[^\W\d_])")
 _QUOTES = str.maketrans({"’": "'", "‘": "'", "“": '"', "”": '"', "„": '"', "`": "'"})
 
 
@@ -47,6 +50,9 @@ def words_of(text: str) -> list[Word]:
     clean = unicodedata.normalize("NFKC", text).translate(_QUOTES).casefold().strip()
     if clean.count('"') == 2 and clean.startswith('"') and clean.endswith('"'):
         clean = clean[1:-1]
+    clean = _COLORED.sub("", _NON.sub("not ", clean))
+    if len(_LISTED.findall(clean)) > 1:
+        clean = _LISTED.sub("; ", clean)
     words: list[Word] = []
     for match in _TOKEN.finditer(clean):
         kind = match.lastgroup or "junk"

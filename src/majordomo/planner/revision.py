@@ -1,0 +1,151 @@
+"""What is said about the request before: *no, the red one*, *do it again*, *the other cup too*, *no, on the desk*."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from majordomo.planner.goals import PLACING, Goal, Predicate
+from majordomo.planner.grammar.syntax import Carry, NounPhrase, Pronoun, Step
+from majordomo.planner.grounding import Context, Grounding
+from majordomo.planner.matching import named
+from majordomo.planner.meaning import Meaning, Outcome
+from majordomo.planner.meant import Meant
+from majordomo.planner.plan import Exchange
+from majordomo.planner.vocabulary import normal
+from majordomo.scene_graph.nodes import ObjectNode, PersonNode, RoomNode
+
+_COURTESY = r"(?:sorry|oops|wait|hm+|um|ah|oh|hang on|excuse me|please)?[\s,.!]*"
+_NO = re.compile(
+    rf"^{_COURTESY}(?:no+|nope|not (?:that|this)(?: one)?|wrong(?: one)?|that(?: is|'s) wrong|not the \w+(?: one)?)\b"
+    r"[\s,.!;:-]*(?:sorry[\s,]*)?(?:(?:i|we) (?:meant|mean|said|want|wanted)(?: to say)?[\s,]*)?(?P<rest>.*)$"
+)
+_MEANT = re.compile(
+    rf"^{_COURTESY}(?:actually|rather|make (?:it|that)|(?:i|we) (?:meant|mean|said)(?: to say)?|better)[\s,]+"
+    r"(?P<rest>.+)$"
+)
+_INSTEAD = re.compile(r"^(?P<rest>.+?)[\s,]+(?:instead|rather|i meant|i mean)[\s.!]*$")
+_AGAIN = re.compile(
+    r"^(?:please\s+)?(?:do (?:it|that|the same(?: thing)?)(?: again| once more| one more time)"
+    r"|again|once more|one more time|(?:and )?the same again|repeat (?:that|it)|same again)[\s,.!]*(?:please)?[\s.!]*$"
+)
+_TOO = re.compile(
+    r"^(?:and |also |now |then )+(?P<rest>.+?)(?:[\s,]+(?:too|as well|also))?[\s.!?]*$|"
+    r"^(?P<rest2>.+?)[\s,]+(?:too|as well)[\s.!?]*$|"
+    r"^(?:do )?(?:the )?same (?:with|for|to) (?P<rest3>.+?)[\s.!?]*$|^what about (?P<rest4>.+?)[\s.!?]*$"
+)
+
+
+MAX_CHARACTERS = 200
+"""Remarks are short."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Revision:
+    """A remark about the request before. ``how``: correct, again or too; ``rest``: what is said beside that."""
+
+    how: str
+    rest: str = ""
+
+
+def revision(text: str) -> Revision | None:
+    """The remark that ``text`` is, if it is one; ``rest`` may still turn out to be a request of its own."""
+    said = " ".join(text.casefold().replace("’", "'").split())
+    if len(said) > MAX_CHARACTERS:
+        return None
+    if _AGAIN.match(said):
+        return Revision(how="again")
+    for pattern in (_NO, _MEANT, _INSTEAD):
+        found = pattern.match(said)
+        if found and found["rest"].strip(" .!?"):
+            return Revision(how="correct", rest=found["rest"].strip(" .!?"))
+    found = _TOO.match(said)
+    if found:
+        return Revision(how="too", rest=next(group for group in found.groups() if group))
+    return None
+
+
+class Reviser:
+    """Applies remarks to an earlier request on one graph."""
+
+    def __init__(self, grounding: Grounding, context: Context) -> None:
+        self._grounding, self._context = grounding, context
+        self._snapshot, self._meaning = grounding.snapshot, Meaning(grounding)
+
+    def again(self, earlier: Exchange) -> Meant:
+        """The same goals once more."""
+        return self._meant(earlier.goals)
+
+    def by_phrase(self, how: str, phrases: Sequence[NounPhrase], earlier: Exchange) -> Outcome | None:
+        """With another object or place in the earlier goals; None when the phrase fits neither."""
+        objects = tuple(dict.fromkeys(goal.args[0] for goal in earlier.goals if goal.object_id is not None))
+        places = tuple(
+            dict.fromkeys(goal.args[-1] for goal in earlier.goals if goal.predicate in PLACING | {Predicate.ROBOT_AT})
+        )
+        troubles: list[Outcome] = []
+        for old in (objects, places if how == "correct" else ()):
+            if len(old) != 1:
+                continue
+            context = replace(
+                self._context, noun=self._noun(old[0]), fresh=(), mentioned=(*old, *self._context.mentioned)
+            )
+            for phrase in phrases:
+                if phrase.words == ("one",) or self._alike(phrase, old[0]):
+                    outcome = self._replaced(phrase, old, earlier, context, as_object=old is objects)
+                    if isinstance(outcome, Meant):
+                        return outcome
+                    troubles.append(outcome)
+        return troubles[0] if troubles else None
+
+    def by_place(self, readings: Sequence[Step], earlier: Exchange) -> Outcome | None:
+        """With another destination: *no, on the desk*."""
+        objects = tuple(dict.fromkeys(goal.args[0] for goal in earlier.goals if goal.predicate in PLACING))
+        fitting = tuple(
+            reading
+            for reading in readings
+            if isinstance(reading, Carry) and reading.destination and reading.things == (Pronoun(word="it"),)
+        )
+        if len(objects) != 1 or not fitting:
+            return None
+        return self._meaning.of(fitting, replace(self._context, fresh=objects))
+
+    def _replaced(
+        self, phrase: NounPhrase, old: tuple[str, ...], earlier: Exchange, context: Context, *, as_object: bool
+    ) -> Outcome:
+        apart = replace(phrase, other=True) if phrase.words == ("one",) and not phrase.colors else phrase
+        found = self._grounding.things(apart, context) if as_object else self._grounding.place(apart, context)
+        if not isinstance(found, tuple):
+            return found
+        goals = [
+            self._changed(goal, old[0], new, as_object=as_object)
+            for new in found
+            for goal in earlier.goals
+            if old[0] in goal.args
+        ]
+        return self._meant(tuple(goals))
+
+    def _changed(self, goal: Goal, old: str, new: str, *, as_object: bool) -> Goal:
+        placed = goal.predicate in PLACING and not as_object
+        predicate = self._meaning.predicate("to", new) if placed else goal.predicate
+        return Goal(predicate=predicate, args=tuple(new if arg == old else arg for arg in goal.args))
+
+    def _alike(self, phrase: NounPhrase, old: str) -> bool:
+        """Whether a phrase could stand in the place of ``old``: a thing for a thing, a room for a room or table."""
+        fitting = named(phrase.head, phrase.number, self._snapshot, widely=True)
+        return any(self._sort(i) == self._sort(old) for i in fitting)
+
+    def _sort(self, node_id: str) -> str:
+        thing = self._grounding.state.world.things.get(node_id)
+        return "thing" if thing is not None and thing.graspable else "place"
+
+    def _noun(self, node_id: str) -> str:
+        node = self._snapshot.get(node_id)
+        if isinstance(node, PersonNode):
+            return "person"
+        return normal(node.label) if isinstance(node, ObjectNode | RoomNode) else "thing"
+
+    def _meant(self, goals: tuple[Goal, ...]) -> Meant:
+        things = tuple(dict.fromkeys(goal.args[0] for goal in goals if goal.object_id is not None))
+        places = tuple(dict.fromkeys(goal.args[-1] for goal in goals if goal.object_id is None or len(goal.args) > 1))
+        return Meant(goals=goals, things=things, places=places)

@@ -1,0 +1,65 @@
+"""What a person teaches in words: *this room is the office*, *that is my mug*, *my name is Ben*."""
+
+from __future__ import annotations
+
+from majordomo.planner.grammar.syntax import NounPhrase, Pronoun, Teach
+from majordomo.planner.grounding import Ambiguous, Context, Grounding, NoReferent
+from majordomo.planner.meant import Meant
+from majordomo.planner.naming import name_of
+from majordomo.planner.plan import Lesson
+from majordomo.planner.vocabulary import is_known, is_room_label
+from majordomo.scene_graph.nodes import ObjectNode, PersonNode, RoomNode
+
+
+class Teaching:
+    """Understands ``Teach`` steps on one graph."""
+
+    def __init__(self, grounding: Grounding) -> None:
+        self._grounding, self._snapshot = grounding, grounding.snapshot
+
+    def of(self, step: Teach, context: Context) -> Meant | NoReferent | Ambiguous:
+        """The lesson, or a question about which node is meant and whether this is meant to be its name."""
+        said = " ".join(step.words)
+        found = self._target(step, said, context)
+        if not isinstance(found, tuple):
+            return found
+        if len(found) != 1:
+            return Ambiguous(question=f"Which one is to be called “{said}”?", phrase="", candidates=found)
+        if not isinstance(self._snapshot.get(found[0]), RoomNode | ObjectNode | PersonNode):
+            return NoReferent(reason=f"I can give names to rooms, things and people only, not to {said}.")
+        lesson, reply = self._lesson(found[0], said, step)
+        doubt = not step.named and not is_known(said)
+        return Meant(answer=reply, lessons=(lesson,), things=found, doubt=doubt)
+
+    def _target(self, step: Teach, said: str, context: Context) -> tuple[str, ...] | NoReferent | Ambiguous:
+        if isinstance(step.target, NounPhrase):
+            place = step.target.words[-1] in ("room", "thing", "object")
+            resolve = self._grounding.place if place else self._grounding.things
+            return resolve(step.target, context)
+        if isinstance(step.target, Pronoun) and step.target.word == "me":
+            return self._grounding.speaker(context)
+        here = self._snapshot.current_room
+        if is_room_label(said) or (step.named and not step.mine and not is_known(said) and self._says_this(step)):
+            return (here,) if here is not None else NoReferent(reason="I do not know which room I am in.")
+        objects = [i for i in (self._grounding.state.holding, *context.fresh) if i is not None]
+        if len(set(objects)) == 1:
+            return tuple(objects[:1])
+        return NoReferent(reason=f"I do not see what you point at. Tell me which thing is “{said}”.", asks=True)
+
+    def _says_this(self, step: Teach) -> bool:
+        return isinstance(step.target, Pronoun) and step.target.word == "this"
+
+    def _lesson(self, node_id: str, said: str, step: Teach) -> tuple[Lesson, str]:
+        node, name = self._snapshot.node(node_id), name_of(node_id, self._snapshot)
+        match node:
+            case RoomNode():
+                return Lesson(node=node_id, label=said), f"From now on {node_id} is the {said}."
+            case ObjectNode() if not step.mine and (not step.named or is_known(said)):
+                return Lesson(node=node_id, label=said), f"From now on {name} is a {said} to me."
+            case ObjectNode():
+                called = f"my {said}" if step.mine else said
+                return Lesson(node=node_id, name=called), f"From now on {name} is “{called}”."
+            case PersonNode():
+                return Lesson(node=node_id, name=said.title()), f"From now on I call {name} {said.title()}."
+            case _:
+                return Lesson(node=node_id, label=said), f"From now on {name} is “{said}”."

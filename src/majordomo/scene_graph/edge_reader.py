@@ -50,7 +50,7 @@ class EdgeReader:
         """Edges that the document lists, each with its place in the list.
 
         Raises:
-            SceneFormatError: an edge of unknown type, or a relation without predicate.
+            SceneFormatError: an edge of unknown type or from a node to itself, or a relation without predicate.
         """
         for i, record in enumerate(self._document.edges):
             yield i, self._read(record, f"edges[{i}]")
@@ -76,6 +76,8 @@ class EdgeReader:
 
     def _read(self, record: EdgeRecord, path: str) -> Edge:
         source, target = record.source, record.target
+        if source == target:
+            raise SceneFormatError(path, f"{source!r} is at both ends")
         is_room = self._places.is_room(target) or self._places.is_region(target)
         match record.type:
             case EdgeType.RT:

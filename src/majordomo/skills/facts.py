@@ -22,7 +22,7 @@ from majordomo.scene_graph.poses import MapPoses
 from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.skills.capacity import Capacity
 from majordomo.skills.containers import is_container
-from majordomo.skills.nearness import excess_m
+from majordomo.skills.nearness import is_at
 from majordomo.skills.placement import Place, Placement, PlaceRelation
 from majordomo.skills.rooms import in_room
 from majordomo.skills.state import DoorLink, PlanState, Thing, World
@@ -159,9 +159,8 @@ def _place(snapshot: Snapshot, node: ObjectNode) -> tuple[PlaceRelation, str] | 
 
 
 def _near(snapshot: Snapshot) -> frozenset[str]:
-    """Objects and persons that the robot is at."""
+    """Objects and persons that the robot is at; not what it would stand in, for there a place was never told."""
     room, holding = snapshot.current_room, snapshot.robot.holding if snapshot.robot is not None else None
     if room is None:
         return frozenset()
-    gaps = {node_id: excess_m(snapshot, node_id) for node_id in in_room(snapshot, room) if node_id != holding}
-    return frozenset(node_id for node_id, gap_m in gaps.items() if gap_m is not None and gap_m <= 0.0)
+    return frozenset(node_id for node_id in in_room(snapshot, room) if node_id != holding and is_at(snapshot, node_id))

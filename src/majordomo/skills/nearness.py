@@ -30,6 +30,15 @@ def excess_m(snapshot: Snapshot, node_id: str) -> float | None:
     return hypot(x_m, y_m) - reach_m
 
 
+def is_at(snapshot: Snapshot, node_id: str) -> bool:
+    """Whether the robot is at an object or a person, and beside it: a graph that has both in one place was never told
+    where they are.
+    """
+    gap_m, node = excess_m(snapshot, node_id), snapshot.get(node_id)
+    reach_m = PERSON_M if isinstance(node, PersonNode) else OBJECT_M
+    return gap_m is not None and -reach_m < gap_m <= 0.0
+
+
 def extent_distance_m(snapshot: Snapshot, node: ObjectNode) -> float:
     """Horizontal distance from the base's axis to the extent of a thing; 0 over it."""
     x_m, y_m, _ = snapshot.transform(node.id, ROBOT_ID).translation_m

@@ -74,4 +74,4 @@ def test_requests_that_cannot_be_read_are_named_by_line_and_field(tmp_path):
 
 
 def test_a_share_of_slips_is_at_most_all():
-    assert "is not in the range" in refusal("planning", "--corrupt", "1.5")
+    assert "less than or equal to 1" in refusal("planning", "--corrupt", "1.5")

@@ -127,7 +127,7 @@ def test_a_hand_written_document_is_filled_in():
     assert np.allclose(graph.position("table_1", "room_1"), (-1.0, -0.5, 0.4))
     assert graph.room("room_1").polygon_m[0] == (-2.0, -1.5)
     assert graph.room_of("cup_1") == graph.room_of("table_1") == "room_1"
-    assert graph.parent("robot").source == "root"
+    assert graph.parent("robot").source == graph.current_room == "room_1"
     assert graph.support_of("cup_1") == "table_1"
     assert graph.relations()[0].probability == 1.0
     assert to_json(from_json(to_json(graph))) == to_json(graph)

@@ -28,6 +28,9 @@ from majordomo.scene_graph.nodes import ObjectNode, ObjectState
 from majordomo.scene_graph.snapshot import Snapshot
 
 MAX_ROUNDS = 5
+_PASSING = frozenset({FailureKind.REFUSAL, FailureKind.TIMEOUT})
+"""What the same question may not meet again, as long as there is time."""
+_REPEATS = 2
 
 
 class ModelRounds:
@@ -50,7 +53,7 @@ class ModelRounds:
         """A checked interpretation, or why there is none. The ``reply`` of an answer is the question."""
         scene = outline(snapshot, text, mentioned=dialogue.mentioned)
         messages = self._opening(text, scene, dialogue)
-        end_s = self._clock() + self._deadline_s
+        end_s, repeated = self._clock() + self._deadline_s, 0
         failure = ModelFailure(kind=FailureKind.TIMEOUT, message="there was no time to ask it")
         for number in range(1, self._rounds + 1):
             left_s = end_s - self._clock()
@@ -66,9 +69,12 @@ class ModelRounds:
             if isinstance(outcome, Interpretation):
                 return outcome
             failure = outcome
-            if failure.kind not in CORRECTABLE:
+            if failure.kind in CORRECTABLE:
+                messages += _correction(answer.text, failure)
+            elif failure.kind in _PASSING and repeated < _REPEATS:
+                repeated += 1
+            else:
                 return failure
-            messages += _correction(answer.text, failure)
         return ModelFailure(
             kind=failure.kind, message=f"after {self._rounds} rounds, {failure.message}", text=failure.text
         )

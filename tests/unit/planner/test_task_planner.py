@@ -121,8 +121,6 @@ async def test_after_five_rounds_the_grammars_own_question_stands_and_says_so():
         FailureKind.ENDPOINT_DOWN,
         FailureKind.HTTP_ERROR,
         FailureKind.RATE_LIMITED,
-        FailureKind.TIMEOUT,
-        FailureKind.REFUSAL,
     ],
 )
 @pytest.mark.anyio
@@ -132,6 +130,16 @@ async def test_a_failing_service_is_not_asked_again_and_is_said_aloud(kind):
     assert len(model.requests) == 1
     assert found.kind is Kind.CLARIFY
     assert "The language model is not available: it is out of order." in found.reply
+
+
+@pytest.mark.parametrize("kind", [FailureKind.TIMEOUT, FailureKind.REFUSAL])
+@pytest.mark.anyio
+async def test_what_may_pass_is_asked_again_but_not_for_ever(kind):
+    failure = ModelFailure(kind=kind, message="not today")
+    found, model, _ = await interpret([failure, GOOD])
+    assert (len(model.requests), found.kind) == (2, Kind.PLAN)
+    found, model, _ = await interpret([failure] * 9)
+    assert (len(model.requests), found.kind) == (3, Kind.CLARIFY)
 
 
 @pytest.mark.anyio

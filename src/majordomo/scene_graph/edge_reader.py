@@ -50,7 +50,8 @@ class EdgeReader:
         """Edges that the document lists, each with its place in the list.
 
         Raises:
-            SceneFormatError: an edge of unknown type or from a node to itself, or a relation without predicate.
+            SceneFormatError: an edge of unknown type, a relation without predicate, or *on* and the like from a node to
+                itself.
         """
         for i, record in enumerate(self._document.edges):
             yield i, self._read(record, f"edges[{i}]")
@@ -76,8 +77,6 @@ class EdgeReader:
 
     def _read(self, record: EdgeRecord, path: str) -> Edge:
         source, target = record.source, record.target
-        if source == target:
-            raise SceneFormatError(path, f"{source!r} is at both ends")
         is_room = self._places.is_room(target) or self._places.is_region(target)
         match record.type:
             case EdgeType.RT:
@@ -96,6 +95,8 @@ class EdgeReader:
                 return HasEdge(source=source, target=target)
             case EdgeType.HAS_INTENTION:
                 return _intention(record)
+            case predicate if predicate in {EdgeType.IN, *PREDICATES} and source == target:
+                raise SceneFormatError(path, f"{source!r} is at both ends")
             case predicate if predicate in {EdgeType.IN, *PREDICATES}:
                 return _relation(record, str(predicate))
             case _:

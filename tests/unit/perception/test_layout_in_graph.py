@@ -11,9 +11,10 @@ import pytest
 from majordomo.perception.crossing import move_robot
 from majordomo.perception.doors.insertion import hang
 from majordomo.perception.doors.posts import MeasuredGap
+from majordomo.perception.localization.landmarks import room_model
 from majordomo.perception.localization.planar import Pose2, diagonal_covariance, spatial_covariance
-from majordomo.perception.memory.dual import root_pose
-from majordomo.perception.memory.joining import join
+from majordomo.perception.memory.dual import place_in, root_pose
+from majordomo.perception.memory.joining import join, put_dual
 from majordomo.perception.memory.mapping import RoomLayout
 from majordomo.perception.rooms.instance import MeasuredRoom, room_elements
 from majordomo.scene_graph.edges import EdgeType, RtEdge
@@ -146,3 +147,26 @@ def test_an_unloaded_room_is_laid_out_without_being_loaded() -> None:
     assert memory.unloaded == ("room_3",)
     assert building.parent("room_1").wall_shifts_m != ()
     assert building.parent("room_3").stamp_s == 1.0
+
+
+def test_a_door_into_a_room_whose_wall_there_was_not_seen_brings_that_wall_along():
+    memory = WorkingMemory()
+    with memory.edit("test", 0.0) as tx:
+        put_room(tx, 2)
+        put_room(tx, 3)
+        near = put_door(tx, 2, NORTH)
+    unseen = f"wall_3_{SOUTH}"
+    with memory.edit("test", 0.0) as tx:
+        tx.remove(f"corner_3_{SOUTH}")
+        tx.remove(unseen)
+    snapshot = memory.snapshot()
+    T_far_near = root_pose(snapshot, "room_3").inverse() @ root_pose(snapshot, "room_2")
+    room = room_model(snapshot, "room_3")
+    place = place_in(room, T_far_near @ Pose2.from_se3(snapshot.transform("room_2", near.id)))
+    with memory.edit("long_term_memory", 1.0) as tx:
+        far = put_dual(tx, near, room, place, 1.0)
+        join(tx, near, far, T_far_near.inverse())
+    snapshot = memory.snapshot()
+    assert snapshot.parent(far.id).source == unseen
+    assert snapshot.node(unseen).confidence < 1.0
+    assert root_pose(snapshot, far.id).distance_m(root_pose(snapshot, near.id)) == pytest.approx(THICKNESS_M, abs=0.01)

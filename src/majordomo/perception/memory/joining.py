@@ -12,6 +12,7 @@ from majordomo.perception.doors.posts import MeasuredGap
 from majordomo.perception.localization.landmarks import RoomModel
 from majordomo.perception.localization.planar import Pose2
 from majordomo.perception.memory.dual import SeenFrom
+from majordomo.perception.rooms.instance import wall_elements
 from majordomo.scene_graph.edges import ConnectsEdge, EdgeType, HasEdge, MatchEdge
 from majordomo.scene_graph.identifiers import wall_id_of
 from majordomo.scene_graph.memory import Transaction
@@ -22,13 +23,21 @@ WALKED_STD_M = 0.012
 UNWALKED_STD_M = 0.05
 PREDICTED_CONFIDENCE = 0.7
 _PREDICTED_STD_M = 0.03
+_PREDICTED_WALL_STD_M = 0.1
 
 
 def put_dual(tx: Transaction, door: DoorNode, room: RoomModel, place: SeenFrom, stamp_s: float) -> DoorNode:
-    """The far side of ``door`` in ``room``, where it was predicted; the door concept will measure it."""
+    """The far side of ``door`` in ``room``, where it was predicted; the door concept will measure it.
+
+    Where the room's wall there has not been seen, the door is what tells of it.
+    """
     door_id = free_door_id(tx.snapshot, room.room_id, place.wall)
     length_m = float(np.linalg.norm(np.roll(room.polygon, -1, axis=0)[place.wall] - room.polygon[place.wall]))
     center_m = float(np.clip(place.station_m, door.width_m / 2.0, length_m - door.width_m / 2.0))
+    wall_id = wall_id_of(room.room_id, place.wall)
+    if wall_id not in tx.snapshot:
+        doubt = {"std_m": _PREDICTED_WALL_STD_M, "confidence": PREDICTED_CONFIDENCE}
+        tx.put(*wall_elements(room.polygon, room.room_id, place.wall, stamp_s=stamp_s, **doubt))
     gap = MeasuredGap(center_m=center_m, width_m=door.width_m, std_m=_PREDICTED_STD_M, posts=0)
     dual = DoorNode(
         id=door_id,
@@ -43,7 +52,7 @@ def put_dual(tx: Transaction, door: DoorNode, room: RoomModel, place: SeenFrom, 
     affordance_id = cross_affordance(door_id)
     tx.put(
         dual,
-        hang(door_id, wall_id_of(room.room_id, place.wall), length_m, gap, stamp_s),
+        hang(door_id, wall_id, length_m, gap, stamp_s),
         AffordanceNode(id=affordance_id, kind=AffordanceKind.CROSS, target=door_id),
         HasEdge(source=door_id, target=affordance_id),
     )

@@ -124,31 +124,36 @@ def room_elements(
     ]
     for k in range(len(polygon)):
         if status is RoomStatus.PERMANENT or room.wall_seen[k] > _SEEN_WALL:
-            elements += _wall_elements(room, room_id, k, stamp_s)
+            std_m = float(room.wall_std_m[k]) + 0.001
+            confidence = float(np.clip(room.wall_seen[k], 0.0, 1.0))
+            elements += wall_elements(polygon, room_id, k, std_m=std_m, confidence=confidence, stamp_s=stamp_s)
     return elements
 
 
-def _wall_elements(
-    room: MeasuredRoom, room_id: str, k: int, stamp_s: float
-) -> list[RoomNode | WallNode | CornerNode | RtEdge]:
-    start, end = room.polygon[k], room.polygon[(k + 1) % len(room.polygon)]
+def wall_elements(
+    polygon: Array, room_id: str, k: int, *, std_m: float, confidence: float, stamp_s: float
+) -> list[WallNode | CornerNode | RtEdge]:
+    """Side ``k`` of a room's outline (N, 2), room frame, and the corner that it begins with.
+
+    ``std_m``: standard deviation of the wall's place along its normal.
+    """
+    start, end = polygon[k], polygon[(k + 1) % len(polygon)]
     along = end - start
     length_m, yaw_rad = float(np.hypot(*along)), float(np.arctan2(along[1], along[0]))
     normal = (-float(along[1]) / length_m, float(along[0]) / length_m)
     middle = (start + end) / 2.0
-    std = float(room.wall_std_m[k]) + 0.001
-    covariance = spatial_covariance(np.diag([std, std, 2.0 * std / max(length_m, 0.2)]) ** 2)
+    covariance = spatial_covariance(np.diag([std_m, std_m, 2.0 * std_m / max(length_m, 0.2)]) ** 2)
     wall_id, corner_id = wall_id_of(room_id, k), corner_id_of(room_id, k)
     return [
         WallNode(
             id=wall_id,
-            confidence=float(np.clip(room.wall_seen[k], 0.0, 1.0)),
+            confidence=confidence,
             parent_room=room_id,
             normal=normal,
             offset_m=float(normal[0] * start[0] + normal[1] * start[1]),
             length_m=length_m,
         ),
-        CornerNode(id=corner_id, confidence=float(np.clip(room.wall_seen[k], 0.0, 1.0))),
+        CornerNode(id=corner_id, confidence=confidence),
         RtEdge(
             source=room_id,
             target=wall_id,

@@ -147,6 +147,10 @@ class Grounding:
         if word == "him":
             people = [i for i in context.mentioned if isinstance(self.snapshot.get(i), PersonNode)]
             return tuple(people[:1]) or NoReferent(reason="I do not know whom you mean.")
+        if word == "them" and not context.fresh and context.earlier:
+            moved = tuple(dict.fromkeys(goal.args[0] for goal in context.earlier[0].goals if goal.object_id is not None))
+            if len(moved) > 1:
+                return moved
         return self._it(context)
 
     def _it(self, context: Context) -> Grounded:
@@ -255,15 +259,21 @@ class Grounding:
         if head in ("one", "ones"):
             head = context.noun or "thing"
         found = named(head, phrase.number, self.snapshot, widely=widely, fixed=fixed)
-        if found or len(phrase.words) < 2:
+        if len(found) == 1 or len(phrase.words) < 2:
             return found
-        return self._named_in_room(phrase, widely=widely)
+        return self._named_in_room(phrase, widely=widely) or found
 
     def _named_in_room(self, phrase: NounPhrase, *, widely: bool) -> tuple[str, ...]:
         """*the kitchen table*: a table in the kitchen."""
-        rooms = [i for i in named(phrase.words[0], None, self.snapshot, widely=True) if self.snapshot.room_of(i) == i]
-        rest = named(" ".join(phrase.words[1:]), phrase.number, self.snapshot, widely=widely)
-        return tuple(i for i in rest if i not in rooms and any(self._narrowing.is_at(i, room) for room in rooms))
+        words = " ".join(phrase.words).split()
+        for split in range(len(words) - 1, 0, -1):
+            lead = " ".join(words[:split])
+            rooms = [i for name in (lead, f"{lead} room") for i in named(name, None, self.snapshot, widely=True)]
+            rooms = [i for i in rooms if self.snapshot.room_of(i) == i]
+            if rooms:
+                rest = named(" ".join(words[split:]), phrase.number, self.snapshot, widely=widely)
+                return tuple(i for i in rest if i not in rooms and any(self._narrowing.is_at(i, r) for r in rooms))
+        return ()
 
     def _suited(self, found: tuple[str, ...], *, carried: bool) -> tuple[str, ...]:
         """Of several, those that can be carried, or that one can put something on, in or before, if there are any."""

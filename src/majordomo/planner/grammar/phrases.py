@@ -69,6 +69,11 @@ class PhraseReader(Transformer[Token, Any]):
     def this(self, _: Children) -> dict[str, Any]:
         return {"quantity": Quantity.THIS}
 
+    def owned(self, children: Children) -> dict[str, Any]:
+        owner = str(children[0]).removesuffix("'s").removesuffix("'")
+        reference = NounPhrase(words=tuple(owner.split()), quantity=Quantity.THE, person=True)
+        return {"quantity": Quantity.THE, "restrictions": (Restriction(relation="of person", reference=reference),)}
+
     def all_of(self, _: Children) -> dict[str, Any]:
         return {"quantity": Quantity.ALL}
 
@@ -186,9 +191,12 @@ class PhraseReader(Transformer[Token, Any]):
         return Restriction(relation="nearest", reference=values_of(children)[0])
 
     def pronoun(self, children: Children) -> Pronoun:
-        return Pronoun(word=children[0].type.lower())
+        several = str(children[0]) in ("them", "they", "those ones", "these ones")
+        return Pronoun(word="them" if several else children[0].type.lower())
 
     def it(self, children: Children) -> Pronoun:
+        if children[0].type == "IT":
+            return self.pronoun(children)
         return Pronoun(word="that" if children[0].type == "THIS" else "it")
 
     def things(self, children: Children) -> tuple[Reference, ...]:

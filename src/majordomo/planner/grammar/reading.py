@@ -142,7 +142,7 @@ class Reader(PhraseReader):
         return Pick(things=values_of(children)[0])
 
     def called(self, children: Children) -> Teach:
-        words = tuple(str(token) for token in children if token.type not in ("THE", "A", "MY", "THAT"))
+        words = tuple(str(token) for token in children if token.type not in ("THE", "A", "MY", "THAT", "CALLED"))
         return Teach(words=words, named=not any(token.type == "A" for token in children))
 
     def called_mine(self, children: Children) -> Teach:

@@ -178,6 +178,8 @@ class Grounding:
             return self.nothing(phrase, context)
         if phrase.rank is not None and phrase.superlative is None:
             return self._ranked(phrase, found, context)
+        if phrase == NounPhrase(words=("one",)) and context.noun:
+            return self._any(phrase, found, avoid)
         match phrase.quantity:
             case Quantity.A | Quantity.SOME:
                 return self._any(phrase, found, avoid)

@@ -17,22 +17,25 @@ from majordomo.planner.vocabulary import normal
 from majordomo.scene_graph.nodes import ObjectNode, PersonNode, RoomNode
 
 _COURTESY = r"(?:(?:sorry|oops|wait|hm+|um|ah|oh|hang on|hold on|excuse me|please|ok|okay|well|stop)\b[\s,.!]*)*"
+_TRAILING = re.compile(r"[\s,]+(?:instead|please|rather)[\s.!]*$")
 _LED = re.compile(rf"^{_COURTESY}")
 _NO = re.compile(
-    rf"^{_COURTESY}(?:no+|nope|not (?:that|this)(?: one)?|wrong(?: (?!is\b)\w+)?|that(?: is|'s) wrong|not the \w+(?: one)?)\b"
+    rf"^{_COURTESY}(?:no+|nope|not (?:that|this)(?: one)?|not (?:to|on|in|into|onto|at) [\w ]+?(?=[,;.])|instead of [\w ]+?(?:,|(?= (?:take|bring|give|put|use|the)\b))"
+    r"(?:\s*(?:take|bring|give|put|use)\b(?: me| him| her)?)?|wrong(?: (?!is\b)\w+)?|that(?: is|'s) wrong|not the \w+(?: one)?)\b"
     r"[\s,.!;:-]*(?:sorry[\s,]*)?(?:(?:i|we) (?:meant|mean|said|wanted|want)\b(?: to say)?[\s,]*)?(?P<rest>.*)$"
 )
 _REPAIR = re.compile(
     r"^(?P<said>.+?)(?:[\s,.;:!…-]+(?:i mean(?:t)?(?: to say)?|no,? (?:sorry|wait)|(?:sorry|wait),? no|scratch that|or rather|make that"
-    r"|no,? i mean(?:t)?|correction|no,? not)\b|\s*(?:[,.;:!…]+|\s-)\s*(?:no|sorry|actually|rather|wait|oops|make it|not that"
+    r"|no,? i mean(?:t)?|correction)\b|\s*(?:[,.;:!…]+|\s-)\s*(?:no|sorry|actually|rather|wait|oops|make it|not that"
     r"|well|hang on|hold on)\b(?!\s+(?:matter|problem|rush|hurry|one|longer)))+[\s,.;:!…-]*(?P<rest>.+)$"
 )
 _RESUMED = re.compile(r"^(?P<said>.+?)\s*(?:\.\.\.+|…)\s*(?P<rest>(?:the|a|an|to|on|in|my|just)\b.+)$")
 _NOT_THAT = re.compile(r"^(?:not|wasn't|isn't) (?:the |a |to )?[\w ]{1,30}?(?:[,;.]+| but) *")
 _MEANT = re.compile(
-    rf"^{_COURTESY}(?:actually|rather|make (?:it|that)|(?:i|we) (?:meant|mean|said)(?: to say)?|better)[\s,]+"
+    rf"^{_COURTESY}(?:actually|rather|make (?:it|that)|(?:change|switch|correct) (?:it|that|this) to|(?:i|we) (?:meant|mean|said)(?: to say)?|better)[\s,]+"
     r"(?P<rest>.+)$"
 )
+_NOT = re.compile(r"^(?P<rest>(?:(?:to|on|in|the) ){0,2}\w+(?: \w+)?),? not (?:(?:to|on|in|the) ){0,2}\w+(?: \w+)?[\s.!]*$")
 _INSTEAD = re.compile(r"^(?P<rest>.+?)[\s,]+(?:instead|rather|i meant|i mean)[\s.!]*$")
 _AGAIN = re.compile(
     r"^(?:please\s+)?(?:do (?:it|that|the same(?: thing)?)(?: again| once more| one more time)"
@@ -66,10 +69,11 @@ def revision(text: str) -> Revision | None:
         return None
     if _AGAIN.match(said):
         return Revision(how="again")
-    for pattern in (_NO, _MEANT, _INSTEAD):
+    for pattern in (_NO, _MEANT, _INSTEAD, _NOT):
         found = pattern.match(said)
         if found and found["rest"].strip(" .!?"):
-            return Revision(how="correct", rest=_LED.sub("", found["rest"]).strip(" .!?"))
+            rest = _TRAILING.sub("", _LED.sub("", found["rest"]))
+            return Revision(how="correct", rest=rest.strip(" .!?"))
     found = _TOO.match(said)
     if found:
         return Revision(how="too", rest=next(group for group in found.groups() if group))

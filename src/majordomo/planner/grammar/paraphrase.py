@@ -48,7 +48,7 @@ _RULES: tuple[tuple[str, str], ...] = (
     (r"^(?:so,? )?(?:i was (?:just )?(?:thinking|wondering|hoping)|i have been thinking)[,.]* (?=it|can|could|would)", ""),
     (r"^(?:i am|we are|he is|she is) (?:so |really |very |a bit |a little |quite |feeling )*(?:thirsty|hungry|cold|tired"
      r"|bored|busy|sick|late|hot|in a hurry|starving|freezing)[,.!;:]*(?: and| so)? (?=\w)", ""),
-    (r",? (?:because|since|as|cause|cuz|for) (?:i|we|he|she|it|they|my|the \w+|\w+) (?:am|is|are|was|have|has|need|needs"
+    (r",? (?:because|cause|cuz) (?:i|we|he|she|it|they|my|the \w+|\w+) (?:am|is|are|was|have|has|need|needs"
      r"|want|wants|would|will|can not|feel|feels|forgot)\b[^.;!?]*(?=$|[.;!?])", ""),
     (r",? so (?:that )?(?:i|we|he|she|they|it) (?:can|could|will|may|do not|does not|is|are|am)\b[^.;!?]*(?=$|[.;!?])", ""),
     (r"^(?:hey|hi|ok|okay|oh|well|so|and|now|right|alright|listen|hello|yo|good|great|thanks|thank you|cool|perfect)"
@@ -66,15 +66,15 @@ _RULES: tuple[tuple[str, str], ...] = (
     (r"\b(?:toss|chuck|dump|sling|bin) (.+?) (in|into|onto|on) (?=(?:the|a|my)\b)", r"put \1 \2 "),
     (r"\b(put|set|place|lay|stow|store|tidy|clear|pack|drop|move|take) (.+?) away (?=(?:in|into|on|onto|to)\b)", r"\1 \2 "),
     (r"\b(?:put|tidy|clear|pack|stow) away (.+?) (?=(?:in|into|on|onto)\b)", r"put \1 "),
-    (r"\b(put|set|place|lay) (?=(?:on|onto|in|into|next to|back)\b)", r"\1 it "),
-    (r"\b(bring|take|carry|drop) (?=to (?:me|him|her|the|my)\b)", r"\1 it "),
+    (r"\b(put|set|lay) (?=(?:on|onto|in|into|next to) (?:the |a |my )?\w+(?: \w+){0,4}[.!]*$)", r"\1 it "),
+    (r"\b(bring|take|carry|drop) (?=to (?:me|him|her|(?:the|my) \w+(?: \w+)?)[.!]*$)", r"\1 it "),
     (r"\b(?:is|are) to (?:be|go|stay|stand|come|end up) (?=(?:in|on|at|to|into|onto|next)\b)", "should be "),
     (r"\b(?:should|must|needs? to|ought to|has to|have to|is supposed to|are supposed to) (?:be )?(?:put|placed|moved|taken"
      r"|brought|delivered|carried|stored|kept|returned|transferred) ", "should go "),
     (r"\b(?:should|must|needs? to|ought to|has to|have to) (?:live|stand|sit|lie|end up|belong) ", "should be "),
     (r"\b(?:wants? to be|want) (?=(?:on|in|onto|into) the\b)", "should be "),
     (r"\b(\w+ (?:is|are)) to (?:be )?(?:put|placed|moved|brought|taken) ", r"\1 to go "),
-    (r"\b(?:belongs?|goes) (?=(?:on|in|at|to|with|inside|next|into|onto|back)\b)", "should be "),
+    (r"\b(?:belongs?|goes) (?=(?:on|in|at|with|inside|next|into|onto|back)\b)", "should be "),
     (r"\b(?!lets\b|thanks\b|always\b|us\b)(\w+s) (?:can |may |will )?go (?=(?:on|in|into|onto|next)\b)", r"\1 should be "),
     (r"\bgoes (?=to (?:me|him|her|the|\w+)\b)", "should be "),
     (r"(?<!if )\b(\w+) (?:should|must|may|can|shall) (?:have|get) (it|them|that|the [\w ]+)(?=$|[.!?,])", r"give \2 to \1"),
@@ -92,9 +92,16 @@ _RULES: tuple[tuple[str, str], ...] = (
     (r"^(?:and |ok |okay |then |now )*(?:and )?then (?=\w)", "then "),
     (r",? from there (?=(?:to|go|on|drive|head)\b)", ", then "),
     (r"\b(?:after|having done|once done with) that\b,?", "then"),
+    (r"\b(should|must|can|may) all (?=(?:be|go)\b)", r"\1 "),
+    (r"^(\w+s) (to|into|onto) (?=(?:the|a|my)\b)", r"put all the \1 \2 "),
+    (r"^(?:please )?(?:gather|round|collect)(?: up)? (.+?) and (?=(?:put|bring|take|carry)\b)", r"pick up \1 and "),
+    (r"\bback again\b", "back"),
+    (r"\b(put|take|bring|return|move) (?:everything|it all|all of it|all of them|all that) back\b", r"\1 them back"),
+    (r"^(?:i|we) (?:do not|no longer) need (?:\w+ ){1,4}?(?:any ?more|any longer|now)[,.;!]+ (?:so )?(?:please )?", ""),
+    (r"^(?:i|we) (?:am|are) (?:done|finished|through)(?: with [\w ]+?)?[,.;!]+ (?:so )?", ""),
     # comparing and choosing
     (r",? (?:anything|any color|whatever|everything|all) but (?:the |a )?(\w+)(?: ones?)?(?=$|[.!?,])", r" that is not \1"),
-    (r",? (?:just |but |only )*not (?:a |the |an |any )(\w+)(?: ones?| colou?red one)(?=$|[.!?])", r" that is not \1"),
+    (r",?(?: and| but| just| only)* not (?:a |the |an |any )(\w+)(?: ones?| colou?red one)(?=$|[.!?])", r" that is not \1"),
     (r"\breddish\b", "red"),
     (r"\b(green|brown|yellow|pink|gray|grey|black|orange)ish\b", r"\1"),
     (r"\bblu(?:e)?ish\b", "blue"),
@@ -105,7 +112,7 @@ _RULES: tuple[tuple[str, str], ...] = (
     (r"\b(?:somewhere|anywhere|around here|in this (?:house|home|building|school|office|hospital|flat|apartment|place)|in the"
      r" (?:house|home|building|school|hospital|flat|apartment)|at all|lying around|around)(?=$|[.!?])", ""),
     (r"\b(are there|is there|do we have|have we got|do you have|have you got) (any|some|a) (.+?) left\b", r"\1 \2 \3"),
-    (r"^how many (.+?) are$", r"how many \1 are there"),
+    (r"^how many (.+?) are\s*[?]*$", r"how many \1 are there"),
     (r" from the (?:left|right)(?=$|[.!?])", ""),
     (r"\b(in|into|on|onto|at|near|to) the (nearest|closest) (\w+) to (?=the\b)", r"\1 the \3 nearest to "),
     (r"\b((?:in|into|on|onto|at|from|next to) (?:the|a|that) \w+(?: \w+)?) there(?=$|[.!?,])", r"\1 over there"),
@@ -135,7 +142,7 @@ _RULES: tuple[tuple[str, str], ...] = (
      r"|can you (?:tell me|say|remember|check)|could you (?:tell me|say|check)|please tell me|do you (?:happen to )?(?:know"
      r"|remember))(?: about)? (?=(?:where|what|which|who|how|if|whether)\b)", "tell me "),
     (r"^where (?:did|have) (?:i|we|you|he|she|they|\w+) (?:last |just )?(?:leave|left|put|place|placed|drop|dropped|lay|store"
-     r"|stored|see|seen|saw|hide|hidden|set down|keep|kept)(?: down)? ", "where is "),
+     r"|stored|hide|hidden|set down|keep|kept)(?: down)? ", "where is "),
     (r"^where (?:could|might|may|can|should|would) (.+?) (?:be|have gone|have got to|be found)(?: found)?"
      r"(?: now)?(?=$|[.!?])", r"where is \1"),
     (r"^where (?:do|does|did) (.+?) (?:live|stand|go|belong|stay|lie|hang out)(?=$|[.!?])", r"where is \1"),
@@ -143,7 +150,8 @@ _RULES: tuple[tuple[str, str], ...] = (
     (r"^where(?: on earth| in the world| exactly| the hell|abouts) ", "where "),
     (r"^(?:what|which) (?:shelf|table|desk|surface|place|furniture|spot|part of the (?:house|building)) (?:is|are) (.+?) "
      r"(?:on|in|at)(?=$|[.!?])", r"where is \1"),
-    (r"^(?:have|did) (?:you|anyone|anybody) (?:see|seen|spot|spotted|come across|noticed?)(?: where)? (.+?)"
+    (r"(?<=\w) (?:lately|recently|by any chance)(?=$|[.!?])", ""),
+    (r"^(?:have|has|did) (?:anyone|anybody) (?:see|seen|spot|spotted|come across|noticed?)(?: where)? (.+?)"
      r"(?: is| are| lately| recently| today)?(?=$|[.!?])", r"where is \1"),
     (r"^(?:i|we) (?:can not|could not|do not|am unable to|are unable to) (?:find|see|locate|seem to find) "
      r"(.+?)(?: anywhere)?(?:[,.;] (?:do you know where (?:it|they) (?:is|are)|where (?:is|are) (?:it|they)|help)|)"
@@ -232,6 +240,15 @@ _RULES: tuple[tuple[str, str], ...] = (
     (r"^should (there|the [\w ]+?|\w+) be (.+?),", r"if \1 is \2,"),
     (r"\bif you (?:happen to )?(?:see|find|come across|spot|notice|have|discover) (a|an|any|some|the) (.+?)"
      r"(?= (?:in|on|at)\b|,)", r"if there is \1 \2"),
+    (r"\bif there (?:is|are) (?:any|some|one|a few)(?: left)?(?=$|[.!?,])", ""),
+    (r"\bgo to (the [\w ]+?) if (\w+|the [\w ]+?) is there\b", r"go to \1 if \2 is in \1"),
+    (r"[,;.]? (?:otherwise|or else|else|if not),? (?:do nothing|nothing|leave it(?: there| alone)?|do not bother|do not do anything"
+     r"|stay(?: where you are| here| put)?|forget it|just wait)(?=$|[.!])", ""),
+    (r"\b(is|are) (?:not )?(?:locked|shut)\b", r"\1 closed"),
+    (r"^(?:please )?(?:go (?:and )?)?(?:check|see|look|find out|tell me) (?:if|whether) (.+?)(?:[.,;?]| and)+ (?:and )?(?:if so|if yes"
+     r"|if it is|if they are|if (?:he|she) is|then|in that case|if there (?:is|are))[,:]? ", r"if \1, "),
+    (r"^(?:please )?(?:go (?:and )?)?(?:check|see|look|find out|tell me) (?:if|whether) (.+?)(?:[.,;?]| and)+ (?:and )?(?:if not|otherwise"
+     r"|if it is not|if there is none)[,:]? ", r"unless \1, "),
     (r"\bif there (?:is|are) (?:still |some |any |at least one )+", "if there is a "),
     (r"\bif (?:nobody|no one|no person|noone) is (?=(?:in|at)\b)", "if there is no person "),
     (r"\bif (?:anyone|anybody|someone|somebody) is (?=(?:in|at)\b)", "if there is a person "),

@@ -99,6 +99,20 @@ _RULES: tuple[tuple[str, str], ...] = (
     (r"\b(put|take|bring|return|move) (?:everything|it all|all of it|all of them|all that) back\b", r"\1 them back"),
     (r"^(?:i|we) (?:do not|no longer) need (?:\w+ ){1,4}?(?:any ?more|any longer|now)[,.;!]+ (?:so )?(?:please )?", ""),
     (r"^(?:i|we) (?:am|are) (?:done|finished|through)(?: with [\w ]+?)?[,.;!]+ (?:so )?", ""),
+    (r"^(?:do not \w+ (?:me )?|not )(?:the |a )(?:\w+ )?(\w+)[,;]+ (?:but |just |instead )*(?=(?:bring|take|put|go|fetch|get|carry"
+     r"|move|give)\b)(.*)\bone\b", r"\2\1"),
+    (r"^not (?:the |a |to the )[\w ]+?[,;] (?:but )?(?=(?:bring|take|put|go|fetch|get|carry|move|give)\b)", ""),
+    (r"\bthat is not an? (\w+)(?=$|[.!?,])(?<! one)", r"except \1s"),
+    (r",? but (?:no|not an?|not the) (\w+?)(?: ones?)?(?=$|[.!?])", r" that is not \1"),
+    (r"\b(?:something|anything) (red|green|blue|yellow|black|white|brown|pink|purple|gray|grey|orange)\b", r"a \1 thing"),
+    (r"\bout of (the [\w ]+?) and (?:in)?to\b", r"from \1 to"),
+    (r"^(?:could|can|may) (the [\w ]+?) be (?:moved|put|brought|taken|placed|delivered|carried) ", r"put \1 "),
+    (r"^(?:please )?(?:have|get) (the [\w ]+?) (?:brought|taken|moved|delivered|carried|put|placed) ", r"put \1 "),
+    (r"^(?:please )?(?:get|take|grab|fetch|pick up) (the [\w ]+?)[,;] (?:it|they|that) should be ", r"put \1 "),
+    (r"\b(bring|give|get|fetch|take)me\b", r"\1 me"),
+    (r"\b(?:quickest|fastest|shortest|best|easiest) (?:route|path|way)\b", "way"),
+    (r"^what (\w+) (?:do|have) (?:we|you|i) (?:have|got)(?=$|[.!?])", r"which \1 are there"),
+    (r"^(?:is|are) (.+?) (?:in|on|at) (?:the |a |my )[\w ]+? or (?:in |on |at )?(?:the |a |my )?[\w ]+?(?=$|[.!?])", r"where is \1"),
     # comparing and choosing
     (r",? (?:anything|any color|whatever|everything|all) but (?:the |a )?(\w+)(?: ones?)?(?=$|[.!?,])", r" that is not \1"),
     (r",?(?: and| but| just| only)* not (?:a |the |an |any )(\w+)(?: ones?| colou?red one)(?=$|[.!?])", r" that is not \1"),
@@ -217,6 +231,7 @@ _RULES: tuple[tuple[str, str], ...] = (
     (r"^(find|locate|look for|search for) (.+?) (?:for me|for us)(?=$|[.!?])", r"\1 \2"),
     (r"^where is (.+?)\? (?:please )?(?:go|and go|then)? ?(?:and )?(?:look for|find|search for|get|fetch) (?:it|them|her|him)(?=$|[.!?])",
      r"find \1"),
+    (r"\b(?:find|locate|look for|search for) (?:me|us) (?=(?:the|a|my|some)\b)", "find "),
     # going
     (r"^(?:i|we) (?:need|want|would like) you (?:over |to be |to come )?(?=(?:in|at|by|near|next to)\b)", "go "),
     (r"\b(?:be|get yourself|show up|turn up|report) (?=(?:in|at|by) the\b)", "go "),

@@ -151,6 +151,11 @@ class PhraseReader(Transformer[Token, Any]):
         relation, reference = values_of(children)
         return Restriction(relation=relation, reference=reference)
 
+    def told(self, children: Children) -> Restriction:
+        """*the book Ben left on the desk*: who left it there says nothing about where it is."""
+        relation = str(tokens_of(children)[-1].type).lower()
+        return Restriction(relation=relation, reference=values_of(children)[0])
+
     def things_two(self, children: Children) -> tuple[Reference, Reference]:
         one, other = values_of(children)
         return one, other
@@ -201,7 +206,10 @@ class PhraseReader(Transformer[Token, Any]):
 
     def things(self, children: Children) -> tuple[Reference, ...]:
         values = values_of(children)
-        if [token.type for token in tokens_of(children)] == ["COMMA"] and len(values) == 2:
+        kinds = [token.type for token in tokens_of(children)]
+        if kinds[:1] == ["BOTH"] and isinstance(values[0], NounPhrase) and is_plural(values[0].head):
+            return (NounPhrase(words=()),)
+        if kinds == ["COMMA"] and len(values) == 2:
             return _apposed(*values)
         return tuple(values)
 

@@ -157,7 +157,8 @@ class Structure:
             if _is_forbidding(step):
                 found.append(Forbidden(tokens=tuple(step)))
                 continue
-            whither = step[0].type == "TO" and not (verb or found or self.parts)
+            going = not self.parts or _goes(self.parts[-1])
+            whither = step[0].type == "TO" and not (verb or found) and going
             full = [_GO, *step] if whither else self._completed(step, verb)
             verb = _verb_of(full) or verb
             found.append(Clause(tokens=tuple(full)))
@@ -185,6 +186,10 @@ class Structure:
 
 
 _GO, _TO = Terminal("GO", "go", "go"), Terminal("TO", "to", "to")
+
+
+def _goes(part: Part) -> bool:
+    return isinstance(part, Clause) and part.tokens[0].type == "GO"
 
 
 def _is_told(sentence: Tokens, index: int) -> bool:

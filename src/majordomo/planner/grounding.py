@@ -15,8 +15,8 @@ from majordomo.planner.naming import name_of
 from majordomo.planner.narrowing import Narrowing
 from majordomo.planner.phrasing import alternatives, describe, phrase_text, which_question
 from majordomo.planner.plan import Exchange
-from majordomo.planner.vocabulary import is_plural
-from majordomo.scene_graph.nodes import ObjectNode, PersonNode
+from majordomo.planner.vocabulary import is_plural, normal, words_for
+from majordomo.scene_graph.nodes import ObjectNode, PersonNode, RoomNode
 from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.skills.state import PlanState
 
@@ -148,7 +148,9 @@ class Grounding:
             people = [i for i in context.mentioned if isinstance(self.snapshot.get(i), PersonNode)]
             return tuple(people[:1]) or NoReferent(reason="I do not know whom you mean.")
         if word == "them" and not context.fresh and context.earlier:
-            moved = tuple(dict.fromkeys(goal.args[0] for goal in context.earlier[0].goals if goal.object_id is not None))
+            moved = tuple(
+                dict.fromkeys(goal.args[0] for goal in context.earlier[0].goals if goal.object_id is not None)
+            )
             if len(moved) > 1:
                 return moved
         return self._it(context)
@@ -270,8 +272,8 @@ class Grounding:
         words = " ".join(phrase.words).split()
         for split in range(len(words) - 1, 0, -1):
             lead = " ".join(words[:split])
-            rooms = [i for name in (lead, f"{lead} room") for i in named(name, None, self.snapshot, widely=True)]
-            rooms = [i for i in rooms if self.snapshot.room_of(i) == i]
+            called = words_for(lead) | {lead, f"{lead} room"}
+            rooms = [room.id for room in self.snapshot.of_type(RoomNode) if normal(room.label) in called]
             if rooms:
                 rest = named(" ".join(words[split:]), phrase.number, self.snapshot, widely=widely)
                 return tuple(i for i in rest if i not in rooms and any(self._narrowing.is_at(i, r) for r in rooms))

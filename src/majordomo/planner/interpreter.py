@@ -123,11 +123,15 @@ class Interpreter:
         first = self._whole(said, snapshot, dialogue, choices).interpretation
         if first.kind is Kind.PLAN:
             earlier = Exchange(request=said, goals=first.goals, status="", explanation="")
-            again = replace(dialogue, earlier=(earlier, *dialogue.earlier), mentioned=(*first.mentioned, *dialogue.mentioned))
+            again = replace(
+                dialogue, earlier=(earlier, *dialogue.earlier), mentioned=(*first.mentioned, *dialogue.mentioned)
+            )
             revised = self._revised(Revision(how="correct", rest=rest), snapshot, again, choices)
             return revised if revised is not None and _settled(revised) else None
         alone = self._whole(rest, snapshot, dialogue, choices)
-        return alone if alone.interpretation.kind is Kind.PLAN else self._restated(said, rest, snapshot, dialogue, choices)
+        return (
+            alone if alone.interpretation.kind is Kind.PLAN else self._restated(said, rest, snapshot, dialogue, choices)
+        )
 
     def _restated(
         self, said: str, rest: str, snapshot: Snapshot, dialogue: Dialogue, choices: Choices

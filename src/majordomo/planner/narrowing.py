@@ -47,7 +47,7 @@ class Narrowing:
         kept = [i for i in found if not phrase.colors or has(self._has_color(i, color) for color in phrase.colors)]
         if phrase.quantity == "this":
             kept = [i for i in kept if self._state.room_of(i) == self._snapshot.current_room] or kept
-        for restriction in phrase.restrictions:
+        for restriction in sorted(phrase.restrictions, key=lambda each: each.relation != "color"):
             kept = self.restricted(kept, restriction, context)
         kept = self._without(kept, phrase, context)
         for size in phrase.sizes:
@@ -88,7 +88,11 @@ class Narrowing:
         if relation == "held":
             return [i for i in candidates if i == self._state.holding]
         if relation in ("here", "there"):
-            room = self._snapshot.current_room if relation == "here" else next(iter(context.places), self._snapshot.current_room)
+            room = (
+                self._snapshot.current_room
+                if relation == "here"
+                else next(iter(context.places), self._snapshot.current_room)
+            )
             return [i for i in candidates if room is not None and self.is_at(i, room)]
         targets = self.targets(restriction, context)
         if relation == "nearest":

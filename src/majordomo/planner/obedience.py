@@ -20,7 +20,9 @@ def obey(control: Control, task: Task, queue: TaskQueue, stamp_s: float) -> Task
         case Control.STOP:
             said = "I have stopped. Say “go on” when I may move again."
         case Control.PAUSE:
-            said = _operated("pause", (TaskStatus.RUNNING,), others, queue, stamp_s) or "I am doing nothing that can wait."
+            said = (
+                _operated("pause", (TaskStatus.RUNNING,), others, queue, stamp_s) or "I am doing nothing that can wait."
+            )
         case Control.RESUME:
             said = _operated("resume", (TaskStatus.PAUSED,), others, queue, stamp_s) or "I go on."
         case Control.CANCEL:

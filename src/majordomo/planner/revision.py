@@ -35,7 +35,9 @@ _MEANT = re.compile(
     rf"^{_COURTESY}(?:actually|rather|make (?:it|that)|(?:change|switch|correct) (?:it|that|this) to|(?:i|we) (?:meant|mean|said)(?: to say)?|better)[\s,]+"
     r"(?P<rest>.+)$"
 )
-_NOT = re.compile(r"^(?P<rest>(?:(?:to|on|in|the) ){0,2}\w+(?: \w+)?),? not (?:(?:to|on|in|the) ){0,2}\w+(?: \w+)?[\s.!]*$")
+_NOT = re.compile(
+    r"^(?P<rest>(?:(?:to|on|in|the) ){0,2}\w+(?: \w+)?),? not (?:(?:to|on|in|the) ){0,2}\w+(?: \w+)?[\s.!]*$"
+)
 _INSTEAD = re.compile(r"^(?P<rest>.+?)[\s,]+(?:instead|rather|i meant|i mean)[\s.!]*$")
 _AGAIN = re.compile(
     r"^(?:please\s+)?(?:do (?:it|that|the same(?: thing)?)(?: again| once more| one more time)"

@@ -59,6 +59,8 @@ _RULES: tuple[tuple[str, str], ...] = (
     (r"^(?:please )?(?:undo|reverse|revert) (?:that|it|this|the last (?:one|step|thing|move|task))[.! ]*$",
      "put it back where it was"),
     (r"^(?:please )?(?:never mind|nevermind|forget it)[,.;:]* (?=(?:put|take|return|bring)\b)", ""),
+    (r"\b(?:i|you|we|he|she|they|someone|somebody) (?:have |had |just )*(?:left|put|placed|dropped|forgot|laid|set|saw)"
+     r"(?: lying| standing| down)? (?=(?:on|in|at|next|by|near) )", "that is "),
     # bringing
     (r"\bshow (?=(?:me|him|her|anna|ben|\w+) the \w+ and (?:then )?(?:return|put|bring))", "bring "),
     (r"\bthrow (.+?) (?:away )?(in|into|in to) (?=(?:the |a |my )?(?:\w+ )?(?:trash|bin|garbage|rubbish|waste|dustbin))",
@@ -79,7 +81,7 @@ _RULES: tuple[tuple[str, str], ...] = (
     (r"\bgoes (?=to (?:me|him|her|the|\w+)\b)", "should be "),
     (r"(?<!if )\b(\w+) (?:should|must|may|can|shall) (?:have|get) (it|them|that|the [\w ]+)(?=$|[.!?,])", r"give \2 to \1"),
     (r"\bi want(?:ed)? (it|them|that|this) to (?:go|be) ", r"put \1 "),
-    (r"^(all|every|both|the \w+s|\w+s) ([\w ]*?)(?<!\bgo )(into|onto) (?=(?:the|a|my)\b)", r"put \1 \2\3 "),
+    (r"^(all|every|both|the \w+s) ([\w ]*?)(?<!\bgo )(into|onto) (?=(?:the|a|my)\b)", r"put \1 \2\3 "),
     (r"\bto (?:the|his|her|my) (?=where)", ""),
     (r"\blet(?: us)? (?=(?:the|my|all|every)\b[^.]* (?:go|be) )", "ensure "),
     (r"\b(?:the rest|everything else|all else|the others?) (?:can |may |should )?(?:stays?|remains?)"
@@ -113,6 +115,10 @@ _RULES: tuple[tuple[str, str], ...] = (
     (r"\b(?:quickest|fastest|shortest|best|easiest) (?:route|path|way)\b", "way"),
     (r"^what (\w+) (?:do|have) (?:we|you|i) (?:have|got)(?=$|[.!?])", r"which \1 are there"),
     (r"^(?:is|are) (.+?) (?:in|on|at) (?:the |a |my )[\w ]+? or (?:in |on |at )?(?:the |a |my )?[\w ]+?(?=$|[.!?])", r"where is \1"),
+    (r"\b(?:the|all the|all) stuff (?=(?:on|in|from|at)\b)", "everything "),
+    (r"^(?:i|we) (?:forgot|left|need|lost|want|misplaced) (my|the|our) ([\w ]+?)[,.;]+ (?:can|could|will|would)? ?(?:you )?(?:please )?"
+     r"(?:bring|get|fetch|grab) (?:me )?(?:it|them)(?: to me| for me)?(?: please)?(?=$|[.!?])", r"bring me \1 \2"),
+    (r"^(?:get rid of|deal with|take care of) (the [\w ]+?)[,;.:] (?:please )?(?:put|take|throw|drop) (?:it|them) ", r"put \1 "),
     # comparing and choosing
     (r",? (?:anything|any color|whatever|everything|all) but (?:the |a )?(\w+)(?: ones?)?(?=$|[.!?,])", r" that is not \1"),
     (r",?(?: and| but| just| only)* not (?:a |the |an |any )(\w+)(?: ones?| colou?red one)(?=$|[.!?])", r" that is not \1"),
@@ -286,4 +292,3 @@ def paraphrased(text: str) -> str:
         text = pattern.sub(said, text)
     text = _BACK.sub(r"\1 back where it was", text)
     return " ".join(text.split()) if "\n" not in text else text
-

@@ -12,7 +12,9 @@ _PART = re.compile(
     r"^(?:and |then |please )*(?:put |move |bring |take )?(?P<things>.+?)(?: should| must| can| may)?"
     r"(?: go| goes| belongs?| be)? (?P<way>to|into|in|on|onto|next to) (?P<place>(?:the|a|my|his|her|\w+)\b.*)$"
 )
-_COMMAS = re.compile(r"[,;.]\s+(?:and |then )*| and (?=(?:the |all |every |put )?(?:[\w']+ ){1,3}?(?:to|into|onto|go|goes|belongs?)\b|(?:the )?\w+ ones? )")
+_COMMAS = re.compile(
+    r"[,;.]\s+(?:and |then )*| and (?=(?:the |all |every |put )?(?:[\w']+ ){1,3}?(?:to|into|onto|go|goes|belongs?)\b|(?:the )?\w+ ones? )"
+)
 _EVERY = re.compile(r"^(?:the |all (?:of )?(?:the )?|every |any |each )+")
 _ONES = re.compile(r"\bones?$")
 _OPENING = ("everything", "whatever", "anything", "it", "them")

@@ -169,6 +169,8 @@ class Grounding:
         many = phrase.quantity in (Quantity.ALL, Quantity.BOTH, Quantity.SOME, Quantity.EXACTLY) or _plural(phrase)
         found = self._suited(self.matches(phrase, context, widely=many), carried=carried)
         text = phrase_text(phrase)
+        if phrase.words[-1:] in (("things",), ("everything",), ("stuff",)):
+            found = tuple(i for i in found if i not in self.state.missing) or found
         if phrase.exceptions and (lost := self._narrowing.missing_reference(phrase, context)) is not None:
             return lost
         if phrase.other:
@@ -263,7 +265,7 @@ class Grounding:
         if head in ("one", "ones"):
             head = context.noun or "thing"
         found = named(head, phrase.number, self.snapshot, widely=widely, fixed=fixed)
-        if len(found) == 1 or len(phrase.words) < 2:
+        if len(found) == 1 or len(head.split()) < 2:
             return found
         return self._named_in_room(phrase, widely=widely) or found
 

@@ -17,7 +17,7 @@ from majordomo.planner.vocabulary import normal
 from majordomo.scene_graph.nodes import ObjectNode, PersonNode, RoomNode
 
 _COURTESY = r"(?:(?:sorry|oops|wait|hm+|um|ah|oh|hang on|hold on|excuse me|please|ok|okay|well|stop)\b[\s,.!]*)*"
-_TRAILING = re.compile(r"[\s,]+(?:instead|please|rather)[\s.!]*$")
+_TRAILING = re.compile(r"[\s,]+(?:instead|please|rather|i mean|i meant)[\s.!]*$")
 _LED = re.compile(rf"^{_COURTESY}")
 _NO = re.compile(
     rf"^{_COURTESY}(?:no+|nope|not (?:that|this)(?: one)?|not (?:to|on|in|into|onto|at) [\w ]+?(?=[,;.])|instead of [\w ]+?(?:,|(?= (?:take|bring|give|put|use|the)\b))"
@@ -35,6 +35,9 @@ _MEANT = re.compile(
     rf"^{_COURTESY}(?:actually|rather|make (?:it|that)|(?:change|switch|correct) (?:it|that|this) to|(?:i|we) (?:meant|mean|said)(?: to say)?|better)[\s,]+"
     r"(?P<rest>.+)$"
 )
+_SORRY = re.compile(
+    r"^(?:oh |ah |oops,? )?(?:sorry|oops|wait|hang on|hold on)[\s,.!]+(?P<rest>(?:to|on|in|into|onto|the|my|next to)\b.+)$"
+)
 _NOT = re.compile(
     r"^(?P<rest>(?:(?:to|on|in|the) ){0,2}\w+(?: \w+)?),? not (?:(?:to|on|in|the) ){0,2}\w+(?: \w+)?[\s.!]*$"
 )
@@ -50,7 +53,7 @@ _TOO = re.compile(
 )
 
 
-MAX_REPLACED = 7
+MAX_REPLACED = 5
 """Words that a remark may stand for."""
 MAX_CHARACTERS = 200
 """Remarks are short."""
@@ -71,7 +74,7 @@ def revision(text: str) -> Revision | None:
         return None
     if _AGAIN.match(said):
         return Revision(how="again")
-    for pattern in (_NO, _MEANT, _INSTEAD, _NOT):
+    for pattern in (_INSTEAD, _NO, _MEANT, _SORRY, _NOT):
         found = pattern.match(said)
         if found and found["rest"].strip(" .!?"):
             rest = _TRAILING.sub("", _LED.sub("", found["rest"]))
@@ -95,7 +98,9 @@ def repair(text: str) -> tuple[str, str] | None:
 def restated(said: str, rest: str) -> Iterator[str]:
     """``said`` with its last words replaced by ``rest``, the fewest first; *just* begins anew."""
     words = said.split()
-    for kept in range(len(words) - 1, max(len(words) - MAX_REPLACED, 0), -1):
+    if " and " in said or " then " in said:
+        return
+    for kept in range(len(words) - 1, max(len(words) - MAX_REPLACED - 1, 0), -1):
         yield " ".join([*words[:kept], rest])
 
 

@@ -58,6 +58,7 @@ _RULES: tuple[tuple[str, str], ...] = (
     # taking back, in a word
     (r"^(?:please )?(?:undo|reverse|revert) (?:that|it|this|the last (?:one|step|thing|move|task))[.! ]*$",
      "put it back where it was"),
+    (r"^(?:please )?(?:never mind|nevermind|forget it|stop|wait|no)[,.;:!]+ (?=(?:put|take|return|bring) (?:it|them|that|the \w+) back\b)", ""),
     (r"^(?:please )?(?:never mind|nevermind|forget it)[,.;:]* (?=(?:put|take|return|bring)\b)", ""),
     (r"\b(?:i|you|we|he|she|they|someone|somebody) (?:have |had |just )*(?:left|put|placed|dropped|forgot|laid|set|saw)"
      r"(?: lying| standing| down)? (?=(?:on|in|at|next|by|near) )", "that is "),
@@ -80,7 +81,8 @@ _RULES: tuple[tuple[str, str], ...] = (
     (r"\b(?!lets\b|thanks\b|always\b|us\b)(\w+s) (?:can |may |will )?go (?=(?:on|in|into|onto|next)\b)", r"\1 should be "),
     (r"\bgoes (?=to (?:me|him|her|the|\w+)\b)", "should be "),
     (r"(?<!if )\b(\w+) (?:should|must|may|can|shall) (?:have|get) (it|them|that|the [\w ]+)(?=$|[.!?,])", r"give \2 to \1"),
-    (r"\bi want(?:ed)? (it|them|that|this) to (?:go|be) ", r"put \1 "),
+    (r"\b(?:i want(?:ed)? )?(it|them|that|this) to (?:go|be) (?=to )", r"put \1 "),
+    (r"\b(?:i want(?:ed)? )(it|them|that|this) to (?:go|be) ", r"put \1 "),
     (r"^(all|every|both|the \w+s) ([\w ]*?)(?<!\bgo )(into|onto) (?=(?:the|a|my)\b)", r"put \1 \2\3 "),
     (r"\bto (?:the|his|her|my) (?=where)", ""),
     (r"\blet(?: us)? (?=(?:the|my|all|every)\b[^.]* (?:go|be) )", "ensure "),
@@ -115,6 +117,14 @@ _RULES: tuple[tuple[str, str], ...] = (
     (r"\b(?:quickest|fastest|shortest|best|easiest) (?:route|path|way)\b", "way"),
     (r"^what (\w+) (?:do|have) (?:we|you|i) (?:have|got)(?=$|[.!?])", r"which \1 are there"),
     (r"^(?:is|are) (.+?) (?:in|on|at) (?:the |a |my )[\w ]+? or (?:in |on |at )?(?:the |a |my )?[\w ]+?(?=$|[.!?])", r"where is \1"),
+    (r",? (?:but |and )?only (?:the |an? )?(\w+) ones?(?=$|[.!?])", r" that is \1"),
+    (r"^((?:the|my|that) [\w ]+?), (?:can you |could you |please )*(bring|take|put|get|fetch|carry) (?:it|them) ", r"\2 \1 "),
+    (r"^(?:i|we) do not (?:want|need) [\w ]+?[,.;]+ (?:just |but |so |please )*(?=(?:bring|take|put|get|fetch|give)\b)", ""),
+    (r"^do not (\w+)( me)? the (?:\w+ )?(\w+),? but (?:rather |instead )?the (\w+) one(?=$|[.!])", r"\1\2 the \4 \3"),
+    (r"^on (?:the|your) way to ([\w ]+?), (.+)$", r"\2, then go to \1"),
+    (r",? on (?:the|your) way to ([\w ]+)(?=$|[.!])", r", then go to \1"),
+    (r"^(?:while|when|if) you are (?:over )?(?:in|at) ([\w ]+?), (?=(?:bring|take|get|fetch|pick|put|grab)\b)", r"go to \1, then "),
+    (r"\b(?:meet|join|wait for) (?:me|us) (?=(?:in|at)\b)", "go "),
     (r"\b(?:the|all the|all) stuff (?=(?:on|in|from|at)\b)", "everything "),
     (r"^(?:i|we) (?:forgot|left|need|lost|want|misplaced) (my|the|our) ([\w ]+?)[,.;]+ (?:can|could|will|would)? ?(?:you )?(?:please )?"
      r"(?:bring|get|fetch|grab) (?:me )?(?:it|them)(?: to me| for me)?(?: please)?(?=$|[.!?])", r"bring me \1 \2"),

@@ -119,7 +119,7 @@ class Interpreter:
     def _repaired(
         self, said: str, rest: str, snapshot: Snapshot, dialogue: Dialogue, choices: Choices
     ) -> Reading | None:
-        """A request that corrects itself: as two requests, else with its end replaced; None when neither makes sense."""
+        """A request that corrects itself: as two requests, else with its end replaced; None if neither makes sense."""
         first = self._whole(said, snapshot, dialogue, choices).interpretation
         if first.kind is Kind.PLAN:
             earlier = Exchange(request=said, goals=first.goals, status="", explanation="")

@@ -95,10 +95,8 @@ class Narrowing:
             )
             return [i for i in candidates if room is not None and self.is_at(i, room)]
         targets = self.targets(restriction, context)
-        if relation == "nearest":
-            return self._closest(candidates, targets)
-        if relation == "of person":
-            return self._owned(candidates, targets)
+        if relation in ("nearest", "of person"):
+            return (self._closest if relation == "nearest" else self._owned)(candidates, targets)
         if relation == "near" and any(isinstance(self._snapshot.get(i), RoomNode) for i in candidates):
             doors = [set(door.rooms) for door in self._state.world.doors]
             return [i for i in candidates if any({i, target} in doors for target in targets)]

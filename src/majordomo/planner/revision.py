@@ -20,23 +20,30 @@ _COURTESY = r"(?:(?:sorry|oops|wait|hm+|um|ah|oh|hang on|hold on|excuse me|pleas
 _TRAILING = re.compile(r"[\s,]+(?:instead|please|rather|i mean|i meant)[\s.!]*$")
 _LED = re.compile(rf"^{_COURTESY}")
 _NO = re.compile(
-    rf"^{_COURTESY}(?:no+|nope|not (?:that|this)(?: one)?|not (?:to|on|in|into|onto|at) [\w ]+?(?=[,;.])|instead of [\w ]+?(?:,|(?= (?:take|bring|give|put|use|the)\b))"
-    r"(?:\s*(?:take|bring|give|put|use)\b(?: me| him| her)?)?|wrong(?: (?!is\b)\w+)?|that(?: is|'s) wrong|not the \w+(?: one)?)\b"
+    rf"^{_COURTESY}(?:no+|nope|not (?:that|this)(?: one)?"
+    r"|not (?:to|on|in|into|onto|at) [\w ]+?(?=[,;.])"
+    r"|instead of [\w ]+?(?:,|(?= (?:take|bring|give|put|use|the)\b))"
+    r"(?:\s*(?:take|bring|give|put|use)\b(?: me| him| her)?)?|wrong(?: (?!is\b)\w+)?|that(?: is|'s) wrong|not "
+    r"the \w+(?: one)?)\b"
     r"[\s,.!;:-]*(?:sorry[\s,]*)?(?:(?:i|we) (?:meant|mean|said|wanted|want)\b(?: to say)?[\s,]*)?(?P<rest>.*)$"
 )
 _REPAIR = re.compile(
-    r"^(?P<said>.+?)(?:[\s,.;:!…-]+(?:i mean(?:t)?(?: to say)?|no,? (?:sorry|wait)|(?:sorry|wait),? no|scratch that|or rather|make that"
-    r"|no,? i mean(?:t)?|correction)\b|\s*(?:[,.;:!…]+|\s-)\s*(?:no|sorry|actually|rather|wait|oops|make it|not that"
+    r"^(?P<said>.+?)(?:[\s,.;:!…-]+(?:i mean(?:t)?(?: to say)?|no,? (?:sorry|wait)|(?:sorry|wait),? no|scratch "
+    r"that|or rather|make that"
+    r"|no,? i mean(?:t)?|correction)\b|\s*(?:[,.;:!…]+|\s-)\s*(?:no|sorry|actually|rather|wait|oops|make it|not "
+    r"that"
     r"|well|hang on|hold on)\b(?!\s+(?:matter|problem|rush|hurry|one|longer)))+[\s,.;:!…-]*(?P<rest>.+)$"
 )
 _RESUMED = re.compile(r"^(?P<said>.+?)\s*(?:\.\.\.+|…)\s*(?P<rest>(?:the|a|an|to|on|in|my|just)\b.+)$")
 _NOT_THAT = re.compile(r"^(?:not|wasn't|isn't) (?:the |a |to )?[\w ]{1,30}?(?:[,;.]+| but) *")
 _MEANT = re.compile(
-    rf"^{_COURTESY}(?:actually|rather|make (?:it|that)|(?:change|switch|correct) (?:it|that|this) to|(?:i|we) (?:meant|mean|said)(?: to say)?|better)[\s,]+"
+    rf"^{_COURTESY}(?:actually|rather|make (?:it|that)"
+    r"|(?:change|switch|correct) (?:it|that|this) to|(?:i|we) (?:meant|mean|said)(?: to say)?|better)[\s,]+"
     r"(?P<rest>.+)$"
 )
 _SORRY = re.compile(
-    r"^(?:oh |ah |oops,? )?(?:sorry|oops|wait|hang on|hold on)[\s,.!]+(?P<rest>(?:to|on|in|into|onto|the|my|next to)\b.+)$"
+    r"^(?:oh |ah |oops,? )?(?:sorry|oops|wait|hang on|hold on)[\s,.!]+(?P<rest>(?:to|on|in|into|onto|the|my|next"
+    r" to)\b.+)$"
 )
 _NOT = re.compile(
     r"^(?P<rest>(?:(?:to|on|in|the) ){0,2}\w+(?: \w+)?),? not (?:(?:to|on|in|the) ){0,2}\w+(?: \w+)?[\s.!]*$"
@@ -44,7 +51,8 @@ _NOT = re.compile(
 _INSTEAD = re.compile(r"^(?P<rest>.+?)[\s,]+(?:instead|rather|i meant|i mean)[\s.!]*$")
 _AGAIN = re.compile(
     r"^(?:please\s+)?(?:do (?:it|that|the same(?: thing)?)(?: again| once more| one more time)"
-    r"|again|once more|one more time|(?:and )?the same again|repeat (?:that|it)|same again)[\s,.!]*(?:please)?[\s.!]*$"
+    r"|again|once more|one more time|(?:and )?the same again|repeat (?:that|it)|same again)[\s,.!]*(?:please)?["
+    r"\s.!]*$"
 )
 _TOO = re.compile(
     r"^(?:and |also |now |then )+(?P<rest>.+?)(?:[\s,]+(?:too|as well|also))?(?:[\s,]+please)?[\s.!?]*$|"

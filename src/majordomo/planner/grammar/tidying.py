@@ -5,7 +5,8 @@ from __future__ import annotations
 import re
 
 _HEADING = re.compile(
-    r"^(?:please |can you |could you |let us )*(?:tidy|clean|clear|sort|organi[sz]e|straighten|arrange)(?: (?:up|out|off|away))?"
+    r"^(?:please |can you |could you |let us )*(?:tidy|clean|clear|sort|organi[sz]e|straighten|arrange)(?: (?:up"
+    r"|out|off|away))?"
     r" ?(?P<what>[\w' ]*?)\s*(?::|,| -|;|\.| by putting| and put)\s+(?P<rest>.+)$"
 )
 _PART = re.compile(
@@ -13,7 +14,8 @@ _PART = re.compile(
     r"(?: go| goes| belongs?| be)? (?P<way>to|into|in|on|onto|next to) (?P<place>(?:the|a|my|his|her|\w+)\b.*)$"
 )
 _COMMAS = re.compile(
-    r"[,;.]\s+(?:and |then )*| and (?=(?:the |all |every |put )?(?:[\w']+ ){1,3}?(?:to|into|onto|go|goes|belongs?)\b|(?:the )?\w+ ones? )"
+    r"[,;.]\s+(?:and |then )*| and (?=(?:the |all |every |put )?(?:[\w']+ ){1,3}?(?:to|into|onto|go|goes|belongs"
+    r"?)\b|(?:the )?\w+ ones? )"
 )
 _EVERY = re.compile(r"^(?:the |all (?:of )?(?:the )?|every |any |each )+")
 _ONES = re.compile(r"\bones?$")

@@ -27,7 +27,9 @@ from majordomo.app.scene_documents import robot_document, scene_document
 from majordomo.app.scheduler import TICK_S, Agent, LockstepScheduler, RealTimeScheduler, Scheduler, Turns
 from majordomo.app.settings import ClockMode, Settings
 from majordomo.app.stack import BuildStack, Stack
+from majordomo.planner.grammar.control import Control, control_word
 from majordomo.planner.models.protocol import LanguageModel
+from majordomo.planner.obedience import obey
 from majordomo.planner.queue import TaskQueue
 from majordomo.planner.tasks import Approval, Task
 from majordomo.scene_graph.memory import WorkingMemory
@@ -152,8 +154,16 @@ class Runtime:
         return "" if self._scheduler is not None and self.now_s > 0.0 else "starting"
 
     def submit(self, request: str, *, approval: Approval = Approval.AUTO, dry_run: bool = False) -> Task:
-        """Queue a request."""
-        return self.queue.submit(request, stamp_s=self.now_s, approval=approval, dry_run=dry_run)
+        """Queue a request; *stop*, *wait*, *go on* and *cancel* act at once instead."""
+        task = self.queue.submit(request, stamp_s=self.now_s, approval=approval, dry_run=dry_run)
+        control = None if dry_run else control_word(request)
+        if control is None:
+            return task
+        if control is Control.STOP:
+            self.stop_robot()
+        elif control is Control.RESUME and self._stack is not None and self._stack.stopped:
+            self.release_stop()
+        return obey(control, task, self.queue, self.now_s)
 
     def stop_robot(self) -> None:
         """Latch the stop; never waits for anything."""

@@ -219,6 +219,9 @@ class Answers:
         if isinstance(node, ObjectNode):
             return self._color(node)
         name = capital(name_of(node_id, self._snapshot))
+        if isinstance(node, RoomNode):
+            open_now = self._narrowing.restricted([node_id], Restriction(relation="state", word="open"), Context())
+            return f"{name} is {'open' if open_now else 'closed'}."
         return f"{name} is {node.state.value}." if isinstance(node, DoorNode) else f"{name}: I cannot tell."
 
     def _colors(self, found: Sequence[str]) -> str:

@@ -115,6 +115,11 @@ class Discourse:
         """*If there is a cup on the table, bring it to me*: what the condition found."""
         nouns = [thing.head for thing in asked.things if isinstance(thing, NounPhrase)]
         found = tuple(i for i in answer.query.nodes if i not in self._grounding.state.missing)
+        thing = asked.things[0] if asked.things else None
+        stated = (asked.place, *(thing.restrictions if isinstance(thing, NounPhrase) else ()))
+        places = [i for where in stated if where is not None for i in self._grounding.targets(where, self._context)]
+        if len(places) == 1:
+            self._context = carried_on(self._context, Meant(places=tuple(places)))
         if asked.things and isinstance(asked.things[0], NounPhrase):
             found = found or self._grounding.matches(asked.things[0], self._context)
             near = self._grounding.nearest(found) if asked.things[0].quantity in ("a", "bare") else found

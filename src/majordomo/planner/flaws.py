@@ -56,7 +56,7 @@ def _unfit(goal: Goal, snapshot: Snapshot, state: PlanState) -> Iterator[Flaw]:
         return
     if first.kind != "object":
         yield Flaw(
-            message=f"{goal} needs an object, and {_name(first.id, snapshot)} is a {first.kind}.", nodes=(first.id,)
+            message=f"I can carry objects only, and {_name(first.id, snapshot)} is a {first.kind}.", nodes=(first.id,)
         )
     elif goal.predicate is not Predicate.FOUND and not first.graspable:
         yield Flaw(

@@ -15,8 +15,8 @@ from majordomo.planner.naming import name_of
 from majordomo.planner.narrowing import Narrowing
 from majordomo.planner.phrasing import alternatives, describe, phrase_text, which_question
 from majordomo.planner.plan import Exchange
-from majordomo.planner.vocabulary import is_plural
-from majordomo.scene_graph.nodes import ObjectNode, PersonNode
+from majordomo.planner.vocabulary import is_plural, normal, words_for
+from majordomo.scene_graph.nodes import ObjectNode, PersonNode, RoomNode
 from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.skills.state import PlanState
 
@@ -147,6 +147,12 @@ class Grounding:
         if word == "him":
             people = [i for i in context.mentioned if isinstance(self.snapshot.get(i), PersonNode)]
             return tuple(people[:1]) or NoReferent(reason="I do not know whom you mean.")
+        if word == "them" and not context.fresh and context.earlier:
+            moved = tuple(
+                dict.fromkeys(goal.args[0] for goal in context.earlier[0].goals if goal.object_id is not None)
+            )
+            if len(moved) > 1:
+                return moved
         return self._it(context)
 
     def _it(self, context: Context) -> Grounded:
@@ -163,6 +169,8 @@ class Grounding:
         many = phrase.quantity in (Quantity.ALL, Quantity.BOTH, Quantity.SOME, Quantity.EXACTLY) or _plural(phrase)
         found = self._suited(self.matches(phrase, context, widely=many), carried=carried)
         text = phrase_text(phrase)
+        if phrase.words[-1:] in (("things",), ("everything",), ("stuff",)):
+            found = tuple(i for i in found if i not in self.state.missing) or found
         if phrase.exceptions and (lost := self._narrowing.missing_reference(phrase, context)) is not None:
             return lost
         if phrase.other:
@@ -174,6 +182,8 @@ class Grounding:
             return self.nothing(phrase, context)
         if phrase.rank is not None and phrase.superlative is None:
             return self._ranked(phrase, found, context)
+        if phrase == NounPhrase(words=("one",)) and context.noun:
+            return self._any(phrase, found, avoid)
         match phrase.quantity:
             case Quantity.A | Quantity.SOME:
                 return self._any(phrase, found, avoid)
@@ -255,15 +265,21 @@ class Grounding:
         if head in ("one", "ones"):
             head = context.noun or "thing"
         found = named(head, phrase.number, self.snapshot, widely=widely, fixed=fixed)
-        if found or len(phrase.words) < 2:
+        if len(found) == 1 or len(head.split()) < 2:
             return found
-        return self._named_in_room(phrase, widely=widely)
+        return self._named_in_room(phrase, widely=widely) or found
 
     def _named_in_room(self, phrase: NounPhrase, *, widely: bool) -> tuple[str, ...]:
         """*the kitchen table*: a table in the kitchen."""
-        rooms = [i for i in named(phrase.words[0], None, self.snapshot, widely=True) if self.snapshot.room_of(i) == i]
-        rest = named(" ".join(phrase.words[1:]), phrase.number, self.snapshot, widely=widely)
-        return tuple(i for i in rest if i not in rooms and any(self._narrowing.is_at(i, room) for room in rooms))
+        words = " ".join(phrase.words).split()
+        for split in range(len(words) - 1, 0, -1):
+            lead = " ".join(words[:split])
+            called = words_for(lead) | {lead, f"{lead} room"}
+            rooms = [room.id for room in self.snapshot.of_type(RoomNode) if normal(room.label) in called]
+            if rooms:
+                rest = named(" ".join(words[split:]), phrase.number, self.snapshot, widely=widely)
+                return tuple(i for i in rest if i not in rooms and any(self._narrowing.is_at(i, r) for r in rooms))
+        return ()
 
     def _suited(self, found: tuple[str, ...], *, carried: bool) -> tuple[str, ...]:
         """Of several, those that can be carried, or that one can put something on, in or before, if there are any."""

@@ -23,10 +23,11 @@ from majordomo.planner.grounding import Ambiguous, Context, Grounding, NoReferen
 from majordomo.planner.matching import nouns_of
 from majordomo.planner.meant import Meant, without_steps_between
 from majordomo.planner.naming import aim_phrase, listed, name_of
-from majordomo.planner.plan import Dialogue, Interpretation, Kind
-from majordomo.planner.revision import Reviser, Revision, revision
+from majordomo.planner.plan import Dialogue, Exchange, Interpretation, Kind
+from majordomo.planner.revision import Reviser, Revision, repair, restated, revision
 from majordomo.planner.verifier import Verifier
-from majordomo.scene_graph.nodes import PersonNode
+from majordomo.planner.vocabulary import normal
+from majordomo.scene_graph.nodes import ObjectNode, PersonNode
 from majordomo.scene_graph.snapshot import Snapshot
 
 Choices = dict[str, tuple[str, ...]]
@@ -64,6 +65,15 @@ class Interpreter:
             revised = self._revised(about, snapshot, dialogue, choices or {})
             if revised is not None:
                 return revised
+        slip = repair(text)
+        if slip is not None:
+            repaired = self._repaired(*slip, snapshot, dialogue, choices or {})
+            if repaired is not None:
+                return repaired
+        return self._whole(text, snapshot, dialogue, choices)
+
+    def _whole(self, text: str, snapshot: Snapshot, dialogue: Dialogue, choices: Choices | None = None) -> Reading:
+        """What ``text`` means when it is no remark about something said before."""
         steps = self._grammar.parse(text, self.lexicon(snapshot))
         if not steps:
             return _reading(Kind.ANSWER, f"What can I do for you? {ABILITIES}")
@@ -91,7 +101,7 @@ class Interpreter:
         earlier, lexicon = dialogue.earlier[0], self.lexicon(snapshot)
         if not earlier.goals:
             return self.read(about.rest, snapshot, replace(dialogue, earlier=())) if about.how == "correct" else None
-        reviser = Reviser(self.grounding(snapshot), _context(dialogue, choices))
+        reviser = Reviser(self.grounding(snapshot), _context(dialogue, choices, snapshot))
         if about.how == "again":
             return self.checked([reviser.again(earlier)], snapshot, choices)
         outcome = reviser.by_phrase(about.how, self._grammar.phrase(about.rest, lexicon), earlier)
@@ -100,11 +110,40 @@ class Interpreter:
             understood = steps[0] if len(steps) == 1 and isinstance(steps[0], Understood) else None
             outcome = reviser.by_place(understood.readings, earlier) if understood is not None else None
         if outcome is None:
-            return self.read(about.rest, snapshot, replace(dialogue, earlier=()), choices)
+            alone = self._whole(about.rest, snapshot, dialogue, choices)
+            if _settled(alone) or about.how != "correct":
+                return alone
+            return self._restated(earlier.request, about.rest, snapshot, dialogue, choices) or alone
         return self.checked([outcome], snapshot, choices) if isinstance(outcome, Meant) else _troubled(outcome)
 
+    def _repaired(
+        self, said: str, rest: str, snapshot: Snapshot, dialogue: Dialogue, choices: Choices
+    ) -> Reading | None:
+        """A request that corrects itself: as two requests, else with its end replaced; None if neither makes sense."""
+        first = self._whole(said, snapshot, dialogue, choices).interpretation
+        if first.kind is Kind.PLAN:
+            earlier = Exchange(request=said, goals=first.goals, status="", explanation="")
+            again = replace(
+                dialogue, earlier=(earlier, *dialogue.earlier), mentioned=(*first.mentioned, *dialogue.mentioned)
+            )
+            revised = self._revised(Revision(how="correct", rest=rest), snapshot, again, choices)
+            return revised if revised is not None and _settled(revised) else None
+        alone = self._whole(rest, snapshot, dialogue, choices)
+        return (
+            alone if alone.interpretation.kind is Kind.PLAN else self._restated(said, rest, snapshot, dialogue, choices)
+        )
+
+    def _restated(
+        self, said: str, rest: str, snapshot: Snapshot, dialogue: Dialogue, choices: Choices
+    ) -> Reading | None:
+        for wording in restated(said, rest):
+            reading = self._whole(wording, snapshot, dialogue, choices)
+            if reading.interpretation.kind is Kind.PLAN:
+                return reading
+        return None
+
     def _ground(self, steps: Sequence[ParsedStep], snapshot: Snapshot, dialogue: Dialogue, choices: Choices) -> Reading:
-        context = _context(dialogue, choices)
+        context = _context(dialogue, choices, snapshot)
         meanings = Discourse(self.grounding(snapshot), context).meanings(steps)
         if isinstance(meanings, Stuck):
             return _stuck(meanings, steps)
@@ -135,12 +174,19 @@ class Interpreter:
         return Interpretation(kind=Kind.PLAN, goals=goals, reply=answers, mentioned=mentioned, lessons=lessons)
 
 
+def _settled(reading: Reading) -> bool:
+    """Whether every word was understood, and something is to be done, asked or said of it."""
+    return reading.wholly and reading.interpretation.kind is not Kind.REFUSE
+
+
 def _is_open(step: ParsedStep) -> bool:
     return isinstance(step, Choice) and step.condition == ()
 
 
-def _context(dialogue: Dialogue, choices: Choices) -> Context:
+def _context(dialogue: Dialogue, choices: Choices, snapshot: Snapshot) -> Context:
+    spoken = [node for i in dialogue.mentioned if isinstance(node := snapshot.get(i), ObjectNode)]
     return Context(
+        noun=normal(spoken[0].label) if spoken else "",
         speaker=dialogue.speaker,
         mentioned=dialogue.mentioned,
         choices=choices,

@@ -47,7 +47,7 @@ class Narrowing:
         kept = [i for i in found if not phrase.colors or has(self._has_color(i, color) for color in phrase.colors)]
         if phrase.quantity == "this":
             kept = [i for i in kept if self._state.room_of(i) == self._snapshot.current_room] or kept
-        for restriction in phrase.restrictions:
+        for restriction in sorted(phrase.restrictions, key=lambda each: each.relation != "color"):
             kept = self.restricted(kept, restriction, context)
         kept = self._without(kept, phrase, context)
         for size in phrase.sizes:
@@ -88,11 +88,15 @@ class Narrowing:
         if relation == "held":
             return [i for i in candidates if i == self._state.holding]
         if relation in ("here", "there"):
-            room = self._snapshot.current_room if relation == "here" else next(iter(context.places), None)
+            room = (
+                self._snapshot.current_room
+                if relation == "here"
+                else next(iter(context.places), self._snapshot.current_room)
+            )
             return [i for i in candidates if room is not None and self.is_at(i, room)]
         targets = self.targets(restriction, context)
-        if relation == "nearest":
-            return self._closest(candidates, targets)
+        if relation in ("nearest", "of person"):
+            return (self._closest if relation == "nearest" else self._owned)(candidates, targets)
         if relation == "near" and any(isinstance(self._snapshot.get(i), RoomNode) for i in candidates):
             doors = [set(door.rooms) for door in self._state.world.doors]
             return [i for i in candidates if any({i, target} in doors for target in targets)]
@@ -116,8 +120,18 @@ class Narrowing:
             return {one, other} <= set(node.rooms)
         return is_between(node_id, one, other, self._snapshot)
 
+    def _owned(self, found: list[str], owners: tuple[str, ...]) -> list[str]:
+        """*Anna's mug*: the only one there is, else what is where Anna is; her room is the one she is in."""
+        rooms = {self._state.room_of(owner) for owner in owners}
+        if any(isinstance(self._snapshot.get(i), RoomNode) for i in found):
+            return [i for i in found if i in rooms]
+        return found if len(found) == 1 else [i for i in found if self._state.room_of(i) in rooms]
+
     def _is_state(self, node_id: str, word: str) -> bool:
         node = self._snapshot.get(node_id)
+        if isinstance(node, RoomNode):
+            doors = [d for d in self._snapshot.of_type(DoorNode) if node_id in d.rooms]
+            return bool(doors) and any(d.state is not DoorState.CLOSED for d in doors) == (word == "open")
         return isinstance(node, DoorNode) and (node.state is not DoorState.CLOSED) == (word == "open")
 
     def targets(self, restriction: Restriction, context: Context) -> tuple[str, ...]:

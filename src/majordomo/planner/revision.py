@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from majordomo.planner.goals import PLACING, Goal, Predicate
@@ -16,27 +16,53 @@ from majordomo.planner.plan import Exchange
 from majordomo.planner.vocabulary import normal
 from majordomo.scene_graph.nodes import ObjectNode, PersonNode, RoomNode
 
-_COURTESY = r"(?:sorry|oops|wait|hm+|um|ah|oh|hang on|excuse me|please)?[\s,.!]*"
+_COURTESY = r"(?:(?:sorry|oops|wait|hm+|um|ah|oh|hang on|hold on|excuse me|please|ok|okay|well|stop)\b[\s,.!]*)*"
+_TRAILING = re.compile(r"[\s,]+(?:instead|please|rather|i mean|i meant)[\s.!]*$")
+_LED = re.compile(rf"^{_COURTESY}")
 _NO = re.compile(
-    rf"^{_COURTESY}(?:no+|nope|not (?:that|this)(?: one)?|wrong(?: one)?|that(?: is|'s) wrong|not the \w+(?: one)?)\b"
-    r"[\s,.!;:-]*(?:sorry[\s,]*)?(?:(?:i|we) (?:meant|mean|said|want|wanted)(?: to say)?[\s,]*)?(?P<rest>.*)$"
+    rf"^{_COURTESY}(?:no+|nope|not (?:that|this)(?: one)?"
+    r"|not (?:to|on|in|into|onto|at) [\w ]+?(?=[,;.])"
+    r"|instead of [\w ]+?(?:,|(?= (?:take|bring|give|put|use|the)\b))"
+    r"(?:\s*(?:take|bring|give|put|use)\b(?: me| him| her)?)?|wrong(?: (?!is\b)\w+)?|that(?: is|'s) wrong|not "
+    r"the \w+(?: one)?)\b"
+    r"[\s,.!;:-]*(?:sorry[\s,]*)?(?:(?:i|we) (?:meant|mean|said|wanted|want)\b(?: to say)?[\s,]*)?(?P<rest>.*)$"
 )
+_REPAIR = re.compile(
+    r"^(?P<said>.+?)(?:[\s,.;:!…-]+(?:i mean(?:t)?(?: to say)?|no,? (?:sorry|wait)|(?:sorry|wait),? no|scratch "
+    r"that|or rather|make that"
+    r"|no,? i mean(?:t)?|correction)\b|\s*(?:[,.;:!…]+|\s-)\s*(?:no|sorry|actually|rather|wait|oops|make it|not "
+    r"that"
+    r"|well|hang on|hold on)\b(?!\s+(?:matter|problem|rush|hurry|one|longer)))+[\s,.;:!…-]*(?P<rest>.+)$"
+)
+_RESUMED = re.compile(r"^(?P<said>.+?)\s*(?:\.\.\.+|…)\s*(?P<rest>(?:the|a|an|to|on|in|my|just)\b.+)$")
+_NOT_THAT = re.compile(r"^(?:not|wasn't|isn't) (?:the |a |to )?[\w ]{1,30}?(?:[,;.]+| but) *")
 _MEANT = re.compile(
-    rf"^{_COURTESY}(?:actually|rather|make (?:it|that)|(?:i|we) (?:meant|mean|said)(?: to say)?|better)[\s,]+"
+    rf"^{_COURTESY}(?:actually|rather|make (?:it|that)"
+    r"|(?:change|switch|correct) (?:it|that|this) to|(?:i|we) (?:meant|mean|said)(?: to say)?|better)[\s,]+"
     r"(?P<rest>.+)$"
+)
+_SORRY = re.compile(
+    r"^(?:oh |ah |oops,? )?(?:sorry|oops|wait|hang on|hold on)[\s,.!]+(?P<rest>(?:to|on|in|into|onto|the|my|next"
+    r" to)\b.+)$"
+)
+_NOT = re.compile(
+    r"^(?P<rest>(?:(?:to|on|in|the) ){0,2}\w+(?: \w+)?),? not (?:(?:to|on|in|the) ){0,2}\w+(?: \w+)?[\s.!]*$"
 )
 _INSTEAD = re.compile(r"^(?P<rest>.+?)[\s,]+(?:instead|rather|i meant|i mean)[\s.!]*$")
 _AGAIN = re.compile(
     r"^(?:please\s+)?(?:do (?:it|that|the same(?: thing)?)(?: again| once more| one more time)"
-    r"|again|once more|one more time|(?:and )?the same again|repeat (?:that|it)|same again)[\s,.!]*(?:please)?[\s.!]*$"
+    r"|again|once more|one more time|(?:and )?the same again|repeat (?:that|it)|same again)[\s,.!]*(?:please)?["
+    r"\s.!]*$"
 )
 _TOO = re.compile(
-    r"^(?:and |also |now |then )+(?P<rest>.+?)(?:[\s,]+(?:too|as well|also))?[\s.!?]*$|"
-    r"^(?P<rest2>.+?)[\s,]+(?:too|as well)[\s.!?]*$|"
+    r"^(?:and |also |now |then )+(?P<rest>.+?)(?:[\s,]+(?:too|as well|also))?(?:[\s,]+please)?[\s.!?]*$|"
+    r"^(?P<rest2>.+?)[\s,]+(?:too|as well)(?:[\s,]+please)?[\s.!?]*$|"
     r"^(?:do )?(?:the )?same (?:with|for|to) (?P<rest3>.+?)[\s.!?]*$|^what about (?P<rest4>.+?)[\s.!?]*$"
 )
 
 
+MAX_REPLACED = 5
+"""Words that a remark may stand for."""
 MAX_CHARACTERS = 200
 """Remarks are short."""
 
@@ -56,14 +82,34 @@ def revision(text: str) -> Revision | None:
         return None
     if _AGAIN.match(said):
         return Revision(how="again")
-    for pattern in (_NO, _MEANT, _INSTEAD):
+    for pattern in (_INSTEAD, _NO, _MEANT, _SORRY, _NOT):
         found = pattern.match(said)
         if found and found["rest"].strip(" .!?"):
-            return Revision(how="correct", rest=found["rest"].strip(" .!?"))
+            rest = _TRAILING.sub("", _LED.sub("", found["rest"]))
+            return Revision(how="correct", rest=rest.strip(" .!?"))
     found = _TOO.match(said)
     if found:
         return Revision(how="too", rest=next(group for group in found.groups() if group))
     return None
+
+
+def repair(text: str) -> tuple[str, str] | None:
+    """What was said and what was meant instead, in one request: *bring me the cup, no sorry, the book*."""
+    said = " ".join(text.casefold().replace("’", "'").split())
+    found = _REPAIR.match(said) or _RESUMED.match(said) if len(said) <= MAX_CHARACTERS else None
+    if found is None:
+        return None
+    rest = _NOT_THAT.sub("", found["rest"]).strip(" .!?,")
+    return (found["said"].strip(" .,;:-"), rest) if rest else None
+
+
+def restated(said: str, rest: str) -> Iterator[str]:
+    """``said`` with its last words replaced by ``rest``, the fewest first; *just* begins anew."""
+    words = said.split()
+    if " and " in said or " then " in said:
+        return
+    for kept in range(len(words) - 1, max(len(words) - MAX_REPLACED - 1, 0), -1):
+        yield " ".join([*words[:kept], rest])
 
 
 class Reviser:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from majordomo.planner.grammar.parser import CommandGrammar
+from majordomo.planner.grammar.syntax import Quantity
 from majordomo.planner.grammar.tokens import words_of
 from majordomo.planner.grounding import Context
 from majordomo.planner.interpreter import Interpreter
@@ -71,5 +72,5 @@ def _described(
                 fitting = grounding.among(candidates, phrase)
             chosen = tuple(i for i in candidates if i in fitting)
             if chosen and len(chosen) < len(candidates):
-                return chosen if len(chosen) == 1 else ()
+                return chosen[:1] if len(chosen) == 1 or phrase.quantity is Quantity.A else ()
     return ()

@@ -7,6 +7,7 @@ says so.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
@@ -17,6 +18,7 @@ from majordomo.planner.interpreter import DOUBT, Choices, Interpreter, Reading
 from majordomo.planner.model_rounds import ModelRounds
 from majordomo.planner.models.protocol import CORRECTABLE, FailureKind, LanguageModel, ModelFailure
 from majordomo.planner.plan import Dialogue, Interpretation, Kind
+from majordomo.planner.revision import revision
 from majordomo.planner.selection import NOTHING_THEN, agrees, declines, select
 from majordomo.planner.verifier import Verifier
 from majordomo.scene_graph.snapshot import Snapshot
@@ -90,6 +92,9 @@ class TaskPlanner:
         if reading.asked == DOUBT and agrees(answer):
             return text, {**choices, DOUBT: (DOUBT,)}
         candidates = reading.interpretation.candidates
+        about = revision(answer)
+        if about is not None and about.how == "correct":
+            answer = about.rest
         if candidates:
             chosen = select(answer, candidates, snapshot, self._interpreter, self._grammar)
             if chosen:
@@ -99,6 +104,10 @@ class TaskPlanner:
                 parsed = self._interpreter.read(wording, snapshot, Dialogue(), choices)
                 if parsed.wholly and parsed.asked != "destination":
                     return wording, choices
+        if about is not None and reading.asked:
+            wording = _with_other(text, reading.asked, answer)
+            if self._interpreter.read(wording, snapshot, Dialogue(), {}).wholly and wording != text:
+                return wording, {}
         return self._restated(text, answer, choices, snapshot, was_parsed=reading.wholly)
 
     def _restated(
@@ -116,6 +125,13 @@ class TaskPlanner:
         if answer.wholly and answer.interpretation.kind in (Kind.ANSWER, Kind.REFUSE):
             return replace(answer.interpretation, kind=Kind.ANSWER, source=proposed.source)
         return reading.interpretation
+
+
+def _with_other(text: str, asked: str, answer: str) -> str:
+    """*Put the white cup on the table* with *the blue one* in the place of *the white cup*."""
+    said = " ".join(text.casefold().split())
+    meant = re.sub(r"\bone\b", asked.rpartition(" ")[2], answer.casefold())
+    return re.sub(rf"\b(?:the|a|an|my) {re.escape(asked)}(?= |$|[.,!?])", lambda _: meant, said, count=1)
 
 
 def _without_model(interpretation: Interpretation, failure: ModelFailure) -> Interpretation:

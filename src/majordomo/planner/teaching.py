@@ -53,7 +53,7 @@ class Teaching:
         node, name = self._snapshot.node(node_id), name_of(node_id, self._snapshot)
         match node:
             case RoomNode():
-                return Lesson(node=node_id, label=said), f"From now on {node_id} is the {said}."
+                return Lesson(node=node_id, label=said), f"From now on {self._room(node_id)} is the {said}."
             case ObjectNode() if not step.mine and (not step.named or is_known(said)):
                 return Lesson(node=node_id, label=said), f"From now on {name} is a {said} to me."
             case ObjectNode():
@@ -63,3 +63,8 @@ class Teaching:
                 return Lesson(node=node_id, name=said.title()), f"From now on I call {name} {said.title()}."
             case _:
                 return Lesson(node=node_id, label=said), f"From now on {name} is “{said}”."
+
+    def _room(self, node_id: str) -> str:
+        """A room without its identifier; the one that the robot is in as *this room*."""
+        named = bool(self._snapshot.room(node_id).label)
+        return "this room" if node_id == self._snapshot.current_room or not named else name_of(node_id, self._snapshot)

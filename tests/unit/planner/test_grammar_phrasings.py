@@ -172,7 +172,6 @@ CLARIFIED = [
     ("bring me the cup unless it is red", "cup_1 cup_2 cup_3"),
     ("do not bring me the apple", ""),
     ("bring the apple or the book", ""),
-    ("the apple belongs on the desk", ""),
     ("bring me the second cup", "cup_1 cup_2 cup_3"),
     ("bring me the apple tomorrow", ""),
     ("go to the kitchen without the bottle", ""),

@@ -83,8 +83,12 @@ def test_while_a_room_is_being_measured_what_is_unknown_may_still_be_found():
     assert "not seen the whole building yet" in read("bring me the green bottle", memory.building()).reply
 
 
-def test_a_misspelled_word_suggests_the_label():
-    assert "Did you mean laptop?" in read("bring me the lapto").reply
+def test_a_short_misspelled_word_suggests_the_label():
+    assert "Did you mean apple?" in read("bring me the appl").reply
+
+
+def test_a_long_misspelled_word_is_taken_for_the_one_label_it_can_be():
+    assert read("bring me the remte").goals == read("bring me the remote").goals != ()
 
 
 def test_the_place_that_nobody_knows_is_the_news():

@@ -31,6 +31,9 @@ _PHRASES: dict[Control, tuple[str, ...]] = {
                      "cancel the task", "abort the task", "leave it", "cancel this", "forget about it", "drop it"),
 }  # fmt: skip
 _COURTESY = frozenset({"please", "robot", "majordomo", "butler", "now", "ok", "okay", "hey", "no", "oh", "immediately"})
+_VAGUE = frozenset({"right", "a", "second", "moment", "minute", "sec", "just", "for", "at", "once", "bit", "everything",
+                    "thanks", "then", "so", "well"})  # fmt: skip
+"""Adds nothing after a control word, as in *hold on a second*."""
 _MEANING = {phrase: control for control, phrases in _PHRASES.items() for phrase in phrases}
 MAX_CHARACTERS = 200
 
@@ -43,8 +46,10 @@ def control_word(text: str) -> Control | None:
     if len(text) > MAX_CHARACTERS:
         return None
     words = [word.text for word in words_of(text) if word.kind == "word" and word.text not in _COURTESY]
-    if not words:
-        return None
+    return _repeated(words) or _repeated([word for word in words if word not in _VAGUE])
+
+
+def _repeated(words: list[str]) -> Control | None:
     for length in range(1, len(words) + 1):
         control = _MEANING.get(" ".join(words[:length]))
         if control is not None and words == (words[:length] * len(words))[: len(words)] and len(words) % length == 0:

@@ -10,14 +10,17 @@ import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
+from majordomo.planner.grammar.spelling import closest
 from majordomo.planner.grammar.tokens import Word, words_of
 from majordomo.planner.grammar.words import ADVERBS, LYING, NOUNLIKE, POLITE_IF_VERB, VERBS, phrase_table
 from majordomo.planner.vocabulary import PERSON_WORDS, known_nouns, normal, singular
 
 IDENTIFIER = re.compile(r"[^\W_]+(?:_[^\W_]+)*_\d+")
 _PHRASES = phrase_table()
+_PHRASE_WORDS = frozenset(word for words in _PHRASES for word in words)
 _LONGEST = max(len(words) for words in _PHRASES)
 _KNOWN = frozenset(tuple(normal(noun).split()) for noun in known_nouns())
+_KNOWN_WORDS = frozenset(word for words in _KNOWN for word in words)
 ASKING = frozenset(
     {
         "WHERE",
@@ -65,6 +68,7 @@ _NP_START = frozenset(
     [
         "THE",
         "MY",
+        "POSSESSIVE",
         "A",
         "THIS",
         "THAT",
@@ -121,6 +125,7 @@ _SIDES = {"left": "LEFTMOST", "leftmost": "LEFTMOST", "left-hand": "LEFTMOST", "
 _AHEAD = 8
 """Words that the use of a word depends on."""
 _LEADING = frozenset({"FRAME", "AFTER", "BEFORE", "WHEN"})
+_VERBS = tuple(words[0] for words, (kind, _) in _PHRASES.items() if len(words) == 1 and kind in VERBS)
 _PRESENT = {phrase: terminal for phrase, (terminal, _) in _PHRASES.items() if terminal in VERBS}
 
 
@@ -148,6 +153,13 @@ class Lexicon:
         people = frozenset(tuple(normal(person).split()) for person in persons if normal(person))
         return cls(split, people, max((len(words) for words in split | people | _KNOWN), default=1))
 
+    def meant(self, word: str) -> str:
+        """``word``, or the one name of the graph that it is a slip of."""
+        if (word,) in _PHRASES or self.is_noun((word,)) or word in _KNOWN_WORDS | _PHRASE_WORDS:
+            return word
+        parts = {part for words in self.nouns | self.persons for part in words}
+        return word if word in parts or singular(word) in parts else closest(word, parts) or word
+
     def is_noun(self, words: tuple[str, ...]) -> bool:
         """Whether ``words`` name something here or in the vocabulary, in the singular or plural."""
         one = (*words[:-1], singular(words[-1]))
@@ -157,6 +169,7 @@ class Lexicon:
 def sentences(text: str, lexicon: Lexicon) -> list[list[Terminal]]:
     """The sentences of a request, each as a list of terminals; courtesy is dropped."""
     words = [word for word in words_of(text) if word.kind != "word" or word.text not in ADVERBS]
+    words = [Word(lexicon.meant(word.text), "word") if word.kind == "word" else word for word in words]
     found: list[list[Terminal]] = [[]]
     for token in _settle(_tag(words, lexicon), lexicon):
         if token.type == "STOP":
@@ -187,9 +200,24 @@ def _tag(words: Sequence[Word], lexicon: Lexicon) -> list[Terminal]:
     index = 0
     while index < len(words):
         length, token = _longest(words, index, lexicon)
+        if token.type == "WORD" and (not tokens or tokens[-1].type in _NO_NOUN_BEFORE | {"FILLER"}):
+            token = _verb_meant(token)
         tokens.append(token)
         index += length
     return tokens
+
+
+def _verb_meant(token: Terminal) -> Terminal:
+    """*brng*: where a verb is due, the verb that an unknown word is a slip of, letters lost or swapped only."""
+    found = [verb for verb in _VERBS if verb[0] == token.value[0] and _same_letters(token.value, verb)]
+    return Terminal(_PHRASES[(found[0],)][0], found[0], token.typed) if len(found) == 1 else token
+
+
+def _same_letters(typed: str, verb: str) -> bool:
+    if len(typed) < 3 or len(verb) < 4:
+        return False
+    lost = len(typed) == len(verb) - 1 and any(verb[:k] + verb[k + 1 :] == typed for k in range(len(verb)))
+    return lost or (sorted(typed) == sorted(verb) and len(typed) == len(verb))
 
 
 def _longest(words: Sequence[Word], index: int, lexicon: Lexicon) -> tuple[int, Terminal]:
@@ -216,6 +244,9 @@ def _match(words: tuple[str, ...], lexicon: Lexicon) -> Terminal | None:
         return Terminal("NAME", typed, typed)
     if phrase is None and len(words) == 1 and (typed in PERSON_WORDS or singular(typed) in PERSON_WORDS):
         return Terminal("PERSON", typed, typed)
+    owner = tuple(typed.removesuffix("'s").removesuffix("s'").split())
+    if typed.endswith(("'s", "s'")) and owner in lexicon.persons and not lexicon.is_noun(words):
+        return Terminal("POSSESSIVE", typed, typed)
     if typed in _DOOR:
         return Terminal("DOOR", typed, typed)
     if lexicon.is_noun(words) and (phrase is None or len(words) > 1):

@@ -69,6 +69,11 @@ class PhraseReader(Transformer[Token, Any]):
     def this(self, _: Children) -> dict[str, Any]:
         return {"quantity": Quantity.THIS}
 
+    def owned(self, children: Children) -> dict[str, Any]:
+        owner = str(children[0]).removesuffix("'s").removesuffix("'")
+        reference = NounPhrase(words=tuple(owner.split()), quantity=Quantity.THE, person=True)
+        return {"quantity": Quantity.THE, "restrictions": (Restriction(relation="of person", reference=reference),)}
+
     def all_of(self, _: Children) -> dict[str, Any]:
         return {"quantity": Quantity.ALL}
 
@@ -146,6 +151,11 @@ class PhraseReader(Transformer[Token, Any]):
         relation, reference = values_of(children)
         return Restriction(relation=relation, reference=reference)
 
+    def told(self, children: Children) -> Restriction:
+        """*the book Ben left on the desk*: who left it there says nothing about where it is."""
+        relation = str(tokens_of(children)[-1].type).lower()
+        return Restriction(relation=relation, reference=values_of(children)[0])
+
     def things_two(self, children: Children) -> tuple[Reference, Reference]:
         one, other = values_of(children)
         return one, other
@@ -186,14 +196,20 @@ class PhraseReader(Transformer[Token, Any]):
         return Restriction(relation="nearest", reference=values_of(children)[0])
 
     def pronoun(self, children: Children) -> Pronoun:
-        return Pronoun(word=children[0].type.lower())
+        several = str(children[0]) in ("them", "they", "those ones", "these ones")
+        return Pronoun(word="them" if several else children[0].type.lower())
 
     def it(self, children: Children) -> Pronoun:
+        if children[0].type == "IT":
+            return self.pronoun(children)
         return Pronoun(word="that" if children[0].type == "THIS" else "it")
 
     def things(self, children: Children) -> tuple[Reference, ...]:
         values = values_of(children)
-        if [token.type for token in tokens_of(children)] == ["COMMA"] and len(values) == 2:
+        kinds = [token.type for token in tokens_of(children)]
+        if kinds[:1] == ["BOTH"] and isinstance(values[0], NounPhrase) and is_plural(values[0].head):
+            return (NounPhrase(words=()),)
+        if kinds == ["COMMA"] and len(values) == 2:
             return _apposed(*values)
         return tuple(values)
 

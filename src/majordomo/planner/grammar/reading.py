@@ -75,10 +75,10 @@ class Reader(PhraseReader):
         things, destination = values_of(children)
         return Perhaps(step=Carry(things=_as_things(things), destination=destination))
 
-    def wants(self, children: Children) -> Perhaps:
+    def wants(self, children: Children) -> Carry:
         person = NounPhrase(words=(str(children[0]),), quantity=Quantity.THE, person=True)
         destination = Destination(relation="to", reference=person)
-        return Perhaps(step=Carry(things=values_of(children)[0], destination=destination, verb="bring"))
+        return Carry(things=values_of(children)[0], destination=destination, verb="bring")
 
     def bring(self, children: Children) -> Carry:
         values = values_of(children)
@@ -142,7 +142,7 @@ class Reader(PhraseReader):
         return Pick(things=values_of(children)[0])
 
     def called(self, children: Children) -> Teach:
-        words = tuple(str(token) for token in children if token.type not in ("THE", "A", "MY", "THAT"))
+        words = tuple(str(token) for token in children if token.type not in ("THE", "A", "MY", "THAT", "CALLED"))
         return Teach(words=words, named=not any(token.type == "A" for token in children))
 
     def called_mine(self, children: Children) -> Teach:

@@ -111,7 +111,7 @@ class Structure:
 
     def _fork(self, main: Tokens, alternative: Tokens) -> Part:
         index = next((k for k, t in enumerate(main) if t.type in _IF and not _is_told(main, k)), None)
-        otherwise = self._inner(alternative)
+        otherwise = self._inner(self._with_verb(alternative, main))
         if index is None:
             then = tuple(self._steps(main))
             return Fork(condition=(), then=then, otherwise=otherwise) if len(then) == 1 else Unclear(tokens=tuple(main))
@@ -129,6 +129,11 @@ class Structure:
                         condition=tuple(condition), negated=negated, then=self._inner(rest), otherwise=otherwise
                     )
         return Unclear(tokens=tuple(main))
+
+    def _with_verb(self, alternative: Tokens, main: Tokens) -> Tokens:
+        """*Bring me the red cup if it is there, otherwise the blue one*: the verb is that of the main part."""
+        verb = next((_verb_of(main[k:]) for k, token in enumerate(main) if token.type in ACTING), [])
+        return self._completed(list(alternative), verb) if alternative else alternative
 
     def _ordered(self, sentence: Tokens, index: int) -> list[Part]:
         """*Before you go, bring it*; *go after you have brought it*: in the order of doing."""
@@ -152,7 +157,8 @@ class Structure:
             if _is_forbidding(step):
                 found.append(Forbidden(tokens=tuple(step)))
                 continue
-            whither = step[0].type == "TO" and not (verb or found or self.parts)
+            going = not self.parts or _goes(self.parts[-1])
+            whither = step[0].type == "TO" and not (verb or found) and going
             full = [_GO, *step] if whither else self._completed(step, verb)
             verb = _verb_of(full) or verb
             found.append(Clause(tokens=tuple(full)))
@@ -180,6 +186,10 @@ class Structure:
 
 
 _GO, _TO = Terminal("GO", "go", "go"), Terminal("TO", "to", "to")
+
+
+def _goes(part: Part) -> bool:
+    return isinstance(part, Clause) and part.tokens[0].type == "GO"
 
 
 def _is_told(sentence: Tokens, index: int) -> bool:

@@ -6,6 +6,8 @@ import re
 import unicodedata
 from dataclasses import dataclass
 
+from majordomo.planner.grammar.paraphrase import paraphrased
+from majordomo.planner.grammar.tidying import spelled_out
 from majordomo.planner.grammar.words import CONTRACTIONS
 
 MAX_CHARACTERS = 10_000
@@ -20,6 +22,7 @@ _TOKEN = re.compile(
     """,
     re.VERBOSE,
 )
+_WORD = re.compile(r"[^\W_]+(?:[_'\-][^\W_]+)*'?")
 _NON = re.compile(r"\bnon-(?=\w)")
 _COLORED = re.compile(r"(?<=\w)[- ]colou?red\b")
 _LISTED = re.compile(r"(?:(?<=^)|(?<=[\s.,;:]))(\d{1,2}[.)]|[-*•])\s+(?=[^\W\d_])")
@@ -51,6 +54,8 @@ def words_of(text: str) -> list[Word]:
     if clean.count('"') == 2 and clean.startswith('"') and clean.endswith('"'):
         clean = clean[1:-1]
     clean = _COLORED.sub("", _NON.sub("not ", clean))
+    clean = paraphrased(_WORD.sub(lambda found: CONTRACTIONS.get(found[0], found[0]), clean))
+    clean = spelled_out(clean)
     if len(_LISTED.findall(clean)) > 1:
         clean = _LISTED.sub("; ", clean)
     words: list[Word] = []

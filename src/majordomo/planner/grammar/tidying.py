@@ -1,0 +1,50 @@
+"""*Tidy the bench: tools to the office, cups on the shelf*: what a heading says holds for each part that follows."""
+
+from __future__ import annotations
+
+import re
+
+_HEADING = re.compile(
+    r"^(?:please |can you |could you |let us )*(?:tidy|clean|clear|sort|organi[sz]e|straighten|arrange)(?: (?:up"
+    r"|out|off|away))?"
+    r" ?(?P<what>[\w' ]*?)\s*(?::|,| -|;|\.| by putting| and put)\s+(?P<rest>.+)$"
+)
+_PART = re.compile(
+    r"^(?:and |then |please )*(?:put |move |bring |take )?(?P<things>.+?)(?: should| must| can| may)?"
+    r"(?: go| goes| belongs?| be)? (?P<way>to|into|in|on|onto|next to) (?P<place>(?:the|a|my|his|her|\w+)\b.*)$"
+)
+_COMMAS = re.compile(
+    r"[,;.]\s+(?:and |then )*| and (?=(?:the |all |every |put )?(?:[\w']+ ){1,3}?(?:to|into|onto|go|goes|belongs"
+    r"?)\b|(?:the )?\w+ ones? )"
+)
+_EVERY = re.compile(r"^(?:the |all (?:of )?(?:the )?|every |any |each )+")
+_ONES = re.compile(r"\bones?$")
+_OPENING = ("everything", "whatever", "anything", "it", "them")
+
+
+def spelled_out(text: str) -> str:
+    """A heading and its parts as requests of their own; any other text as it is."""
+    found = _HEADING.match(text)
+    if found is None:
+        return text
+    what = re.sub(r"^(?:the|my|our|all|all the|this|that|up)\b ?", "", found["what"].strip())
+    parts: list[str] = []
+    open_part = ""
+    for part in _COMMAS.split(found["rest"].rstrip(" .!")):
+        said = f"{open_part} and {part}" if open_part else part
+        matched = _PART.match(said)
+        open_part = "" if matched else said
+        if matched:
+            parts.append(f"put {_things(matched['things'], what)} {matched['way']} {matched['place']}")
+    return ", then ".join(parts) if parts and not open_part.strip() else text
+
+
+def _things(said: str, what: str) -> str:
+    bare = _EVERY.sub("", said)
+    if bare in _OPENING:
+        return f"everything from the {what}" if what else said
+    if _ONES.search(bare) and what:
+        return f"all the {_ONES.sub(what, bare)}"
+    several = bare.endswith("s") or bare != said.removeprefix("the ")
+    from_there = f" from the {what}" if what and " from " not in bare and " in " not in bare else ""
+    return f"{'all the' if several else 'the'} {bare}{from_there}"

@@ -24,7 +24,7 @@ from majordomo.planner.matching import nouns_of
 from majordomo.planner.meant import Meant, without_steps_between
 from majordomo.planner.naming import aim_phrase, listed, name_of
 from majordomo.planner.plan import Dialogue, Exchange, Interpretation, Kind
-from majordomo.planner.revision import Reviser, Revision, repair, restated, revision
+from majordomo.planner.revision import Reviser, Revision, is_place, repair, restated, revision
 from majordomo.planner.verifier import Verifier
 from majordomo.planner.vocabulary import normal
 from majordomo.scene_graph.nodes import ObjectNode, PersonNode
@@ -128,10 +128,11 @@ class Interpreter:
             )
             revised = self._revised(Revision(how="correct", rest=rest), snapshot, again, choices)
             return revised if revised is not None and _settled(revised) else None
-        alone = self._whole(rest, snapshot, dialogue, choices)
-        return (
-            alone if alone.interpretation.kind is Kind.PLAN else self._restated(said, rest, snapshot, dialogue, choices)
-        )
+        if not is_place(rest):  # *to the office* is where something goes, and no request of its own
+            alone = self._whole(rest, snapshot, dialogue, choices)
+            if alone.interpretation.kind is Kind.PLAN:
+                return alone
+        return self._restated(said, rest, snapshot, dialogue, choices)
 
     def _restated(
         self, said: str, rest: str, snapshot: Snapshot, dialogue: Dialogue, choices: Choices

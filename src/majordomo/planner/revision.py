@@ -62,6 +62,7 @@ _TOO = re.compile(
 
 
 MAX_REPLACED = 5
+_WHERE = frozenset({"to", "on", "onto", "in", "into", "at", "under", "beside", "near", "next", "by", "for"})
 """Words that a remark may stand for."""
 MAX_CHARACTERS = 200
 """Remarks are short."""
@@ -101,6 +102,11 @@ def repair(text: str) -> tuple[str, str] | None:
         return None
     rest = _NOT_THAT.sub("", found["rest"]).strip(" .!?,")
     return (found["said"].strip(" .,;:-"), rest) if rest else None
+
+
+def is_place(rest: str) -> bool:
+    """Whether a correction tells of nothing but where: *to the office*."""
+    return rest.split(maxsplit=1)[0] in _WHERE
 
 
 def restated(said: str, rest: str) -> Iterator[str]:

@@ -69,6 +69,7 @@ PLANS = [
     ("brng me the remote", "given(remote_1, person_2)"),
     ("bring me the remte", "given(remote_1, person_2)"),
     ("bring me the apple, no sorry, the remote", "given(remote_1, person_2)"),
+    ("bring the apple, the red one, to the office - sorry, to the kitchen", "in(apple_1, room_1)"),
     ("take the apple to Anna, I mean, to the office", "in(apple_1, room_4)"),
     ("put the apple... the remote on the desk", "on(remote_1, desk_1)"),
     ("check if the apple is in the kitchen and if so bring it to me", "given(apple_1, person_2)"),

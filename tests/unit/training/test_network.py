@@ -21,6 +21,9 @@ from training.network import HEIGHT, PEAKS, QUERIES, WIDTH, Network
 from training.photographs import photographs
 from training.shards import Examples, save_shard
 
+pytestmark = pytest.mark.filterwarnings("ignore::DeprecationWarning")
+"""PyTorch's exporter speaks of its successor."""
+
 
 @pytest.fixture(scope="module", autouse=True)
 def one_thread():
@@ -70,7 +73,7 @@ def test_a_few_steps_make_the_losses_smaller(shard):
         optimizer.zero_grad()
         total.backward()
         optimizer.step()
-        totals.append(float(total))
+        totals.append(float(total.detach()))
     assert np.isfinite(totals).all()
     assert totals[-1] < 0.8 * totals[0]
 

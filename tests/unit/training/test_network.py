@@ -21,8 +21,8 @@ from training.network import HEIGHT, PEAKS, QUERIES, WIDTH, Network
 from training.photographs import photographs
 from training.shards import Examples, save_shard
 
-pytestmark = pytest.mark.filterwarnings("ignore::DeprecationWarning")
-"""PyTorch's exporter speaks of its successor."""
+pytestmark = pytest.mark.filterwarnings("ignore")
+"""PyTorch's exporter warns of its own parts."""
 
 
 @pytest.fixture(scope="module", autouse=True)

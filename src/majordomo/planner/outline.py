@@ -18,7 +18,7 @@ from majordomo.scene_graph.identifiers import natural_key
 from majordomo.scene_graph.nodes import DoorNode, DoorState, ObjectNode, ObjectState, PersonNode, RoomNode, RoomStatus
 from majordomo.scene_graph.snapshot import Snapshot
 
-MAX_OBJECTS = 70
+MAX_OBJECTS = 64
 MAX_ROOMS = 60
 MAX_IDENTIFIERS = 250
 _WORD = re.compile(r"\w+")

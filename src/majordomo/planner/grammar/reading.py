@@ -125,8 +125,10 @@ class Reader(PhraseReader):
     def go_there(self, _: Children) -> Go:
         return Go(target=Pronoun(word="there"))
 
-    def come(self, _: Children) -> Go:
-        return Go(target=Pronoun(word="me"))
+    def come(self, children: Children) -> Go:
+        """Whoever comes *back* may do so without knowing where the speaker is."""
+        back = any(token.type in ("BACK", "RETURN") for token in tokens_of(children))
+        return Go(target=Pronoun(word="here" if back else "me"))
 
     def find(self, children: Children) -> Find:
         return Find(things=values_of(children)[0])

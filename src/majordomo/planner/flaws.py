@@ -14,8 +14,6 @@ from majordomo.scene_graph.nodes import ROBOT_ID, ROOT_ID, RoomNode
 from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.skills.state import PlanState, Thing
 
-GOAL_KINDS = ("object", "room", "person", "door")
-
 
 def goal_flaws(goals: Sequence[Goal], snapshot: Snapshot, state: PlanState, *, opens_doors: bool = False) -> list[Flaw]:
     """Everything wrong with ``goals``: unknown or unfit nodes, places out of reach, contradictions.

@@ -138,12 +138,6 @@ def article(text: str) -> str:
     return f"{'an' if text[:1].lower() in 'aeiou' else 'a'} {text}"
 
 
-def kind_of(node_id: str, snapshot: Snapshot) -> str:
-    """*room*, *object*, *person* or *door*."""
-    names = {RoomNode: "room", ObjectNode: "object", PersonNode: "person", DoorNode: "door"}
-    return names.get(type(snapshot.node(node_id)), "node")
-
-
 def _ored(options: Sequence[str]) -> str:
     if len(options) < 2:
         return "".join(options)

@@ -257,6 +257,50 @@ def evaluate_changes(
     raise typer.Exit(0 if good else 1)
 
 
+@evaluations.command("missions")
+def evaluate_missions(
+    house: Looked = None,
+    commands: Annotated[
+        Path | None, typer.Option(exists=True, dir_okay=False, help="A mission file: docs/missions.md.")
+    ] = None,
+    requests: Annotated[int, typer.Option(min=1, help="How many are invented for each house.")] = 10,
+    disturb: Annotated[
+        list[str] | None,
+        typer.Option(help="What happens meanwhile, by name, or all; repeat it: each request gets the next one."),
+    ] = None,
+    seeds: Seeds = 1,
+    model: Network = SHIPPED,
+    json_file: JsonFile = None,
+    jobs: Jobs = 2,
+) -> None:
+    """Let the robot explore houses and carry out requests there while people interfere; compare with the truth."""
+    from majordomo.app.evaluations.missions.disturbances import DISTURBANCES
+    from majordomo.app.evaluations.missions.evaluation import OWN_HOUSES, evaluate
+    from majordomo.app.evaluations.missions.mission_file import MissionFileError
+
+    names = tuple(DISTURBANCES) if disturb == ["all"] else tuple(disturb or ())
+    unknown = sorted(set(names) - set(DISTURBANCES))
+    if unknown:
+        raise typer.BadParameter(
+            f"no {', '.join(unknown)}; there are {', '.join(DISTURBANCES)}", param_hint="--disturb"
+        )
+    try:
+        good = evaluate(
+            houses=house or OWN_HOUSES,
+            commands=commands,
+            requests=requests,
+            disturb=names,
+            seeds=range(seeds),
+            model=model,
+            jobs=jobs,
+            json_file=json_file,
+            console=console,
+        )
+    except MissionFileError as error:
+        raise typer.BadParameter(str(error), param_hint="--commands") from error
+    raise typer.Exit(0 if good else 1)
+
+
 @evaluations.command("planning")
 def evaluate_planning(
     commands: Annotated[

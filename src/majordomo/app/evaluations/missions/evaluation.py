@@ -1,0 +1,176 @@
+"""``evaluate missions``: which missions are played where, and what they come to together."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+from collections import defaultdict
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from itertools import cycle
+from pathlib import Path
+from statistics import median
+from typing import Any
+
+from rich.console import Console
+from rich.table import Table
+
+from majordomo.app.evaluations.missions.disturbances import DISTURBANCES
+from majordomo.app.evaluations.missions.inventing import invent
+from majordomo.app.evaluations.missions.mission import Mission
+from majordomo.app.evaluations.missions.mission_file import load_missions
+from majordomo.app.evaluations.missions.playing import Verdict, play_all
+from majordomo.app.evaluations.perception import check, house_of
+from majordomo.app.evaluations.pool import run_all
+from majordomo.app.evaluations.recognition import share
+from majordomo.app.evaluations.tables import shown
+
+OWN_HOUSES = ("flat", "office", "stocked:20", "stocked:21", "stocked:22", "stocked:23")
+LEAST = {"success_undisturbed": 0.90, "success_disturbed": 0.80, "right_reason": 0.95}
+MOST = {"phantoms": 0, "collisions": 0, "way_over_shortest": 1.25}
+Row = Mapping[str, Any]
+
+
+def evaluate(
+    *,
+    houses: Sequence[str],
+    commands: Path | None,
+    requests: int,
+    disturb: Sequence[str],
+    seeds: Sequence[int],
+    model: Path,
+    jobs: int,
+    json_file: Path | None,
+    console: Console,
+) -> bool:
+    """Play everything, print tables, write JSON; whether all aims were met.
+
+    Args:
+        houses: as ``evaluate perception`` takes them; not asked where ``commands`` names its own.
+        commands: a mission file; without it ``requests`` are invented for each house.
+        requests: how many for each house.
+        disturb: names of what happens meanwhile, one a mission in turn; nothing by default.
+        seeds: of every house's run.
+        model: the network's file.
+        jobs: runs at the same time.
+        json_file: where to write the figures.
+        console: where to print the tables.
+
+    Raises:
+        MissionFileError: what is wrong with the file; said before anything is played.
+        HouseError: a house cannot be read.
+        NetworkRefused: the network's file cannot be used.
+    """
+    missions = load_missions(commands) if commands is not None else _invented(houses, requests, disturb)
+    names = list(dict.fromkeys(mission.house for mission in missions))
+    check(names, model)
+    played = [
+        (name, [mission for mission in missions if mission.house == name], seed, model)
+        for name in names
+        for seed in seeds
+    ]
+    runs = run_all(run_once, played, jobs=jobs, console=console, what="houses")
+    rows = [row for run in runs for row in run["missions"]]
+    summary = summarize(rows)
+    for title, key in (("by request", "kind"), ("by disturbance", "disturbance")):
+        console.print(_table(title, rows, key))
+    console.print(_aims(summary))
+    if json_file is not None:
+        document = {"runs": runs, "summary": summary, "least": LEAST, "most": MOST, "met": met(summary)}
+        json_file.write_text(json.dumps(document, indent=1) + "\n", encoding="utf-8")
+    return met(summary) and all(run["explored"] for run in runs)
+
+
+def run_once(name: str, missions: Sequence[Mission], seed: int, model: Path) -> dict[str, Any]:
+    """One house, in this process."""
+    return asyncio.run(play_all(name, house_of(name), missions, seed=seed, model=model))
+
+
+def summarize(rows: Sequence[Row]) -> dict[str, Any]:
+    """Figures over all missions."""
+    calm = [row for row in rows if not row["disturbance"]]
+    upset = [row for row in rows if row["disturbance"] and row["made"]]
+    possible = [row for row in upset if row["possible"]]
+    impossible = [row for row in upset if not row["possible"]]
+    ways = [row["driven_m"] / row["shortest_m"] for row in calm if _done(row) and (row["shortest_m"] or 0.0) > 1.0]
+    return {
+        "missions": len(rows),
+        "success_undisturbed": share(sum(map(_done, calm)), len(calm)),
+        "success_disturbed": share(sum(map(_done, possible)), len(possible)),
+        "right_reason": share(sum(row["verdict"] == Verdict.RIGHTLY_IMPOSSIBLE for row in impossible), len(impossible)),
+        "disturbed": len(upset),
+        "impossible": len(impossible),
+        "not_made": sum(bool(row["disturbance"]) and not row["made"] for row in rows),
+        "phantoms": sum(row["verdict"] == Verdict.PHANTOM for row in rows),
+        "wrong_answers": sum(row["verdict"] == Verdict.WRONG_ANSWER for row in rows),
+        "collisions": sum(row["collisions"] for row in rows),
+        "way_over_shortest": median(ways) if ways else None,
+        "verdicts": {verdict.value: sum(row["verdict"] == verdict for row in rows) for verdict in Verdict},
+    }
+
+
+def met(summary: Mapping[str, Any]) -> bool:
+    """Whether every figure that could be measured is where it is to be."""
+    high = all(summary[name] is None or summary[name] >= aim for name, aim in LEAST.items())
+    low = all(summary[name] is None or summary[name] <= aim for name, aim in MOST.items())
+    return high and low and summary["missions"] > 0
+
+
+def _done(row: Row) -> bool:
+    return bool(row["verdict"] == Verdict.DONE)
+
+
+def _invented(houses: Sequence[str], requests: int, disturb: Sequence[str]) -> list[Mission]:
+    """Requests for every house; each is disturbed by the next of what is to happen that can happen to it."""
+    missions = []
+    turn = cycle(disturb or ("",))
+    for number, name in enumerate(houses):
+        for mission in invent(name, house_of(name), count=requests, seed=number):
+            disturbance = next(turn) if mission.things or not disturb else ""
+            missions.append(replace(mission, disturbance=disturbance))
+    lasting = list(DISTURBANCES).index
+    return sorted(missions, key=lambda m: (houses.index(m.house), lasting(m.disturbance) if m.disturbance else -1))
+
+
+def _table(title: str, rows: Sequence[Row], key: str) -> Table:
+    table = Table(title=title)
+    columns: Mapping[str, Callable[[Sequence[Row]], str]] = {
+        "missions": lambda group: str(len(group)),
+        "success": lambda group: shown(share(sum(map(_done, group)), len(group)), 2),
+        "impossible, right reason": lambda group: str(_count(group, Verdict.RIGHTLY_IMPOSSIBLE)),
+        "other reason": lambda group: str(_count(group, Verdict.OTHER_REASON)),
+        "phantom": lambda group: str(_count(group, Verdict.PHANTOM)),
+        "wrong answer": lambda group: str(_count(group, Verdict.WRONG_ANSWER)),
+        "honest failure": lambda group: str(_count(group, Verdict.HONEST_FAILURE)),
+        "asked": lambda group: str(_count(group, Verdict.ASKED)),
+        "replans": lambda group: str(sum(row["replans"] for row in group)),
+        "collisions": lambda group: str(sum(row["collisions"] for row in group)),
+        "sim s": lambda group: f"{sum(row['seconds'] for row in group) / len(group):.0f}",
+        "wall s": lambda group: f"{sum(row['wall_seconds'] for row in group) / len(group):.0f}",
+    }
+    table.add_column(key)
+    for column in columns:
+        table.add_column(column, justify="right")
+    groups: dict[str, list[Row]] = defaultdict(list)
+    for row in rows:
+        groups[row[key] or "none"].append(row)
+    for name, group in [*sorted(groups.items()), ("all", list(rows))] if rows else []:
+        table.add_row(name, *(tell(group) for tell in columns.values()))
+    return table
+
+
+def _count(rows: Sequence[Row], verdict: Verdict) -> int:
+    return sum(row["verdict"] == verdict for row in rows)
+
+
+def _aims(summary: Mapping[str, Any]) -> Table:
+    table = Table(title="missions")
+    for column in ("figure", "measured", "aim"):
+        table.add_column(column, justify="left" if column == "figure" else "right")
+    for aims, sign in ((LEAST, ">="), (MOST, "<=")):
+        for name, aim in aims.items():
+            value = summary[name]
+            table.add_row(
+                name.replace("_", " "), str(value) if isinstance(value, int) else shown(value), f"{sign} {aim:g}"
+            )
+    return table

@@ -1,0 +1,291 @@
+"""Invents requests for a house from its own document: things a person would call by words that fit nothing else there.
+
+For scoring only; the robot is given the words alone.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.random import Generator
+
+from majordomo.app.evaluations.missions.mission import Mission
+from majordomo.app.evaluations.missions.outcome import HAND, Outcome, Placed, RobotIn
+from majordomo.simulation.catalog import GRIPPER_M, category_named
+from majordomo.simulation.house import Furniture, House, Object, Room, room_at
+
+LOWEST_M, HIGHEST_M = 0.15, 1.05
+"""Tops within these heights are where things are asked for to be put."""
+_ABSENT = ("piano", "violin", "bicycle", "ladder")
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Item:
+    """A thing, what people call it, and the furniture and room it is in."""
+
+    id: str
+    words: str
+    category: str
+    on: str
+    room: Room
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Spot:
+    """Furniture that things can be put on, what people call it, and its room."""
+
+    id: str
+    words: str
+    room: Room
+
+
+def invent(name: str, house: House, *, count: int, seed: int) -> list[Mission]:
+    """Up to ``count`` missions of all kinds for a house, the same for the same seed; fewer where nothing can be asked.
+
+    Every thing is asked for in at most one of them, so that they can be carried out one after another; what moves
+    nothing is asked for once.
+    """
+    inventor = _Inventor(name, house, np.random.default_rng((seed, 0x3155)))
+    missions: list[Mission] = []
+    idle = 0
+    while len(missions) < count and idle < len(KINDS):
+        made = inventor.next()
+        fresh = made is not None and (bool(made.things) or made.kind not in {mission.kind for mission in missions})
+        missions += [made] if made is not None and fresh else []
+        idle = 0 if fresh else idle + 1
+    return missions
+
+
+class _Inventor:
+    def __init__(self, name: str, house: House, rng: Generator) -> None:
+        self._name, self._house, self._rng = name, house, rng
+        self._rooms = _uniquely_labelled(house)
+        self._spots = _spots(house, self._rooms)
+        self._items = [item for item in _items(house) if item.room.id in self._rooms]
+        self._rng.shuffle(self._items)
+        self._turn = int(rng.integers(len(KINDS)))
+
+    def next(self) -> Mission | None:
+        """A mission of the next kind."""
+        kind, make = KINDS[self._turn % len(KINDS)]
+        self._turn += 1
+        made = make(self)
+        if made is None:
+            return None
+        words, outcome = made
+        return Mission(house=self._name, kind=kind, request=words, outcomes=(outcome,))
+
+    def say(self, *ways: str, **parts: str) -> str:
+        """One of several ways to say it."""
+        return str(self._rng.choice(ways)).format(**parts)
+
+    def take(self, away_from: str = "") -> _Item | None:
+        """A thing that has not been asked for yet and is not at that place."""
+        found = next((item for item in self._items if item.on != away_from), None)
+        if found is not None:
+            self._items.remove(found)
+        return found
+
+    def spot(self, *, beside: Sequence[_Item] = ()) -> _Spot | None:
+        """Furniture to put something on, none of what carries it now."""
+        taken = {item.on for item in beside}
+        possible = [spot for spot in self._spots if spot.id not in taken]
+        return possible[int(self._rng.integers(len(possible)))] if possible else None
+
+    def room(self, *, but: str = "") -> Room | None:
+        """A room that people have a word for."""
+        possible = [room for room in self._rooms.values() if room.id != but]
+        return possible[int(self._rng.integers(len(possible)))] if possible else None
+
+    def person(self) -> str | None:
+        """The only person there is."""
+        return self._house.people[0].id if len(self._house.people) == 1 else None
+
+
+_Made = tuple[str, Outcome] | None
+
+
+def _to_place(inventor: _Inventor) -> _Made:
+    item = inventor.take()
+    spot = inventor.spot(beside=[item]) if item is not None else None
+    if item is None or spot is None:
+        return None
+    words = inventor.say(
+        "put {it} on {there}",
+        "please bring {it} to {there}",
+        "could you move {it} from {room} to {there}?",
+        "take {it} and put it on {there}",
+        it=item.words, there=spot.words, room=f"the {item.room.label}",
+    )  # fmt: skip
+    return words, Outcome(states=(Placed(things=(item.id,), places=(spot.id,)),))
+
+
+def _to_room(inventor: _Inventor) -> _Made:
+    item = inventor.take()
+    room = inventor.room(but=item.room.id) if item is not None else None
+    if item is None or room is None:
+        return None
+    words = inventor.say(
+        "take {it} to the {room}", "{it} belongs in the {room}, bring it there please", "move {it} to the {room}",
+        it=item.words, room=room.label,
+    )  # fmt: skip
+    return words, Outcome(states=(Placed(things=(item.id,), places=(room.id,)),))
+
+
+def _to_person(inventor: _Inventor) -> _Made:
+    person = inventor.person()
+    item = inventor.take() if person is not None else None
+    if person is None or item is None:
+        return None
+    words = inventor.say("bring me {it}", "could you get me {it}?", "hand me {it} please", it=item.words)
+    return words, Outcome(states=(Placed(things=(item.id,), places=(person,)),))
+
+
+def _two_things(inventor: _Inventor) -> _Made:
+    first = inventor.take()
+    second = inventor.take() if first is not None else None
+    if first is None or second is None:
+        return None
+    spot = inventor.spot(beside=[first, second])
+    if spot is None:
+        return None
+    words = inventor.say(
+        "put {a} and {b} on {there}",
+        "bring {a} to {there}, then {b} too",
+        a=first.words, b=second.words, there=spot.words,
+    )  # fmt: skip
+    return words, Outcome(states=(Placed(things=(first.id, second.id), places=(spot.id,)),))
+
+
+def _pick_up(inventor: _Inventor) -> _Made:
+    item = inventor.take()
+    if item is None:
+        return None
+    words = inventor.say("pick up {it}", "grab {it} and hold it", "take {it} in your hand", it=item.words)
+    return words, Outcome(states=(Placed(things=(item.id,), places=(HAND,)),))
+
+
+def _go(inventor: _Inventor) -> _Made:
+    room = inventor.room()
+    if room is None:
+        return None
+    words = inventor.say("go to the {room}", "drive to the {room} please", room=room.label)
+    return words, Outcome(states=(RobotIn(rooms=(room.id,)),))
+
+
+def _there_and_back(inventor: _Inventor) -> _Made:
+    item = inventor.take()
+    spot = inventor.spot(beside=[item]) if item is not None else None
+    room = inventor.room(but=spot.room.id) if spot is not None else None
+    if item is None or spot is None or room is None:
+        return None
+    words = inventor.say(
+        "put {it} on {there} and then go to the {room}", it=item.words, there=spot.words, room=room.label
+    )
+    return words, Outcome(states=(Placed(things=(item.id,), places=(spot.id,)), RobotIn(rooms=(room.id,))))
+
+
+def _where(inventor: _Inventor) -> _Made:
+    item = inventor.take()
+    if item is None:
+        return None
+    words = inventor.say("where is {it}?", "do you know where {it} is?", it=item.words)
+    return words, Outcome(words=(item.room.label,))
+
+
+def _absent(inventor: _Inventor) -> _Made:
+    room = inventor.room()
+    if room is None:
+        return None
+    words = inventor.say("bring the {it} to the {room}", it=str(inventor.say(*_ABSENT)), room=room.label)
+    return words, Outcome(refused=True)
+
+
+KINDS: tuple[tuple[str, Callable[[_Inventor], _Made]], ...] = (
+    ("to a place", _to_place),
+    ("to a room", _to_room),
+    ("to a person", _to_person),
+    ("two things", _two_things),
+    ("pick up", _pick_up),
+    ("place and go", _there_and_back),
+    ("go", _go),
+    ("where", _where),
+    ("not there", _absent),
+)
+
+
+def _uniquely_labelled(house: House) -> dict[str, Room]:
+    """Rooms that their label tells from the others."""
+    counts = Counter(_label(room) for room in house.rooms)
+    return {
+        room.id: room.model_copy(update={"label": _label(room)}) for room in house.rooms if counts[_label(room)] == 1
+    }
+
+
+def _label(room: Room) -> str:
+    return (room.label or room.id).replace("_", " ")
+
+
+def _spots(house: House, rooms: dict[str, Room]) -> list[_Spot]:
+    """Furniture of a height to put things on, alone of its kind in its room."""
+    found = []
+    for item in house.furniture:
+        room = rooms.get(room_at(house, item.pose[0], item.pose[1]) or "")
+        if room is None or not _carries(item):
+            continue
+        alike = [
+            other
+            for other in house.furniture
+            if other.category == item.category and room_at(house, other.pose[0], other.pose[1]) == room.id
+        ]
+        if len(alike) == 1:
+            words = f"the {_plain(item.category)} in the {room.label}"
+            found.append(_Spot(id=item.id, words=words, room=room))
+    return found
+
+
+def _carries(item: Furniture) -> bool:
+    kind = category_named(item.category, item.size, static=True)
+    top_m = kind.levels[0] * (item.size or kind.size_m)[2]
+    return kind.support and not kind.container and LOWEST_M <= top_m <= HIGHEST_M
+
+
+def _items(house: House) -> list[_Item]:
+    """Things of a size for the hand that color and kind tell from all others, on furniture within reach."""
+    everything = list(_all_objects(house))
+    kinds = Counter(item.category for item in everything)
+    called = Counter(item.words for item in everything)
+    carriers = {item.id for item in house.furniture if _carries(item)}
+    found = []
+    for item, entry in zip(everything, (entry for entry in house.objects if _room_of(house, entry)), strict=True):
+        kind = category_named(entry.category, entry.size)
+        size = entry.size or kind.size_m
+        if item.on not in carriers or min(size[:2]) > GRIPPER_M or called[item.words] > 1:
+            continue
+        alone = kinds[item.category] == 1
+        words = f"the {_plain(item.category)}" if alone else f"the {item.words}"
+        found.append(_Item(id=item.id, words=words, category=item.category, on=item.on, room=item.room))
+    return found
+
+
+def _all_objects(house: House) -> Iterator[_Item]:
+    for entry in house.objects:
+        room = _room_of(house, entry)
+        if room is not None:
+            kind = category_named(entry.category, entry.size)
+            words = f"{entry.color or kind.color} {_plain(entry.category)}"
+            yield _Item(id=entry.id, words=words, category=entry.category, on=entry.on or entry.in_ or "", room=room)
+
+
+def _room_of(house: House, entry: Object) -> Room | None:
+    carrier = next((item for item in house.furniture if item.id in (entry.on, entry.in_)), None)
+    pose = carrier.pose if carrier is not None else entry.pose
+    room = room_at(house, pose[0], pose[1]) if pose is not None else None
+    return next((each.model_copy(update={"label": _label(each)}) for each in house.rooms if each.id == room), None)
+
+
+def _plain(category: str) -> str:
+    return category.replace("_", " ")

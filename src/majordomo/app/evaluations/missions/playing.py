@@ -1,0 +1,170 @@
+"""Plays missions in one house: the robot explores, then gets one request after the other, while people interfere."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from enum import StrEnum
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.random import Generator
+
+from majordomo.app.evaluations.exploration import pass_time, service_in_lockstep, until_explored
+from majordomo.app.evaluations.missions.meddler import Meddler
+from majordomo.app.evaluations.missions.mission import Mission
+from majordomo.app.evaluations.missions.outcome import HAND, Scene, stirred
+from majordomo.app.evaluations.missions.ways import Point, Ways
+from majordomo.app.evaluations.pool import tell
+from majordomo.app.runtime import Runtime
+from majordomo.planner.tasks import Task, TaskStatus
+from majordomo.simulation.house import House
+
+LIMIT_S = 900.0
+"""Simulated seconds after which a request is given up."""
+_LOOK_S = 0.4
+_SETTLE_S = 1.5
+_SITTING_STILL_M = 0.02
+
+
+async def play_all(name: str, house: House, missions: Sequence[Mission], *, seed: int, model: Path) -> dict[str, Any]:
+    """All missions of one house, in their order, and what came of each."""
+    async with service_in_lockstep(house, seed, camera=True, model=model) as runtime:
+        began = time.monotonic()
+        explored = await until_explored(runtime, house)
+        tell(f"{name}: {'explored' if explored else 'given up'} after {runtime.now_s:.0f} simulated seconds")
+        rows = []
+        for number, mission in enumerate(missions):
+            rows.append(await _Play(runtime, house, mission, np.random.default_rng((seed, number))).play())
+            tell(f"{name}: {rows[-1]['verdict']}: {mission.request} [{mission.disturbance or 'undisturbed'}]")
+        return {
+            "house": name,
+            "seed": seed,
+            "explored": explored,
+            "missions": rows,
+            "seconds": round(runtime.now_s, 1),
+            "wall_seconds": round(time.monotonic() - began, 1),
+            "failed_turns": sum(turns.restarts for turns in runtime.turns()),
+        }
+
+
+class Verdict(StrEnum):
+    """What came of a mission: the first and the fourth are as they should be."""
+
+    DONE = "done"
+    PHANTOM = "phantom success"
+    WRONG_ANSWER = "wrong answer"
+    RIGHTLY_IMPOSSIBLE = "impossible, for the right reason"
+    OTHER_REASON = "impossible, for another reason"
+    HONEST_FAILURE = "failed, and said so"
+    ASKED = "asked"
+    UNJUDGED = "reported as done"
+
+
+@dataclass(kw_only=True)
+class _Course:
+    """Where the robot has been, and whether it asked something back."""
+
+    points: list[Point] = field(default_factory=list)
+    asked: bool = False
+
+    def at(self, point: Point) -> None:
+        """The robot is there now."""
+        if not self.points or math.dist(point, self.points[-1]) > _SITTING_STILL_M:
+            self.points.append(point)
+
+    @property
+    def length_m(self) -> float:
+        """How far the robot has driven."""
+        return sum(math.dist(a, b) for a, b in zip(self.points, self.points[1:], strict=False))
+
+
+class _Play:
+    """One mission."""
+
+    def __init__(self, runtime: Runtime, house: House, mission: Mission, rng: Generator) -> None:
+        self._runtime, self._house, self._mission = runtime, house, mission
+        self._meddler = Meddler(runtime, mission, rng)
+        self._course = _Course()
+
+    async def play(self) -> dict[str, Any]:
+        """Ask, watch, interfere, and judge."""
+        began = time.monotonic()
+        before = await self._scene()
+        shortest_m = self._shortest_m(before)
+        task = self._runtime.submit(self._mission.request)
+        task = await self._watch(task)
+        await pass_time(self._runtime, _SETTLE_S)
+        after = await self._scene()
+        row = self._judged(task, before, after)
+        await self._meddler.tidy_up()
+        return {
+            "kind": self._mission.kind,
+            "request": self._mission.request,
+            "disturbance": self._mission.disturbance,
+            "made": self._meddler.made_s is not None,
+            "possible": self._meddler.possible,
+            **row,
+            "asked": self._course.asked,
+            "status": task.status.value,
+            "codes": [failure.code for failure in task.failures],
+            "explanation": task.explanation or task.reply,
+            "replans": task.replans,
+            "collisions": int(after.truth["collisions"]) - int(before.truth["collisions"]),
+            "driven_m": round(self._course.length_m, 2),
+            "shortest_m": None if shortest_m is None else round(shortest_m, 2),
+            "seconds": round(after.truth["stamp_s"] - before.truth["stamp_s"], 1),
+            "wall_seconds": round(time.monotonic() - began, 1),
+        }
+
+    async def _watch(self, task: Task) -> Task:
+        """Follow the task to its end."""
+        began_s = looked_s = self._runtime.now_s
+        going_s: float | None = None
+        while not (task := self._runtime.queue.task(task.id)).status.ended:
+            now_s = self._runtime.now_s
+            self._course.asked |= task.status is TaskStatus.AWAITING_ANSWER
+            if task.status is TaskStatus.AWAITING_ANSWER or now_s > began_s + LIMIT_S:
+                self._runtime.queue.cancel(task.id, stamp_s=now_s)
+            elif now_s >= looked_s + _LOOK_S:
+                looked_s = now_s
+                scene = await self._scene()
+                self._course.at(scene.robot_at)
+                going_s = now_s if going_s is None and len(self._course.points) > 1 else going_s
+                await self._meddler.step(scene, task, 0.0 if going_s is None else now_s - going_s)
+            await self._runtime.wait_for_change()
+        return task
+
+    def _judged(self, task: Task, before: Scene, after: Scene) -> dict[str, Any]:
+        """Reported and true outcome, and whether both fit."""
+        reported = task.status is TaskStatus.SUCCEEDED
+        outcomes = self._mission.outcomes
+        met = any(outcome.met(after, task) and (reported or outcome.refused) for outcome in outcomes)
+        question = all(outcome.words and not outcome.states for outcome in outcomes)
+        right_reason = bool(task.failures) and task.failures[-1].code in self._meddler.reasons
+        if met:
+            verdict = Verdict.DONE
+        elif reported:
+            verdict = Verdict.UNJUDGED if not outcomes else Verdict.WRONG_ANSWER if question else Verdict.PHANTOM
+        elif not self._meddler.possible:
+            verdict = Verdict.RIGHTLY_IMPOSSIBLE if right_reason else Verdict.OTHER_REASON
+        else:
+            verdict = Verdict.ASKED if self._course.asked else Verdict.HONEST_FAILURE
+        spared = frozenset(self._mission.things) | self._meddler.touched
+        return {"verdict": verdict, "reported": reported, "stirred": list(stirred(before, after, spared))}
+
+    def _shortest_m(self, scene: Scene) -> float | None:
+        """The shortest way that does what is asked for; None where nothing moves, or in more orders than one."""
+        things, places = self._mission.things, self._mission.places
+        if len(things) != 1 or len(places) != 1:
+            return None
+        ways = Ways(scene)
+        stops = [scene.where(name) or ways.middle_of(name) for name in (*things, *places) if name != HAND]
+        length_m = ways.length_m(scene.robot_at, *[stop for stop in stops if stop is not None])
+        return length_m if math.isfinite(length_m) else None
+
+    async def _scene(self) -> Scene:
+        return Scene(house=self._house, truth=await self._runtime.require_robot().truth())

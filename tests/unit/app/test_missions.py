@@ -1,0 +1,197 @@
+"""Missions: what they are to come to, who interferes how, what files may say, and how the outcome is judged."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from majordomo.app.evaluations.missions.disturbances import DISTURBANCES, Moment
+from majordomo.app.evaluations.missions.evaluation import met, summarize
+from majordomo.app.evaluations.missions.inventing import invent
+from majordomo.app.evaluations.missions.mission import Mission
+from majordomo.app.evaluations.missions.mission_file import MissionFileError, load_missions
+from majordomo.app.evaluations.missions.outcome import HAND, Outcome, Placed, RobotIn, Scene, stirred
+from majordomo.app.evaluations.missions.playing import Verdict
+from majordomo.app.evaluations.missions.ways import Ways
+from majordomo.planner.tasks import Task, TaskStatus, TaskTimes
+from majordomo.simulation.house import load_house, parse_disturbance
+
+FLAT = load_house("flat")
+CUP = {"id": "cup_1", "category": "cup", "color": "red", "position_m": [1.0, 1.0, 0.8], "room": "kitchen", "in": None}
+CUP_ON_TABLE = {**CUP, "on": "table_1"}
+
+
+def scene(*objects, holding=None, pose=None, shut=()):
+    doors = [{"id": door.id, "state": "closed" if door.id in shut else "open"} for door in FLAT.doors]
+    people = [{"id": person.id, "position_m": list(person.pose[:2])} for person in FLAT.people]
+    robot = {"pose": list(pose or FLAT.robot.pose), "holding": holding}
+    truth = {"objects": list(objects), "robot": robot, "people": people, "doors": doors, "collisions": 0}
+    return Scene(house=FLAT, truth=truth)
+
+
+def task(status=TaskStatus.SUCCEEDED, reply=""):
+    return Task(id="task_1", request="", times=TaskTimes(received_s=0.0), status=status, reply=reply)
+
+
+@pytest.mark.parametrize(
+    ("place", "there"), [("table_1", True), ("kitchen", True), ("desk_1", False), ("office", False), (HAND, False)]
+)
+def test_a_thing_is_where_the_truth_has_it(place, there):
+    assert scene(CUP_ON_TABLE).is_at("cup_1", place) is there
+
+
+def test_what_is_in_the_hand_is_nowhere_else_and_what_is_on_a_tray_is_on_the_table_too():
+    assert scene(CUP_ON_TABLE, holding="cup_1").is_at("cup_1", HAND)
+    assert not scene(CUP_ON_TABLE, holding="cup_1").is_at("cup_1", "kitchen")
+    tray = {**CUP_ON_TABLE, "id": "tray_1"}
+    assert scene({**CUP, "on": "tray_1"}, tray).is_at("cup_1", "table_1")
+
+
+def test_a_thing_is_with_a_person_when_they_can_reach_it():
+    x_m, y_m, _ = FLAT.people[0].pose
+    person = FLAT.people[0].id
+    assert scene({**CUP, "on": None, "position_m": [x_m + 1.5, y_m, 0.0]}).is_at("cup_1", person)
+    assert not scene({**CUP, "on": None, "position_m": [x_m + 2.5, y_m, 0.0]}).is_at("cup_1", person)
+
+
+def test_an_outcome_needs_state_and_words_and_a_refusal_needs_an_honest_end():
+    placed = Outcome(states=(Placed(things=("cup_1",), places=("table_1",)),))
+    assert placed.met(scene(CUP_ON_TABLE), task())
+    assert not placed.met(scene({**CUP, "on": "desk_1"}), task())
+    assert Outcome(words=("kitchen",)).met(scene(), task(reply="It is in the Kitchen."))
+    assert not Outcome(words=("kitchen",)).met(scene(), task(reply="It is in the hall."))
+    assert Outcome(refused=True).met(scene(), task(TaskStatus.REFUSED))
+    assert not Outcome(refused=True).met(scene(), task())
+    room = scene().robot_room
+    assert RobotIn(rooms=(room,)).met(scene())
+    assert not RobotIn(rooms=("nowhere",)).met(scene())
+
+
+def test_things_that_nobody_asked_for_and_that_moved_are_counted():
+    there = {**CUP_ON_TABLE, "position_m": [2.0, 1.0, 0.8]}
+    assert stirred(scene(CUP_ON_TABLE), scene(there), frozenset()) == ("cup_1",)
+    assert stirred(scene(CUP_ON_TABLE), scene(there), frozenset({"cup_1"})) == ()
+    assert stirred(scene(CUP_ON_TABLE), scene(there), frozenset({"table_1"})) == ()
+    assert stirred(scene(CUP_ON_TABLE), scene(CUP_ON_TABLE), frozenset()) == ()
+
+
+def test_the_shortest_way_is_no_shorter_than_the_line_and_a_shut_door_lengthens_or_ends_it():
+    ways = Ways(scene())
+    start, goal = ways.middle_of("kitchen"), ways.middle_of("office")
+    length_m = ways.length_m(start, goal)
+    assert math.dist(start, goal) - 0.8 <= length_m < 4.0 * math.dist(start, goal)
+    doors = [door.id for door in ways.doors_between(start, goal)]
+    assert doors
+    assert Ways(scene(), shut=doors[:1]).length_m(start, goal) > length_m
+    assert Ways(scene(shut=[door.id for door in FLAT.doors])).length_m(start, goal) == math.inf
+    assert ways.is_free(start)
+    assert not ways.is_free((-50.0, 0.0))
+
+
+def test_invented_requests_are_the_same_for_a_seed_and_ask_for_every_thing_once():
+    missions = invent("flat", FLAT, count=20, seed=3)
+    assert missions == invent("flat", FLAT, count=20, seed=3)
+    assert missions != invent("flat", FLAT, count=20, seed=4)
+    asked = [thing for mission in missions for thing in mission.things]
+    assert len(asked) == len(set(asked)) >= 4
+    for mission in missions:
+        assert not any(outcome.met(scene(*FLAT_THINGS), task()) for outcome in mission.outcomes if outcome.things)
+
+
+FLAT_THINGS = [{**CUP_ON_TABLE, "id": thing.id, "on": thing.on} for thing in FLAT.objects]
+
+
+def moment(name, **where):
+    mission = Mission(
+        house="flat", kind="to a place", request="", disturbance=name,
+        outcomes=(Outcome(states=(Placed(things=("cup_1",), places=("desk_1",)),)),),
+    )  # fmt: skip
+    now = scene(CUP_ON_TABLE, **where)
+    running = task(TaskStatus.RUNNING)
+    rng = np.random.default_rng(0)
+    return Moment(scene=now, mission=mission, task=running, ways=Ways(now), since_s=5.0, rng=rng)
+
+
+@pytest.mark.parametrize("name", [*DISTURBANCES])
+def test_every_disturbance_has_its_time_and_deeds_that_the_simulator_understands(name):
+    carrying = name in ("slipped", "support_full", "support_gone")
+    pose = (1.4, 1.6, 0.0) if name == "moved_in_view" else None
+    now = moment(name, holding="cup_1" if carrying else None, pose=pose)
+    assert DISTURBANCES[name].due(now)
+    deeds = DISTURBANCES[name].deeds(now)
+    assert deeds
+    for events in deeds:
+        for event in events:
+            parse_disturbance(event)
+
+
+def test_nothing_is_moved_before_the_robot_is_under_way_and_nothing_slips_from_an_empty_hand():
+    early = moment("moved_unseen")
+    early = Moment(**{**vars(early), "since_s": 0.0})
+    assert not DISTURBANCES["moved_unseen"].due(early)
+    assert not DISTURBANCES["slipped"].due(moment("slipped"))
+
+
+def test_a_file_of_missions_is_read_with_outcomes_and_disturbances(tmp_path):
+    file = tmp_path / "missions.txt"
+    file.write_text(
+        "# mine\n@flat\n== to a place\nput the cup on the desk\n  > cup_1 -> desk_1|table_1\n  ! slipped\n"
+        "two of them\n  > 1 of cup_1 bottle_1 -> hand; robot -> office\nwhere is it?\n  > answer kitchen, table\n",
+        encoding="utf-8",
+    )
+    first, second, third = load_missions(file)
+    assert (first.kind, first.disturbance, first.places) == ("to a place", "slipped", ("desk_1", "table_1"))
+    placed, robot = second.outcomes[0].states
+    assert placed == Placed(things=("cup_1", "bottle_1"), places=("hand",), count=1)
+    assert robot == RobotIn(rooms=("office",))
+    assert third.outcomes == (Outcome(words=("kitchen", "table")),)
+
+
+@pytest.mark.parametrize(
+    ("text", "complaint"),
+    [
+        ("put it there", "line 1: say '@house'"),
+        ("@nowhere", "line 1: house 'nowhere'"),
+        ("@flat\n> refuse", "line 2: comes before any request"),
+        ("@flat\ngo\n  ! earthquake", "line 3: no disturbance 'earthquake'"),
+        ("@flat\ngo\n  > cup_9 -> desk_1", "line 3: the house has no cup_9"),
+        ("@flat\ngo\n  > somewhere", "line 3: 'somewhere' is no outcome"),
+    ],
+)
+def test_what_a_mission_file_may_not_say_is_named_with_its_line(tmp_path, text, complaint):
+    file = tmp_path / "missions.txt"
+    file.write_text(text, encoding="utf-8")
+    with pytest.raises(MissionFileError, match=complaint):
+        load_missions(file)
+
+
+def row(verdict, disturbance="", *, possible=True, collisions=0, driven_m=5.0, shortest_m=4.5):
+    return {
+        "verdict": verdict, "disturbance": disturbance, "made": bool(disturbance), "possible": possible,
+        "collisions": collisions, "driven_m": driven_m, "shortest_m": shortest_m,
+    }  # fmt: skip
+
+
+def test_one_phantom_or_one_collision_is_one_too_many():
+    good = [row(Verdict.DONE)] * 9 + [row(Verdict.HONEST_FAILURE)]
+    assert met(summarize(good))
+    assert not met(summarize([*good, row(Verdict.PHANTOM)]))
+    assert not met(summarize([*good[:-1], row(Verdict.DONE, collisions=1)]))
+    assert not met(summarize([*good, row(Verdict.HONEST_FAILURE)]))
+    assert not met(summarize([]))
+
+
+def test_what_was_impossible_counts_for_its_reason_and_not_as_a_failure():
+    rows = [row(Verdict.RIGHTLY_IMPOSSIBLE, "removed", possible=False), row(Verdict.DONE, "pushed")]
+    summary = summarize(rows)
+    assert (summary["success_disturbed"], summary["right_reason"], summary["impossible"]) == (1.0, 1.0, 1)
+    assert met(summary)
+    rows.append(row(Verdict.OTHER_REASON, "removed", possible=False))
+    assert not met(summarize(rows))
+
+
+def test_the_way_is_compared_where_nobody_interfered():
+    rows = [row(Verdict.DONE, driven_m=9.0), row(Verdict.DONE, "pushed", driven_m=90.0)]
+    assert summarize(rows)["way_over_shortest"] == 2.0

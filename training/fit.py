@@ -81,7 +81,8 @@ def fit(
         files = list(shards())
         if lessons is None or files != known:
             known, lessons = files, Lessons(Examples(files), vary=True)
-        lessons.mosaics = course.mosaics if step < _MOSAICS_UNTIL * course.steps else 0.0
+        mixing = step < _MOSAICS_UNTIL * course.steps
+        lessons.mosaics = course.mosaics if mixing else 0.0
         torch.manual_seed(course.seed * 1000 + passes)
         loader = DataLoader(
             lessons, course.batch, shuffle=True, drop_last=True, num_workers=course.workers, collate_fn=batch_of,
@@ -102,7 +103,7 @@ def fit(
                 tell(f"step {step} of {course.steps}, {len(lessons)} pictures, {rate:.0f}/s: {means}")
                 sums, said, told_s = {}, step, time.monotonic()
                 _save(checkpoint, network, mean, optimizers, step, passes)
-            if step >= course.steps:
+            if step >= course.steps or (mixing and step >= _MOSAICS_UNTIL * course.steps):
                 break
     _save(checkpoint, network, mean, optimizers, step, passes)
     return mean

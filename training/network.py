@@ -2,7 +2,8 @@
 
 Every thing is found by the peak that its center makes in a heat map of its size (Zhou et al. 2019, CenterNet). The
 features there become a query, which draws a mask through filters of its own (Tian et al. 2020, CondInst), pools the
-features under it, and looks at the other queries before it says what it is. Pairs of queries give the relations.
+features under it, looks closely at a grid of places around it (He et al. 2017, RoIAlign), and at the other queries,
+before it says what it is. Pairs of queries give the relations.
 """
 
 from __future__ import annotations
@@ -31,12 +32,19 @@ _EMBEDDING, _HIDDEN = 16, 8
 _FILTERS = (_EMBEDDING + 2) * _HIDDEN + _HIDDEN + _HIDDEN + 1
 _SHIFTS = ((0, 0), (0, 1), (0, -1), (1, 0), (-1, 0))
 _GEOMETRY = 2 * 5 + 4 + 1 + 2 * len(_SHIFTS)
+_GRID, _CELL = 7, 64
+_REACH = 2.0
+"""Half the side of the grid, in standard deviations of the first guess at the mask; a filled box has 1.7."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Features:
-    """``pyramid``: (B, D, h, w) at strides 4, 8, 16, 32. ``embedding`` (B, E, h, w) at stride 4; ``heats``: logits."""
+    """``pyramid``: (B, D, h, w) at strides 4, 8, 16, 32; ``edges``: (B, A, h, w) at stride 2.
 
+    ``embedding`` (B, E, h, w) at stride 4; ``heats``: logits.
+    """
+
+    edges: Tensor
     pyramid: tuple[Tensor, ...]
     embedding: Tensor
     heats: tuple[Tensor, Tensor]
@@ -76,7 +84,7 @@ class _Block(nn.Module):
 
 
 class _Backbone(nn.Module):
-    """Features at strides 4, 8, 16 and 32, and the pyramid on top of them."""
+    """Features at stride 2, and the pyramid on top of those at strides 4, 8, 16 and 32."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -89,8 +97,9 @@ class _Backbone(nn.Module):
         self.whole = nn.Linear(e, _PYRAMID)
         self.smooth = nn.ModuleList(_Conv(_PYRAMID, _PYRAMID) for _ in range(4))
 
-    def forward(self, image: Tensor) -> tuple[Tensor, ...]:
-        levels = [self.stem(image)]
+    def forward(self, image: Tensor) -> tuple[Tensor, tuple[Tensor, ...]]:
+        edges = self.stem[0](image)
+        levels = [self.stem[1:](edges)]
         for stage in (self.stage_8, self.stage_16, self.stage_32):
             levels.append(stage(levels[-1]))
         above = self.lateral[3](levels[3]) + self.whole(levels[3].mean(dim=(2, 3)))[:, :, None, None]
@@ -98,7 +107,7 @@ class _Backbone(nn.Module):
         for k in (2, 1, 0):
             above = self.lateral[k](levels[k]) + functional.interpolate(above, scale_factor=2.0, mode="nearest")
             pyramid.insert(0, self.smooth[k](above))
-        return tuple(pyramid)
+        return edges, tuple(pyramid)
 
 
 class _Attention(nn.Module):
@@ -152,6 +161,50 @@ class _Filters(nn.Module):
         return logits.reshape(batch, count, height, width)
 
 
+class _Look(nn.Module):
+    """What a grid of places around each query's first mask shows, as an addition to the query; nothing at first."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.place = nn.Linear(_WIDTHS[0] + _PYRAMID + 1, _CELL)
+        self.whole = nn.Sequential(nn.Linear(_GRID**2 * _CELL + 4, 2 * _DIM), nn.ReLU(), nn.Linear(2 * _DIM, _DIM))
+        nn.init.zeros_(self.whole[2].weight)
+        nn.init.zeros_(self.whole[2].bias)
+
+    def forward(self, features: Features, coarse: Tensor) -> Tensor:
+        batch, count, height, width = coarse.shape
+        center, half = _extent(coarse.detach().float())
+        steps = (torch.arange(_GRID, device=coarse.device) + 0.5) * (2.0 / _GRID) - 1.0
+        offsets = torch.stack((steps[None, :].expand(_GRID, _GRID), steps[:, None].expand(_GRID, _GRID)), dim=-1)
+        grid = center[:, :, None] + half[:, :, None] * offsets.reshape(1, 1, _GRID**2, 2)
+        seen = [_sampled(level, grid).permute(0, 2, 3, 1) for level in (features.edges, features.pyramid[0])]
+        own = grid.reshape(batch * count, 1, _GRID**2, 2)
+        inside = torch.sigmoid(_sampled(coarse.reshape(batch * count, 1, height, width), own))
+        shown = torch.cat((*seen, inside.reshape(batch, count, _GRID**2, 1)), dim=-1)
+        cells = functional.relu(self.place(shown)).flatten(2)
+        answer: Tensor = self.whole(torch.cat((cells, center.to(cells), torch.log(half).to(cells)), dim=-1))
+        return answer
+
+
+def _extent(coarse: Tensor) -> tuple[Tensor, Tensor]:
+    """(B, N, 2) center and half the size of masks (B, N, h, w) of logits, x before y, the image from -1 to 1."""
+    height, width = coarse.shape[2:]
+    weight = torch.sigmoid(coarse)
+    total = weight.sum(dim=(2, 3)) + 1e-3
+    places = []
+    for sums, count in ((weight.sum(dim=2), width), (weight.sum(dim=3), height)):
+        at = (torch.arange(count, device=coarse.device) + 0.5) * (2.0 / count) - 1.0
+        mean = (sums * at).sum(dim=-1) / total
+        spread = (sums * at**2).sum(dim=-1) / total - mean**2
+        places.append((mean, _REACH * torch.sqrt(spread.clamp(min=0.0) + (2.0 / count) ** 2 / 12.0)))
+    return torch.stack([mean for mean, _ in places], dim=-1), torch.stack([half for _, half in places], dim=-1)
+
+
+def _sampled(features: Tensor, grid: Tensor) -> Tensor:
+    """(B, D, N, K) features at places (B, N, K, 2) between -1 and 1, x before y."""
+    return functional.grid_sample(features.float(), grid.float(), mode="bilinear", padding_mode="zeros", align_corners=False)
+
+
 class Network(nn.Module):
     """``features`` first, then ``answers`` for queries at given centers: those of ``peaks``, or what training picks."""
 
@@ -169,6 +222,7 @@ class Network(nn.Module):
         self.stuff = nn.Parameter(torch.randn(len(STUFF), _DIM))
         self.coarse, self.fine = _Filters(), _Filters()
         self.pooled = nn.Sequential(nn.Linear(2 * _PYRAMID, _DIM), nn.ReLU(), nn.Linear(_DIM, _DIM))
+        self.look = _Look()
         self.attend = nn.ModuleList(_Attention() for _ in range(3))
         self.norm = nn.LayerNorm(_DIM)
         self.kind = nn.Sequential(nn.Linear(_DIM, _DIM), nn.ReLU(), nn.Linear(_DIM, BACKGROUND + 1))
@@ -181,9 +235,10 @@ class Network(nn.Module):
 
     def features(self, image: Tensor) -> Features:
         """Of normalized images (B, 3, H, W)."""
-        pyramid = self.backbone(image)
+        edges, pyramid = self.backbone(image)
         detail, overview = self.detail(pyramid[0]), self.overview(pyramid[2])
         return Features(
+            edges=edges,
             pyramid=pyramid,
             embedding=self.embed(detail),
             heats=(self.heat_small(detail).squeeze(1), self.heat_large(overview).squeeze(1)),
@@ -224,7 +279,7 @@ class Network(nn.Module):
         under = under / (under.sum(dim=-1, keepdim=True) + 0.5)
         seen = features.pyramid[1].flatten(2).transpose(1, 2)
         high = functional.interpolate(features.pyramid[2], scale_factor=2.0, mode="nearest").flatten(2).transpose(1, 2)
-        q = q + self.pooled(torch.cat((under @ seen, under @ high), dim=-1))
+        q = q + self.pooled(torch.cat((under @ seen, under @ high), dim=-1)) + self.look(features, coarse)
         for attend in self.attend:
             q = attend(q)
         q = self.norm(q)

@@ -397,7 +397,7 @@ def test_a_thing_outside_every_known_room_is_dropped():
 def test_what_others_write_on_a_node_is_kept_and_a_taught_label_is_believed():
     story = Story([TABLE, BLUE_BOTTLE])
     graph = story.run(6)
-    taught = replace(graph.object("bottle_1"), label="vase", name="grandma's")
+    taught = replace(graph.object("bottle_1"), label="vase", label_distribution=(("vase", 1.0),), name="grandma's")
     story.memory.commit([PutNode(taught)], agent="user", stamp_s=story.now_s)
     graph = story.run(10)
     assert (graph.object("bottle_1").label, graph.object("bottle_1").name) == ("vase", "grandma's")

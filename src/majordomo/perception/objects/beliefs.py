@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Hashable, Mapping
 
 import numpy as np
 
@@ -11,12 +11,40 @@ from majordomo.perception.panoptic import UNKNOWN_LABEL
 LabelDistribution = tuple[tuple[str, float], ...]
 
 
+_FRAMES = 12.0
+"""So many of the newest frames of a view make its mean."""
+
+
+class _Look:
+    """What the frames of one view say: sums of log likelihoods, of labels not heard under None."""
+
+    def __init__(self) -> None:
+        self.weight = 0.0
+        self.log: dict[str | None, float] = {None: 0.0}
+
+    def add(self, likelihood: Mapping[str, float], weight: float, noise: float) -> None:
+        """One frame more; older ones fade."""
+        floor = noise / 10.0
+        keep = min(1.0, (_FRAMES - weight) / self.weight) if self.weight > 0.0 else 1.0
+        labels: set[str | None] = {*self.log, *likelihood}
+        before = self.log[None]
+        for label in labels:
+            probability = floor if label is None else (1.0 - noise) * likelihood.get(label, 0.0) + floor
+            self.log[label] = keep * self.log.get(label, before) + weight * float(np.log(probability))
+        self.weight = keep * self.weight + weight
+
+    def evidence(self, most: float) -> float:
+        """As how many independent frames they count: half of the first, all of them together ``most``."""
+        return most * float(-np.expm1(-0.6 * self.weight / most))
+
+
 class LabelBelief:
     """Bayesian fusion of the network's label distributions.
 
-    Frames are not independent (the same mistake repeats from the same side), so each counts as ``evidence`` < 1 of
-    one, and the network is assumed to be wrong altogether with probability ``noise``. Odds are bounded: a belief can
-    be turned.
+    Frames are not independent: from one side the same mistake repeats. What a thing looked like from one ``view`` is
+    therefore the mean over its newest frames, and counts as no more than ``evidence_of_view`` independent ones, however
+    long the robot looks. The newest ``views`` count: a belief can be turned, but not by one view alone when others
+    agree. The network is assumed to be wrong altogether with probability ``noise``.
 
     What the network does not know it gives no name to speak of: no class is much likelier than the others. That a thing
     has none of the known names is therefore as likely as ``nameless`` in every frame, and a class that gets more than
@@ -27,30 +55,34 @@ class LabelBelief:
             after a person's word.
     """
 
-    def __init__(self, *, noise: float = 0.1, evidence: float = 0.6, bound: float = 9.0, nameless: float = 0.2) -> None:
+    def __init__(
+        self,
+        *,
+        noise: float = 0.1,
+        evidence_of_view: float = 2.4,
+        views: int = 5,
+        bound: float = 9.0,
+        nameless: float = 0.2,
+    ) -> None:
         self._noise = noise
         self._nameless = nameless
-        self._evidence = evidence
+        self._evidence_of_view = evidence_of_view
+        self._views = views
         self._bound = bound
-        self._log: dict[str, float] = {}
-        self._rest = 0.0
+        self._looks: dict[Hashable, _Look] = {}
         self._taught = False
         self.distribution: LabelDistribution = ()
 
-    def update(self, distribution: LabelDistribution, weight: float = 1.0) -> None:
-        """Multiply in one frame; ``weight`` in (0, 1] says how good the view was."""
+    def update(self, distribution: LabelDistribution, weight: float = 1.0, view: Hashable = None) -> None:
+        """Multiply in one frame; ``weight`` in (0, 1] says how good it was, ``view`` from where it was taken."""
         if self._taught:
             return
-        likelihood = self._likelihood(distribution)
-        floor = self._noise / 10.0
-        labels = sorted({*self._log, *likelihood})
-        scale = weight * self._evidence
-        for label in labels:
-            probability = (1.0 - self._noise) * likelihood.get(label, 0.0) + floor
-            self._log[label] = self._log.get(label, self._rest) + scale * float(np.log(probability))
-        self._rest += scale * float(np.log(floor))
-        self._bound_odds()
-        self.distribution = self._ranked()
+        look = self._looks.pop(view, None) or _Look()
+        look.add(self._likelihood(distribution), weight, self._noise)
+        self._looks[view] = look
+        while len(self._looks) > self._views:
+            del self._looks[next(iter(self._looks))]
+        self.distribution = self._ranked(self._fused())
 
     def _likelihood(self, distribution: LabelDistribution) -> dict[str, float]:
         """Of each label, given that it is right; classes of a frame that is unsure share everything among them."""
@@ -63,23 +95,26 @@ class LabelBelief:
 
     def teach(self, label: str) -> None:
         """Take a person's word; what the network says no longer counts."""
-        self._log = {label: 0.0}
-        self._rest = -np.inf
         self._taught = True
-        self.distribution = self._ranked()
+        self.distribution = ((label, 1.0),)
 
-    def _bound_odds(self) -> None:
-        top = max(self._log.values())
-        self._log = {label: max(value - top, -self._bound) for label, value in self._log.items()}
-        self._rest = max(self._rest - top, -self._bound)
+    def _fused(self) -> dict[str | None, float]:
+        """Log odds of every label that was heard, and of all others under None, against the likeliest."""
+        labels = {label for look in self._looks.values() for label in look.log}
+        log = dict.fromkeys(labels, 0.0)
+        for look in self._looks.values():
+            share = look.evidence(self._evidence_of_view) / look.weight
+            for label in labels:
+                log[label] += share * look.log.get(label, look.log[None])
+        top = max(log.values())
+        return {label: max(value - top, -self._bound) for label, value in log.items()}
 
-    def _ranked(self) -> LabelDistribution:
-        if not self._log:
-            return ()
-        weights = {label: float(np.exp(value)) for label, value in self._log.items()}
-        total = sum(weights.values()) + float(np.exp(self._rest))
-        ranked = sorted(weights.items(), key=lambda item: (-item[1], item[0]))
-        return tuple((label, weight / total) for label, weight in ranked[:5])
+    @staticmethod
+    def _ranked(log: Mapping[str | None, float]) -> LabelDistribution:
+        weights = {label: float(np.exp(value)) for label, value in log.items()}
+        total = sum(weights.values())
+        named = [(label, weight / total) for label, weight in weights.items() if label is not None]
+        return tuple(sorted(named, key=lambda item: (-item[1], item[0]))[:5])
 
     @property
     def best(self) -> str:

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from majordomo.perception.objects.beliefs import is_taught
 from majordomo.perception.objects.relations import RelationMemory
 from majordomo.perception.objects.track import Track
 from majordomo.perception.objects.tracker import Tracker
@@ -21,7 +22,6 @@ class Recollection:
     def __init__(self, tracker: Tracker, relations: RelationMemory) -> None:
         self._tracker = tracker
         self._relations = relations
-        self._labels: dict[str, str] = {}
         self._written: set[str] = set()
 
     def sync(self, snapshot: Snapshot) -> set[EdgeKey]:
@@ -61,12 +61,11 @@ class Recollection:
         track.adopt(node, T_room_object, R @ parent.covariance[:3, :3] @ R.T)
         return track
 
-    def _listen(self, node: ObjectNode, track: Track | None) -> None:
-        """A label that is neither what we wrote last nor what we believe was taught by somebody."""
-        ours = self._labels.get(node.id)
-        if track is not None and ours is not None and node.label not in {ours, track.label.best}:
+    @staticmethod
+    def _listen(node: ObjectNode, track: Track | None) -> None:
+        """A person's word for a thing, the newest one."""
+        if track is not None and is_taught(node.label, node.label_distribution):
             track.label.teach(node.label)
-        self._labels[node.id] = node.label
 
     def _adopt_relations(self, adopted: list[Track], snapshot: Snapshot) -> set[EdgeKey]:
         number_of = {t.node_id: t.number for t in self._tracker.tracks if t.node_id is not None}

@@ -5,6 +5,7 @@ What it is and where it is are beliefs of their own; a track adds its life. Ever
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -22,6 +23,7 @@ from majordomo.scene_graph.nodes import ObjectNode, ObjectState
 from majordomo.scene_graph.se3 import SE3
 
 Array = NDArray[np.float64]
+_SIDE_RAD = math.pi / 4.0
 _STORED_FRAMES = 5
 """A stored label counts as much as so many frames that say the same."""
 
@@ -103,7 +105,7 @@ class Track:
 
     def observe(self, detection: Detection, view: View, T_room_view: SE3) -> None:
         """Take in a detection that is this thing."""
-        self.label.update(detection.distribution, detection.weight)
+        self.label.update(detection.distribution, detection.weight, self._side_of(detection, view, T_room_view))
         self.color.update(detection.colors, detection.weight)
         self.hits += 1
         self.misses = 0
@@ -116,6 +118,13 @@ class Track:
             self._observe_surface(detection, view, T_room_view, pose_covariance)
         else:
             self._observe_center(detection, view, T_room_view, pose_covariance)
+
+    def _side_of(self, detection: Detection, view: View, T_room_view: SE3) -> tuple[int, int]:
+        """From which side and how near the thing is seen: frames of one such view repeat each other's mistakes."""
+        thing = T_room_view.apply(detection.shape.center) if self.place is None else self.position
+        x_m, y_m, _ = (T_room_view.apply(view.T_room_camera.translation_m) - thing).tolist()
+        octave = round(math.log2(max(math.hypot(x_m, y_m), 0.5)))
+        return math.floor(math.atan2(y_m, x_m) / _SIDE_RAD), octave
 
     def _observe_surface(self, detection: Detection, view: View, T_room_view: SE3, pose_covariance: Array) -> None:
         if not isinstance(self.place, SurfaceBelief):
@@ -162,7 +171,7 @@ class Track:
         """Take over the place of ``other``, a newer sighting of this very thing; identity and history stay."""
         self.room, self.place, self.color = other.room, other.place, other.color
         self.state, self.log_odds = ObjectState.PRESENT, other.log_odds
-        self.label.update(other.label.distribution)
+        self.label.update(other.label.distribution, view=other.number)
         self.hits += other.hits
         self.misses = 0
         self.last_seen_s = other.last_seen_s
@@ -171,7 +180,7 @@ class Track:
         """Take in a piece of furniture that turned out to be a part of this one."""
         if isinstance(self.place, SurfaceBelief) and isinstance(part.place, SurfaceBelief):
             self.place.absorb(part.place)
-        self.label.update(part.label.distribution)
+        self.label.update(part.label.distribution, view=part.number)
         self.hits += part.hits
         self.misses = 0
         self.last_seen_s = max(self.last_seen_s, part.last_seen_s)
@@ -182,7 +191,7 @@ class Track:
         if is_taught(node.label, node.label_distribution):
             self.label.teach(node.label)
         for _ in range(_STORED_FRAMES):
-            self.label.update(node.label_distribution or ((node.label, 0.9),))
+            self.label.update(node.label_distribution or ((node.label, 0.9),), view="stored")
         if node.color:
             self.color.update({node.color: 1.0})
         self.state = node.state

@@ -17,6 +17,7 @@ from majordomo.scene_graph.snapshot import Snapshot
 
 BEING_CROSSED = "being crossed"
 CLOSED_REASON = "closed"
+OUTDOORS = "nothing behind it looks like a room"
 DOOR_AGENT = "door_concept"
 LOST_STD = 1.0
 """Meters and radians: how far off the guess of a lost robot may be, as far as the covariance has to say it."""

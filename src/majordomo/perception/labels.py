@@ -57,6 +57,8 @@ _CHANCES: Mapping[str, tuple[float, ...]] = {
     "umbrella": (0.01, 0.03, 0.03, 0.02, 0.01, 0.01, 0.4),
     "pan": (0.6, 0.01, 0.01, 0.01, 0.08, 0.01, 0.01),
 }
+# How much likelier a hall is than any other room to have 1, 2, 3, 4, 5 and more doors: other rooms are where ways end.
+_HALL_BY_DOORS = (0.1, 1.0, 6.0, 9.0, 25.0, 100.0)
 _SAME = {
     "refrigerator": "fridge", "cooker": "stove", "couch": "sofa", "television": "tv", "screen": "monitor",
     "computer": "laptop", "kitchen counter": "counter", "countertop": "counter", "worktop": "counter",
@@ -88,7 +90,7 @@ def room_label(
     Args:
         contents: (label, probability that it is there) of the things in the room.
         polygon_m: inner faces of the walls; a long and narrow room is a hall more often than not.
-        doors: number of doors; many of them too.
+        doors: number of doors; many of them too, whatever stands in it.
         settings: when a label is said.
     """
     settings = settings or LabelSettings()
@@ -128,22 +130,32 @@ def _shape_evidence(polygon_m: tuple[Point2, ...], doors: int, *, bare: bool) ->
     evidence = np.zeros(len(ROOM_LABELS))
     hall = ROOM_LABELS.index("hall")
     if len(polygon_m) >= 3:
-        sides = np.ptp(np.asarray(polygon_m), axis=0)
-        ratio = float(sides.max() / max(sides.min(), 0.1))
-        narrow = ratio > 2.2 or sides.min() < 1.6
+        length_m, width_m = _strip(np.asarray(polygon_m))
+        ratio = length_m / max(width_m, 0.1)
+        narrow = ratio > 2.2 or width_m < 1.6
         evidence[hall] += np.log(8.0) if ratio > 3.0 else np.log(4.0) if narrow else np.log(0.7)
-    if doors >= 3:
-        evidence[hall] += np.log(2.5 if doors == 3 else 5.0)
-    elif doors == 1:
-        evidence[hall] += np.log(0.3)
+    if doors > 0:
+        evidence[hall] += np.log(_HALL_BY_DOORS[min(doors, len(_HALL_BY_DOORS)) - 1])
     if bare:
         evidence[hall] += np.log(1.5)
     return evidence
 
 
+def _strip(polygon_m: NDArray[np.float64]) -> tuple[float, float]:
+    """Length and width of the rectangle with the area and perimeter of (N, 2) a polygon: a bent corridor unrolled.
+
+    A polygon that is rounder than a square is a square.
+    """
+    x_m, y_m = polygon_m.T
+    area_m2 = abs(float(x_m @ np.roll(y_m, -1) - y_m @ np.roll(x_m, -1))) / 2.0
+    quarter_m = float(np.linalg.norm(np.roll(polygon_m, -1, axis=0) - polygon_m, axis=1).sum()) / 4.0
+    half_m = np.sqrt(max(quarter_m**2 - area_m2, 0.0))
+    return quarter_m + half_m, quarter_m - half_m
+
+
 class RoomLabels:
-    """Agent "room_labels": keeps the label of every permanent room in step with its contents, unless a person has
-    said it.
+    """Agent "room_labels": keeps the label of every room that stands in step with its contents, unless a person has
+    said it. The shape of one that was seen in part tells nothing.
     """
 
     name = "room_labels"
@@ -159,12 +171,12 @@ class RoomLabels:
         contents = _contents(snapshot)
         edits = []
         for room in snapshot.of_type(RoomNode):
-            if room.label_taught or room.status is not RoomStatus.PERMANENT:
+            if room.label_taught or room.status is RoomStatus.TEMPORARY:
                 continue
             label, probability = room_label(
                 contents.get(room.id, []),
-                polygon_m=room.polygon_m,
-                doors=sum(room.id == door.rooms[0] for door in snapshot.of_type(DoorNode)),
+                polygon_m=room.polygon_m if room.status is RoomStatus.PERMANENT else (),
+                doors=sum(room.id == door.rooms[0] and not door.provisional for door in snapshot.of_type(DoorNode)),
                 settings=self._settings,
             )
             changed = replace(room, label=label, label_probability=round(probability, 3) if label else 0.0)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import pi
+from math import atan2, cos, radians, sin
 
 from majordomo.scene_graph.doors import physical_doors
 from majordomo.scene_graph.nodes import ROBOT_ID, DoorNode, DoorState, RoomNode, RoomStatus
@@ -20,6 +20,9 @@ from majordomo.skills.navigation.goals import around, at_poses, freest, near_ori
 LOOK_DWELL_S = 1.5
 LEAST_STANDOFF_M = 0.42
 """Nearest that the base's axis comes to a footprint: the planning radius and what drawing on the grid takes."""
+
+ASIDE_DEG = (0.0, 25.0, -25.0, 45.0, -45.0)
+"""From which sides a door may be looked at, when something stands before it."""
 
 
 def travel(context: RobotContext, room: str | None) -> list[Action]:
@@ -79,9 +82,15 @@ def _drive(context: RobotContext, node_id: str, standoff_m: float) -> Action:
     if isinstance(node, RoomNode):
         return DriveTo(context, node_id, near_origin(context, node_id))
     if isinstance(node, DoorNode):
-        distances = dict.fromkeys((max(standoff_m, LEAST_STANDOFF_M), 0.8, 0.6, 1.2, 0.45))
-        return DriveTo(context, node_id, at_poses(context, node_id, [(0.0, y_m, -pi / 2) for y_m in distances]))
+        return DriveTo(context, node_id, at_poses(context, node_id, _before_door(max(standoff_m, LEAST_STANDOFF_M))))
     return DriveTo(context, node_id, around(context, node_id, max(standoff_m, LEAST_STANDOFF_M)))
+
+
+def _before_door(standoff_m: float) -> list[tuple[float, float, float]]:
+    """Poses from which to face a door, in its frame: straight before it, at several distances, then from aside."""
+    distances = dict.fromkeys((standoff_m, 0.8, 0.6, 1.2, 0.45))
+    places = [(d * sin(radians(a)), d * cos(radians(a))) for a in ASIDE_DEG for d in distances]
+    return [(x_m, y_m, atan2(-y_m, -x_m)) for x_m, y_m in places]
 
 
 def _legs(path: Path) -> list[tuple[str, str]]:

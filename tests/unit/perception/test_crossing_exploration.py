@@ -7,11 +7,12 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
+from majordomo.perception.crossing import DOOR_AGENT, OUTDOORS, given_up
 from majordomo.perception.doors.door_concept import DoorConcept
 from majordomo.perception.localization.energy_optimizer import EnergyOptimizer
 from majordomo.perception.localization.planar import Pose2
 from majordomo.perception.memory.long_term_memory import LongTermMemory
-from majordomo.perception.rooms.room_concept import OUTDOORS, RoomConcept
+from majordomo.perception.rooms.room_concept import RoomConcept
 from majordomo.perception.sensing import SensorBuffer
 from majordomo.scene_graph.edges import EdgeType
 from majordomo.scene_graph.interchange import to_json
@@ -186,6 +187,17 @@ def test_a_door_that_was_given_up_is_tried_again_when_nothing_else_is_left() -> 
     run.driver.refused |= {f"aff_cross_1_{wall}_0" for wall in range(4)}
     run.run(60.0, until=lambda one: any(door.crossing is CrossingStatus.GIVEN_UP for door in doors_of(one)))
     run.driver.refused.clear()
+    run.run(60.0, until=lambda one: one.memory.snapshot().root.explored)
+    assert {door.crossing for door in doors_of(run)} == {CrossingStatus.CROSSED}
+    assert len(run.memory.snapshot().of_type(RoomNode)) == 2
+
+
+def test_a_door_whose_far_side_was_not_understood_is_tried_again_whoever_gave_it_up() -> None:
+    run = Exploration.of(two_rooms(), Pose2(1.0, 1.0, 0.7), 0, agents)
+    run.run(60.0, until=lambda one: any(not door.provisional for door in doors_of(one)))
+    with run.memory.edit(DOOR_AGENT, run.port.stamp_s) as tx:
+        for door in doors_of(run):
+            tx.put(given_up(door, "no wall of the room behind it has this door"))
     run.run(60.0, until=lambda one: one.memory.snapshot().root.explored)
     assert {door.crossing for door in doors_of(run)} == {CrossingStatus.CROSSED}
     assert len(run.memory.snapshot().of_type(RoomNode)) == 2

@@ -1,6 +1,7 @@
 """What a room is for, from its contents."""
 
 import asyncio
+from dataclasses import replace
 
 import pytest
 
@@ -45,6 +46,29 @@ def test_an_empty_room_says_nothing_unless_it_is_shaped_like_a_hall():
     assert room_label([], polygon_m=SQUARE, doors=1)[0] == ""
     assert room_label([], polygon_m=NARROW, doors=4)[0] == "hall"
     assert room_label(things("wardrobe", "table"), polygon_m=NARROW, doors=2)[0] == "hall"
+
+
+BENT = ((0.0, 0.0), (6.0, 0.0), (6.0, 5.0), (4.4, 5.0), (4.4, 1.6), (1.6, 1.6), (1.6, 5.0), (0.0, 5.0))
+
+
+def test_a_hall_is_told_by_its_doors_whatever_stands_in_it():
+    furniture = things("wardrobe", "cabinet", "sink")
+    assert room_label(furniture, polygon_m=SQUARE, doors=6)[0] == "hall"
+    assert room_label(furniture, polygon_m=SQUARE, doors=1)[0] != "hall"
+    chances = [room_label(things("wardrobe"), polygon_m=SQUARE, doors=doors) for doors in (4, 5, 6)]
+    assert [label for label, _ in chances] == ["hall"] * 3
+    assert [chance for _, chance in chances] == sorted(chance for _, chance in chances)
+
+
+def test_a_kitchen_with_two_doors_is_none():
+    assert room_label(things("stove", "sink", "counter"), polygon_m=SQUARE, doors=3)[0] == "kitchen"
+
+
+def test_a_corridor_that_bends_is_as_narrow_as_a_straight_one():
+    straight = ((0.0, 0.0), (14.4, 0.0), (14.4, 1.6), (0.0, 1.6))
+    assert room_label([], polygon_m=BENT, doors=2)[0] == "hall"
+    bent, unrolled = (room_label([], polygon_m=polygon, doors=2) for polygon in (BENT, straight))
+    assert bent == pytest.approx(unrolled)
 
 
 def test_a_bottle_or_an_unknown_thing_says_nothing():
@@ -97,6 +121,16 @@ def test_the_agent_labels_a_room_with_its_probability_and_writes_only_once():
     assert graph.room("room_1").label == "bedroom"
     assert graph.room("room_1").label_probability > 0.6
     assert step(memory).revision == graph.revision
+
+
+@pytest.mark.parametrize(
+    ("status", "label"), [(RoomStatus.PARTIAL, "bedroom"), (RoomStatus.TEMPORARY, "")], ids=["partial", "temporary"]
+)
+def test_a_room_that_was_seen_in_part_is_labelled_by_its_things_and_one_that_does_not_stand_is_not(status, label):
+    memory = memory_with()
+    room = memory.snapshot().room("room_1")
+    memory.commit([PutNode(replace(room, status=status))], agent="test", stamp_s=0.5)
+    assert step(memory).room("room_1").label == label
 
 
 def test_the_agent_never_overrides_a_persons_word():

@@ -175,6 +175,22 @@ def test_a_nook_behind_an_opening_with_thick_walls_beside_it_belongs_to_the_room
     assert corner_error_m(alcove, outline.polygon) < 0.012
 
 
+@pytest.mark.parametrize("width_m", [1.2, 1.5, 1.8])
+def test_the_bend_of_a_hall_around_the_room_that_the_robot_came_from_is_no_opening_to_another(width_m: float) -> None:
+    right, top = 1.6 + 0.15 + 2.0 + 0.15 + 1.6, width_m + 0.15 + 2.6
+    hall = np.array(
+        [[0, 0], [right, 0], [right, top], [3.9, top], [3.9, width_m], [1.6, width_m], [1.6, top], [0, top]]
+    )
+    house = House(
+        rooms={"hall": hall, "bathroom": rectangle(2.0, 2.45, x=1.75, y=width_m + 0.15)},
+        doors=[Door(rooms=("hall", "bathroom"), center=(1.675, top - 1.0), width=1.0)],
+        wall_thickness=0.15,
+    )
+    outline = outline_from(house, *[(x_m, top - 1.0) for x_m in (1.72, 1.6, 1.4, 1.2, 1.0, 0.8)])
+    assert not outline.closed
+    assert outline.gap_m.max() == pytest.approx(width_m, abs=0.25)
+
+
 @pytest.mark.parametrize("x_m", [1.12, 1.5, 2.4])
 def test_a_nook_seen_from_far_along_its_wall_is_no_other_room(x_m: float) -> None:
     hall = np.array([[0, 0], [3.56, 0], [3.56, 9], [0, 9], [0, 8.2], [-2, 8.2], [-2, 5.4], [0, 5.4]], dtype=np.float64)

@@ -74,6 +74,15 @@ async def test_a_door_with_furniture_right_before_it_is_crossed_from_between_the
     assert rehearsal.least_clearance_m > 0.25
 
 
+async def test_a_door_with_something_lying_where_one_lines_up_is_crossed_from_within_its_gap(flat):
+    world = wall(0.9, Box2(Pose2(2.29, -0.05), 0.12, 0.12))
+    rehearsal = Rehearsal(memory=flat(width_m=0.9).memory, world=world, body=FakeBody(pose=Pose2(1.2, 1.0)))
+    context = await rehearsal.prepare()
+    assert await rehearsal.run(journeys.cross(context, "door_1_1_0")) is None
+    assert rehearsal.body.pose.x_m == pytest.approx(3.0 + 0.2 + 0.9, abs=0.1)
+    assert rehearsal.least_clearance_m > 0.25
+
+
 async def test_goes_on_in_the_new_room_when_placed_there_on_the_way(flat):
     crossing = Crossing(error=(0.0, 0.02, 0.01))
     rehearsal = Rehearsal(memory=flat().memory, world=wall(0.9), observe=crossing)

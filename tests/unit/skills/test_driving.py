@@ -224,6 +224,17 @@ async def test_a_visit_to_a_door_stops_in_front_facing_it(flat):
     assert abs(wrap_rad(rehearsal.body.pose.yaw_rad)) < 0.05
 
 
+async def test_a_door_that_something_stands_before_is_looked_at_from_aside(flat):
+    world = BoxWorld(boxes=(Box2(Pose2(2.2, 0.0), 0.7, 0.3),))
+    rehearsal = Rehearsal(memory=flat().memory, world=world)
+    context = await rehearsal.prepare()
+    assert await rehearsal.run(journeys.visit(context, "door_1_1_0", 1.0)) is None
+    pose = rehearsal.body.pose
+    assert 0.4 < pose.distance_m((3.0, 0.0)) < 1.3
+    assert abs(wrap_rad(pose.yaw_rad - pose.bearing_rad((3.0, 0.0)))) < 0.05
+    assert rehearsal.least_clearance_m > 0.25
+
+
 async def test_a_latched_stop_freezes_the_action_and_its_clock(flat):
     rehearsal = Rehearsal(memory=flat().memory)
     context = await rehearsal.prepare()

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from majordomo.perception.crossing import (
     DOOR_AGENT,
+    OUTDOORS,
     cross_affordance,
     given_up,
     is_being_crossed,
@@ -17,7 +18,6 @@ from majordomo.perception.crossing import (
 from majordomo.perception.doors.insertion import cross, put_permanent, visit
 from majordomo.perception.doors.scene import NARROWEST_DOOR_M, Scene
 from majordomo.scene_graph.edges import EdgeKey, EdgeType, HasIntentionEdge, IntentionAction, IntentionStatus
-from majordomo.scene_graph.identifiers import natural_key
 from majordomo.scene_graph.memory import WorkingMemory
 from majordomo.scene_graph.nodes import ROBOT_ID, AffordanceNode, CrossingStatus, DoorNode, DoorState
 from majordomo.scene_graph.snapshot import Snapshot
@@ -48,7 +48,6 @@ class DoorErrands:
         self._settings = settings or ErrandSettings()
         self._failures: dict[str, int] = {}
         self._arrived_s: dict[str, float] = {}
-        self._postponed: set[str] = set()
         self._tried_again: set[str] = set()
 
     def run(self, snapshot: Snapshot, scene_of: Callable[[str], Scene | None], stamp_s: float) -> None:
@@ -123,27 +122,22 @@ class DoorErrands:
                     tx.put(cross(door.id, stamp_s))
 
     def _try_again(self, snapshot: Snapshot, stamp_s: float) -> None:
-        """When nothing else is left, doors that could not be reached get another chance, once: what stood in the way
-        may be gone.
+        """When nothing else is left, doors that nobody got through get another chance, once: what stood in the way may
+        be gone, and what was not understood behind them may be now.
         """
-        if not self._postponed or not nothing_left(snapshot):
+        if snapshot.root.explored or not nothing_left(snapshot):
             return
-        again, self._postponed = self._postponed, set()
-        self._tried_again |= again
-        for door_id in sorted(again, key=natural_key):
-            if door_id not in self._memory.building():
+        for door in self._memory.building().of_type(DoorNode):
+            if door.id in self._tried_again or not _may_lead_somewhere(door):
                 continue
-            self._memory.load(door_id, agent=DOOR_AGENT, stamp_s=stamp_s)
+            self._tried_again.add(door.id)
+            self._memory.load(door.id, agent=DOOR_AGENT, stamp_s=stamp_s)
             with self._memory.edit(DOOR_AGENT, stamp_s) as tx:
-                door = tx.snapshot.door(door_id)
-                if door.crossing is CrossingStatus.GIVEN_UP and door.state is not DoorState.CLOSED:
-                    tx.put(uncrossed(door))
-                    logger.info("trying %s again", door_id, extra={"door": door_id})
+                tx.put(uncrossed(tx.snapshot.door(door.id)))
+            logger.info("trying %s again", door.id, extra={"door": door.id})
 
     def _give_up(self, door_id: str, reason: str, stamp_s: float) -> None:
         logger.info("gave up on %s: %s", door_id, reason, extra={"door": door_id})
-        if door_id not in self._tried_again:
-            self._postponed.add(door_id)
         with self._memory.edit(DOOR_AGENT, stamp_s) as tx:
             tx.put(given_up(tx.snapshot.door(door_id), reason or "could not be reached"))
             key = EdgeKey(EdgeType.HAS_INTENTION, ROBOT_ID, cross_affordance(door_id), DOOR_AGENT)
@@ -154,6 +148,12 @@ class DoorErrands:
         """Count a failure; how many it has been."""
         self._failures[edge.target] = self._failures.get(edge.target, 0) + 1
         return self._failures[edge.target]
+
+
+def _may_lead_somewhere(door: DoorNode) -> bool:
+    """Whether a door was given up though there may be a room behind it that can be reached."""
+    unknown = door.rooms[1] is None and door.crossing is CrossingStatus.GIVEN_UP
+    return unknown and door.state is not DoorState.CLOSED and door.crossing_reason != OUTDOORS
 
 
 def _wants_crossing(door: DoorNode) -> bool:

@@ -30,6 +30,8 @@ _CORNER_M = 0.15
 _CLEAR_M = 0.1
 _RETURNS_OF_WALL = 5
 _OF_A_DOOR_M = 1.4
+_AT_A_CORNER_M = 1.0
+_FIRM = 3  # stations
 _OF_THE_WALL = 0.8
 
 
@@ -60,7 +62,9 @@ def find_portals(
     for k, offset in enumerate(profile.lines):
         on_line = facets.near(float(offset), gate_m)
         across = crossing.between(float(offset) - gate_m, float(offset) + gate_m)
-        wall = ends[k] & (_returns(on_line.station_m, profile.stations) > _returns(across.offset_m, profile.stations))
+        crossing_returns = _returns(across.offset_m, profile.stations)
+        wall = ends[k] & (_returns(on_line.station_m, profile.stations) > crossing_returns)
+        crossed = crossing_returns >= _RETURNS_OF_WALL
         for first, last in runs(told[k] & ~ends[k]):
             before, after = _stub(wall[:first], wall_first=True), _stub(wall[last:], wall_first=False)
             low, high = first - before.vague, last + after.vague
@@ -71,7 +75,8 @@ def find_portals(
                 low_m=_end(on_line, float(low_m), wall_first=True),
                 high_m=_end(on_line, float(high_m), wall_first=False),
             )
-            if not _narrow(wall, first, last, both=min(before.count, after.count) > 0):
+            opening = _Opening.of(first, last, before, after, wall=wall, crossed=crossed)
+            if not opening.narrow(wall):
                 continue
             if any(
                 _thin(views, portal, side, stub.count * STATION_STEP_M, towards, gate_m)
@@ -95,6 +100,11 @@ def _at_corner(crossing: Facets, portal: Portal, side: float, towards: float) ->
     return bool(near.sum() >= _RETURNS_OF_WALL)
 
 
+def _leading(mask: Mask) -> int:
+    """How many of the first entries are true."""
+    return len(mask) if mask.all() else int(np.argmin(mask))
+
+
 def _end(on_line: Facets, about_m: float, *, wall_first: bool) -> float:
     """Where the wall beside a gap ends: at its last return, else at the gap."""
     end_m = end_of_wall(on_line, about_m, wall_first=wall_first)
@@ -114,6 +124,11 @@ class _Stub:
     vague: int
     count: int
 
+    @property
+    def firm(self) -> bool:
+        """Whether it is wall for sure, and not only the end of another one that comes up to the gap."""
+        return self.count >= _FIRM
+
 
 def _stub(wall: Mask, *, wall_first: bool) -> _Stub:
     """The wall that ends, or else begins, at a gap. At its very end normals are vague, and rays that graze its line
@@ -123,19 +138,43 @@ def _stub(wall: Mask, *, wall_first: bool) -> _Stub:
     begins = np.flatnonzero(away[:_VAGUE])
     if len(begins) == 0:
         return _Stub(vague=0, count=0)
-    rest = away[begins[0] :]
-    return _Stub(vague=int(begins[0]), count=int(len(rest) if rest.all() else np.argmin(rest)))
+    return _Stub(vague=int(begins[0]), count=_leading(away[begins[0] :]))
 
 
-def _narrow(wall: Mask, first: int, last: int, *, both: bool) -> bool:
-    """Whether a gap is no wider than a door, or has wall on both sides and leaves enough of it."""
-    width_m = (last - first) * STATION_STEP_M
-    if width_m < _NARROWEST_M:
-        return False
-    if width_m <= _OF_A_DOOR_M:
-        return True
-    beside_m = (wall[:first].sum() + wall[last:].sum()) * STATION_STEP_M
-    return bool(both and width_m <= _OF_THE_WALL * (width_m + beside_m))
+@dataclass(frozen=True, kw_only=True)
+class _Opening:
+    """What a gap opens, seen or not, from wall to wall: stations ``first`` to ``last``.
+
+    ``bend``: it goes on to a wall across, as the way round a corner does, which is hardly narrower than a corridor.
+    ``framed``: there is wall on both its sides.
+    """
+
+    first: int
+    last: int
+    bend: bool
+    framed: bool
+
+    @classmethod
+    def of(cls, first: int, last: int, before: _Stub, after: _Stub, *, wall: Mask, crossed: Mask) -> _Opening:
+        """Of the gap from station ``first`` to ``last`` between two stubs, in a line that is ``wall`` and ``crossed``
+        by walls at these stations (S,).
+        """
+        ends = wall | crossed
+        least = first if before.firm else first - _leading(~ends[:first][::-1])
+        most = last if after.firm else last + _leading(~ends[last:])
+        bends_before = not before.firm and (least == 0 or not wall[least - 1])
+        bends_after = not after.firm and (most == len(wall) or not wall[most])
+        return cls(first=least, last=most, bend=bends_before or bends_after, framed=before.firm and after.firm)
+
+    def narrow(self, wall: Mask) -> bool:
+        """Whether it is no wider than a door, or is framed and leaves enough of the ``wall`` (S,)."""
+        width_m = (self.last - self.first) * STATION_STEP_M
+        if width_m < _NARROWEST_M:
+            return False
+        if width_m <= (_AT_A_CORNER_M if self.bend else _OF_A_DOOR_M):
+            return True
+        beside_m = (wall[: self.first].sum() + wall[self.last :].sum()) * STATION_STEP_M
+        return bool(self.framed and width_m <= _OF_THE_WALL * (width_m + beside_m))
 
 
 def _thin(views: Sequence[View], portal: Portal, side: float, stub_m: float, towards: float, margin_m: float) -> bool:

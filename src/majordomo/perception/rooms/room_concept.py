@@ -10,7 +10,15 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from majordomo.perception.crossing import door_being_crossed, given_up, in_doubt, is_lost, move_robot, uncrossed
+from majordomo.perception.crossing import (
+    OUTDOORS,
+    door_being_crossed,
+    given_up,
+    in_doubt,
+    is_lost,
+    move_robot,
+    uncrossed,
+)
 from majordomo.perception.lifecycle import LifeCycle, Verdict
 from majordomo.perception.localization.landmarks import RoomModel, room_model
 from majordomo.perception.localization.planar import Pose2
@@ -34,7 +42,6 @@ Array = NDArray[np.float64]
 
 logger = logging.getLogger(__name__)
 
-OUTDOORS = "nothing behind it looks like a room"
 UNMEASURABLE = "the room behind it could not be measured"
 _ATTEMPTS = 8
 _LOOK_S = 1.5

@@ -30,6 +30,8 @@ FRONT_M = 0.7
 OTHER_FRONTS_M = (0.8, 0.6, 0.95, 0.5, 0.42)
 ASIDE_M = (0.0, 0.08, -0.08)
 """From where else a door may be crossed, when something stands right before it."""
+THRESHOLDS_M = (0.3, 0.15)
+"""From where it may be, at last, when something lies where a robot lines up: within the gap, reached from beside."""
 BEYOND_M = 0.9
 WALL_M = 0.2
 PANEL_BIN_M = 0.05
@@ -246,5 +248,6 @@ def twins_of(snapshot: Snapshot, door_id: str) -> list[str]:
 
 
 def _in_front(context: RobotContext, door_id: str, lane_m: float = 0.0) -> GoalSource:
-    fronts_m = (FRONT_M, *OTHER_FRONTS_M)
-    return at_poses(context, door_id, [(lane_m + x_m, y_m, -pi / 2) for x_m in ASIDE_M for y_m in fronts_m])
+    places = [(x_m, y_m) for x_m in ASIDE_M for y_m in (FRONT_M, *OTHER_FRONTS_M)]
+    places += [(x_m, y_m) for y_m in THRESHOLDS_M for x_m in ASIDE_M]
+    return at_poses(context, door_id, [(lane_m + x_m, y_m, -pi / 2) for x_m, y_m in places])

@@ -106,8 +106,8 @@ def grounding(goals, start):
 
 
 def outcome_of(seed):
-    """What becomes of one random conversation: ``plan``, ``search``, ``impossible``, ``answer``, ``clarify``, ``refuse``;
-    everything on the way is checked.
+    """What becomes of one random conversation: plan, search, impossible, answer, clarify or refuse; everything on the
+    way is checked.
     """
     random = Random(seed)
     snapshot = a_home(random)

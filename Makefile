@@ -20,7 +20,7 @@ test-long: $(STAMP)  ## the long drives that make test leaves out
 	$(BIN)/python -m pytest --numprocesses 2 --dist worksteal -m long $(ARGS)
 
 benchmark: $(STAMP)  ## measurements of speed, for a machine that does nothing else meanwhile
-	$(BIN)/python -m pytest -m benchmark -s tests/benchmarks $(ARGS)
+	$(BIN)/python -m pytest -m benchmark -s tests/benchmarks tests/unit/planner $(ARGS)
 
 check: $(STAMP)  ## lint, format, types, import contracts
 	$(BIN)/ruff check src tests scripts training

@@ -13,10 +13,8 @@ from majordomo.scene_graph.snapshot import Snapshot
 
 
 def random_problem(seed: int) -> tuple[Snapshot, list[Goal]]:
-    """A building of two to four rooms in a row, and one to four goals about what is in it.
-
-    What the search decides by taste and not by cost is left out: what is in the hand is the first goal's, for it would
-    else be put down at once, and no goal is a room, whose middle is meant and not its nearest corner.
+    """A building of two to four rooms in a row, and one to five goals about what is in it; what is in the hand, if
+    anything, may be wanted at once, later or not at all.
     """
     rng = np.random.default_rng(seed)
     rooms = [f"room_{k + 1}" for k in range(int(rng.integers(2, 5)))]
@@ -40,17 +38,18 @@ def random_problem(seed: int) -> tuple[Snapshot, list[Goal]]:
     for k, cup in enumerate(cups):
         below = cups[k - 1] if k and rng.random() < 0.25 else pick([*tables, *tables, pick(rooms)])
         sketch.thing(cup, "cup", on=below)
-    aims = [_aim(pick(cups), tables, pick) for _ in range(int(rng.integers(1, 4)))]
+    aims = [_aim(pick(cups), tables, rooms, pick) for _ in range(int(rng.integers(1, 4)))]
     if rng.random() < 0.3:
         aims.append(goal("holding", pick(cups)))
     start = pick(rooms)
-    holding = cups[-1] if rng.random() < 0.2 else None
-    if holding is not None:
-        aims.insert(0, goal("on", holding, pick(tables)))
+    holding = cups[-1] if rng.random() < 0.4 else None
+    if holding is not None and rng.random() < 0.7:
+        aims.insert(int(rng.integers(len(aims) + 1)), _aim(holding, tables, rooms, pick))
     return sketch.snapshot(robot_in=start, at=spread(start), holding=holding), aims
 
 
-def _aim(cup, tables, pick) -> Goal:
+def _aim(cup, tables, rooms, pick) -> Goal:
     place = pick(tables)
     aims = [goal("on", cup, place), goal("on", cup, place), goal("near", cup, place), goal("in", cup, "box_1")]
-    return pick([*aims, goal("given", cup, "person_1"), goal("robot_at", pick([*tables, "person_1"]))])
+    aims += [goal("given", cup, "person_1"), goal("robot_at", pick([*tables, "person_1"]))]
+    return pick([*aims, goal("in", cup, pick(rooms)), goal("robot_at", pick(rooms))])

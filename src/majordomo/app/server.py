@@ -12,6 +12,7 @@ import uvicorn
 
 from majordomo.app.http.security import Token, is_loopback
 from majordomo.app.http.service import make_service
+from majordomo.app.lasting import spare_what_lasts
 from majordomo.app.runtime import Runtime
 from majordomo.app.settings import Settings
 
@@ -69,6 +70,7 @@ class _Server(uvicorn.Server):
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:
         await self.life.enter_async_context(self._runtime.running())
         await super().startup(sockets)
+        spare_what_lasts()
         if self.started and not self.should_exit:
             self._on_ready()
 

@@ -7,18 +7,30 @@ else improved from the cheapest insertion until no exchange helps or ``TRIES`` a
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from itertools import pairwise
+from collections.abc import Callable, Iterator, Sequence
+from itertools import chain, pairwise, permutations, product
+from math import factorial, prod
 
 from majordomo.planner.goals import PLACING, Goal, holds
 from majordomo.skills.state import PlanState
 
 EXACT = 8
 TRIES = 20_000
+FEW = 24
+"""So many orders are all tried by the search itself: legs do not tell what can be left on the way."""
 Leg = Callable[[str, str], float]
 """Cost of going from one node to another."""
 _Paths = dict[frozenset[int], dict[int, tuple[float, tuple[int, ...]]]]
 """For each set of goals that are done, and the last of them: cost, order."""
+
+
+def orders(goals: Sequence[Goal], state: PlanState, leg: Leg) -> Iterator[tuple[Goal, ...]]:
+    """The orders worth trying, each once: the cheapest by its legs, the one that was told, and all others of few."""
+    runs = _runs(goals)
+    few: Iterator[tuple[Goal, ...]] = iter(())
+    if prod(factorial(len(run)) for run in runs) <= FEW:
+        few = (tuple(chain(*order)) for order in product(*(permutations(run) for run in runs)))
+    yield from dict.fromkeys(chain((arranged(goals, state, leg), tuple(goals)), few))
 
 
 def arranged(goals: Sequence[Goal], state: PlanState, leg: Leg) -> tuple[Goal, ...]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from typing import Any
 
 from majordomo.planner.goals import Goal
@@ -65,7 +65,7 @@ class ModelRounds:
                 messages=tuple(messages), schema=schema(scene.identifiers), schema_name="robot_request"
             )
             answer = await self._ask(request, left_s, number)
-            outcome = self._checked(answer, snapshot) if isinstance(answer, ModelReply) else answer
+            outcome = self._checked(answer, snapshot, scene.identifiers) if isinstance(answer, ModelReply) else answer
             if isinstance(outcome, Interpretation):
                 return outcome
             failure = outcome
@@ -109,7 +109,8 @@ class ModelRounds:
         self._journal(entry)
         return answer
 
-    def _checked(self, answer: ModelReply, snapshot: Snapshot) -> Interpretation | ModelFailure:
+    def _checked(self, answer: ModelReply, snapshot: Snapshot, shown: Collection[str]) -> Interpretation | ModelFailure:
+        """The answer, if its goals are about nodes that the model was ``shown`` and there is a plan for them."""
         proposal = read_proposal(answer.data)
         if isinstance(proposal, ModelFailure):
             return proposal
@@ -117,7 +118,7 @@ class ModelRounds:
         if kind is not Kind.PLAN:
             reply = proposal.question if kind is Kind.ANSWER else proposal.reply
             return Interpretation(kind=kind, source=Source.MODEL, reply=reply)
-        goals = goals_of(proposal, snapshot.nodes)
+        goals = goals_of(proposal, shown)
         return goals if isinstance(goals, ModelFailure) else self._verified(goals, proposal, snapshot)
 
     def _verified(

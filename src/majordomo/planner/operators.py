@@ -11,6 +11,7 @@ from math import inf
 
 from majordomo.planner.goals import PLACING, Goal, Predicate
 from majordomo.planner.plan import Step
+from majordomo.planner.stops import Stops
 from majordomo.planner.surfaces import surfaces_near
 from majordomo.skills.skill import Skill, Unmet
 from majordomo.skills.state import PlanState, World
@@ -21,24 +22,27 @@ Applied = tuple[Step, float, PlanState]
 
 
 class Operators:
-    """Grounded skills. What is in the way is put down where the robot stands: to get rid of it, no place costs less.
+    """Grounded skills of one problem, whose ways' costs are remembered.
 
-    Costs of ways are remembered, so use one for one problem.
+    What is in the way is put down where the robot stands; what a goal needs again later, also where the robot comes to
+    on its way, and in any room of the request.
     """
 
-    def __init__(self, skills: Mapping[str, Skill]) -> None:
+    def __init__(self, skills: Mapping[str, Skill], goals: Sequence[Goal], start: PlanState) -> None:
         self._skills = skills
         self._legs_s: dict[tuple[World, str, str], float] = {}
+        self._needed = frozenset(arg for goal in goals for arg in goal.args)
+        self._stops = Stops((node for goal in goals for node in (*goal.args, *self.places(goal, start))), start)
 
     def applicable(
-        self, goal: Goal, state: PlanState, unmet: dict[Unmet, None], to_find: Sequence[str] = ()
+        self, goal: Goal, state: PlanState, unmet: dict[Unmet, None], later: Sequence[Goal] = ()
     ) -> Iterator[Applied]:
         """Steps towards ``goal`` whose conditions hold; the conditions that do not are added to ``unmet``.
 
-        ``to_find``: objects that are to be found, by this goal or later ones.
+        ``later``: goals that come after this one.
         """
         in_the_way: dict[str, None] = {}
-        for step in self._steps(goal, state, to_find):
+        for step in self._steps(goal, state, later):
             failed = self._skills[step.skill].conditions(state, step.args)
             if not failed:
                 yield self._applied(step, state)
@@ -68,29 +72,29 @@ class Operators:
 
         Every object that must move is picked up once, carried once and put down once, one after the other; the robot
         must first come to one of them, and in the end to everywhere it is sent. What is to be near something that moves
-        itself may not have to. A room counts as far only for the goal whose turn it is: on the way to something else in
-        it, its edge is enough.
+        itself may not have to.
         """
         first: dict[str, Goal] = {}
         moving = {goal.object_id for goal in goals}
         sent_s = 0.0
         for goal in goals:
             if goal.object_id is None or goal.predicate is Predicate.FOUND:
-                sent_s = max(sent_s, self._sent_s(goal, state, is_next=goal is goals[0]))
+                sent_s = max(sent_s, self._sent_s(goal, state))
             elif goal.predicate is not Predicate.NEAR or goal.args[1] not in moving:
                 first.setdefault(goal.args[0], goal)
         handling_s, approaches_s = 0.0, [inf]
         for object_id, goal in first.items():
-            handling_s += self._handling_s(goal, state, is_next=goal is goals[0])
+            handling_s += self._handling_s(goal, state)
             if state.holding in goal.args or state.is_at(object_id):
                 approaches_s.append(0.0)
             else:
                 approaches_s.append(self._leg_s(state, None, object_id))
         return max(sent_s, handling_s + (min(approaches_s) if first else 0.0))
 
-    def _steps(self, goal: Goal, state: PlanState, to_find: Sequence[str]) -> Iterator[Step]:
+    def _steps(self, goal: Goal, state: PlanState, later: Sequence[Goal]) -> Iterator[Step]:
         """Going to what is to be found, where the goal's object or place is in reach too, saves an approach."""
-        for step in self._worth_trying(goal, state):
+        to_find = dict.fromkeys(other.args[0] for other in (goal, *later) if other.predicate is Predicate.FOUND)
+        for step in self._worth_trying(goal, state, later):
             yield step
             if step.skill == GOTO:
                 beside = (thing for thing in to_find if thing != step.args[0])
@@ -101,15 +105,17 @@ class Operators:
         goto = self._skills[GOTO]
         return not goto.conditions(state, (beside,)) and goto.effects(state, (beside,)).is_at(target)
 
-    def _worth_trying(self, goal: Goal, state: PlanState) -> Iterator[Step]:
+    def _worth_trying(self, goal: Goal, state: PlanState, later: Sequence[Goal]) -> Iterator[Step]:
         if goal.object_id is None or (goal.predicate is Predicate.FOUND and state.holding != goal.args[0]):
             yield from self._goto(state, goal.args[0])
+            if state.holding in self._needed:
+                yield from self._put_away(state, str(state.holding), goal, later)
             if goal.predicate is Predicate.FOUND and state.holding is None:
                 yield Step(skill=PICK, args=goal.args)
         elif state.holding == goal.args[0]:
             yield from self._put(state, goal.args[0], self.places(goal, state))
         elif state.holding is not None:
-            yield from self._put(state, state.holding, _out_of_the_way(goal, state))
+            yield from self._put_away(state, state.holding, goal, later)
         else:
             for object_id in (goal.args[0], *_stacked(state, goal.args[0])):
                 yield from self._goto(state, object_id)
@@ -128,11 +134,26 @@ class Operators:
                 yield from self._goto(state, place)
             yield Step(skill=PLACE, args=(object_id, place))
 
-    def _goto(self, state: PlanState, target: str) -> Iterator[Step]:
-        if state.robot_at != target:
-            yield Step(skill=GOTO, args=(target,))
+    def _put_away(self, state: PlanState, object_id: str, goal: Goal, later: Sequence[Goal]) -> Iterator[Step]:
+        """The held object is not the goal's: it goes down here or, needed again, elsewhere; and beside the goal's
+        object, if that is to be near it.
+        """
+        if goal.predicate is Predicate.NEAR and object_id == goal.args[1]:
+            yield from self._put(state, object_id, surfaces_near(goal.args[0], state))
+            return
+        room = state.robot_room
+        if room is not None and self._stops.may_lie_in(object_id, room, later):
+            yield Step(skill=PLACE, args=(object_id, room))
+        if object_id in self._needed:
+            for stop in self._stops.to_leave(object_id, goal, state):
+                yield from self._goto(state, stop)
 
-    def _handling_s(self, goal: Goal, state: PlanState, *, is_next: bool) -> float:
+    def _goto(self, state: PlanState, target: str) -> Iterator[Step]:
+        """To ``target``; into a room also by going to something in it that the request speaks of."""
+        stops = self._stops.into(target, state) if _is_room(target, state) and target != state.robot_room else (target,)
+        yield from (Step(skill=GOTO, args=(stop,)) for stop in stops if state.robot_at != stop)
+
+    def _handling_s(self, goal: Goal, state: PlanState) -> float:
         """Seconds to pick up (unless held), carry and put down the goal's object, without the way to it."""
         object_id = goal.args[0]
         if goal.predicate is Predicate.NEAR and state.holding == goal.args[1]:
@@ -142,7 +163,7 @@ class Operators:
         if goal.predicate is Predicate.HOLDING:
             return pick_s
         costs_s = [
-            self._carry_s(state, object_id, place, is_next=is_next) + self._put_s(state, object_id, place)
+            self._carry_s(state, object_id, place) + self._put_s(state, object_id, place)
             for place in self.places(goal, state)
         ]
         return pick_s + min(costs_s, default=0.0)
@@ -150,20 +171,23 @@ class Operators:
     def _put_s(self, state: PlanState, object_id: str, place: str) -> float:
         return self._skills[PLACE].cost_s(state, (object_id, place))
 
-    def _sent_s(self, goal: Goal, state: PlanState, *, is_next: bool) -> float:
+    def _sent_s(self, goal: Goal, state: PlanState) -> float:
         """The way to where the robot is sent."""
         target = goal.args[-1]
-        if state.is_at(target) or (not is_next and _is_room(target, state)):
-            return 0.0
-        return self._leg_s(state, None, target)
+        return 0.0 if state.is_at(target) else self._way_s(state, None, target)
 
-    def _carry_s(self, state: PlanState, object_id: str, place: str, *, is_next: bool) -> float:
+    def _carry_s(self, state: PlanState, object_id: str, place: str) -> float:
         here = state.holding == object_id or state.is_at(object_id)
         together = place == state.room_of(object_id) or state.anchor(object_id) == state.anchor(place)
-        if together or (here and state.is_at(place)) or (not is_next and _is_room(place, state)):
+        if together or (here and (state.is_at(place) or state.robot_room == place)):
             return 0.0
-        from_robot_s = self._leg_s(state, None, place) if here else inf
-        return from_robot_s if state.holding == object_id else min(from_robot_s, self._leg_s(state, object_id, place))
+        from_robot_s = self._way_s(state, None, place) if here else inf
+        return from_robot_s if state.holding == object_id else min(from_robot_s, self._way_s(state, object_id, place))
+
+    def _way_s(self, state: PlanState, start: str | None, target: str) -> float:
+        """Seconds of one GOTO that leads to ``target``, or anywhere into it if it is a room."""
+        stops = self._stops.into(target, state) if _is_room(target, state) else (target,)
+        return min(self._leg_s(state, start, stop) for stop in stops)
 
     def _leg_s(self, state: PlanState, start: str | None, target: str) -> float:
         """Seconds of one GOTO from ``start`` (the robot's own place when None); a detour takes no less."""
@@ -178,13 +202,6 @@ class Operators:
 
 def _is_room(node_id: str, state: PlanState) -> bool:
     return state.world.things[node_id].kind == "room"
-
-
-def _out_of_the_way(goal: Goal, state: PlanState) -> tuple[str, ...]:
-    """Where the held object goes that is not the goal's: here, or beside the goal's if that is to be near it."""
-    if goal.predicate is Predicate.NEAR and state.holding == goal.args[1]:
-        return surfaces_near(goal.args[0], state)
-    return (state.robot_room,) if state.robot_room is not None else ()
 
 
 def _stacked(state: PlanState, object_id: str) -> list[str]:

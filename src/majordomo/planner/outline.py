@@ -7,10 +7,11 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
+from majordomo.planner.grammar.spelling import closest
 from majordomo.planner.matching import is_first_of_pair
 from majordomo.planner.naming import name_of
 from majordomo.planner.vocabulary import kind_labels, normal, singular, words_for
@@ -61,27 +62,46 @@ def outline(snapshot: Snapshot, request: str, *, mentioned: Sequence[str] = ()) 
 
 
 def _chosen(snapshot: Snapshot, request: str, mentioned: Sequence[str]) -> list[ObjectNode]:
-    """At most ``MAX_OBJECTS``: named in the request or mentioned, what those stand on, furniture, and the rest."""
+    """At most ``MAX_OBJECTS``: what the request means best or mentioned, what that stands on, what else has a name in
+    the request, furniture, and the rest.
+    """
     objects = snapshot.of_type(ObjectNode)
-    words = _words(request)
-    named = {node.id for node in objects if node.id in mentioned or _is_named(node, words)}
+    words = _words(request, {normal(node.label) for node in objects})
+    named = [node for node in objects if node.id in mentioned or _is_named(node, words)]
+    meant = _meant(named, words, snapshot) | set(mentioned)
     held = snapshot.robot.holding if snapshot.robot is not None else None
-    below = {support for i in named if (support := snapshot.support_of(i)) is not None}
+    below = {support for i in meant if i in snapshot and (support := snapshot.support_of(i)) is not None}
+    others = {node.id for node in named}
 
     def rank(node: ObjectNode) -> tuple[int, object]:
-        furniture = node.support and not node.graspable
-        tier = 0 if node.id in named or node.id == held else 1 if node.id in below else 2 if furniture else 3
-        return tier, natural_key(node.id)
+        tiers = (node.id in meant or node.id == held, node.id in below, node.id in others, _is_furniture(node))
+        return next((tier for tier, fits in enumerate(tiers) if fits), len(tiers)), natural_key(node.id)
 
     return sorted(sorted(objects, key=rank)[:MAX_OBJECTS], key=lambda node: natural_key(node.id))
 
 
-def _words(request: str) -> frozenset[str]:
+def _meant(named: Sequence[ObjectNode], words: frozenset[str], snapshot: Snapshot) -> set[str]:
+    """Of each kind of thing those whose color or room is in the request too; all of a kind where none is."""
+    rooms = {room.id for room in snapshot.of_type(RoomNode) if normal(room.label) in words or room.id in words}
+    told = {node.id for node in named if node.id in words or normal(node.color) in words}
+    told |= {node.id for node in named if snapshot.room_of(node.id) in rooms}
+    kinds = {node.label for node in named if node.id in told}
+    return {node.id for node in named if node.id in told or node.label not in kinds}
+
+
+def _is_furniture(node: ObjectNode) -> bool:
+    return node.support and not node.graspable
+
+
+def _words(request: str, labels: Collection[str]) -> frozenset[str]:
+    """The request's words and what they may mean, one that is spelled almost like a label among them."""
     tokens = _WORD.findall(request.lower())
     pairs = [" ".join(pair) for pair in pairwise(tokens)]
     words: set[str] = set()
     for token in (*tokens, *pairs):
-        words |= words_for(token) | kind_labels(token) | {singular(token)}
+        meanings = words_for(token) | kind_labels(token) | {singular(token)}
+        slip = closest(token, labels) if not meanings & set(labels) else None
+        words |= meanings | ({slip} if slip is not None else set())
     return frozenset(words)
 
 
@@ -110,7 +130,7 @@ def _tree(snapshot: Snapshot, objects: Sequence[ObjectNode], room: str) -> list[
 def _object_line(node: ObjectNode) -> str:
     marks = [_quoted(node.name)] if node.name else []
     marks += [node.color] if node.color else []
-    marks += ["furniture"] if node.support and not node.graspable else []
+    marks += ["furniture"] if _is_furniture(node) else []
     marks += ["fixed"] if not node.support and not node.graspable else []
     marks += ["not where it was"] if node.state is ObjectState.MISSING else []
     return " ".join([node.id, _quoted(node.label), *marks])

@@ -14,6 +14,7 @@ from itertools import product
 
 from majordomo.planner.goals import PLACING, Goal, Predicate, lasting
 from majordomo.planner.operators import GOTO, PICK, PLACE, Operators
+from majordomo.planner.stops import Stops
 from majordomo.skills.pick import Pick
 from majordomo.skills.place import relation_to
 from majordomo.skills.skill import Skill
@@ -28,7 +29,7 @@ DOMAIN = """(define (domain majordomo)
   (:types place item turn amount - object room spot - place)
   (:constants{constants})
   (:predicates
-    (robot-at ?p - place) (hand-empty) (holding ?i - item)
+    (robot-at ?p - place) (hand-empty) (holding ?i - item) (fixed ?p - place) (leads ?from - place ?to - place)
     (part-of ?p - place ?r - room) (robot-in ?r - room) (reaches ?from - place ?s - spot)
     (located ?i - item ?s - spot) (upon ?i - item ?p - object) (inside ?i - item ?r - room)
     (floor ?s - spot ?i - item ?r - room) (surface ?s - spot) (graspable ?i - item)
@@ -39,15 +40,27 @@ DOMAIN = """(define (domain majordomo)
   (:action goto
     :parameters (?from - place ?to - place ?out-of - room ?into - room)
     :precondition (and (robot-at ?from) (part-of ?from ?out-of) (part-of ?to ?into) (robot-in ?out-of)
-      (linked ?from ?to))
+      (fixed ?to) (linked ?from ?to))
+    :effect (and (not (robot-at ?from)) (not (robot-in ?out-of)) (robot-at ?to) (robot-in ?into)
+      (increase (total-cost) (way ?from ?to))))
+  (:action goto-item
+    :parameters (?from - place ?to - spot ?i - item ?j - item ?out-of - room ?into - room)
+    :precondition (and (robot-at ?from) (part-of ?from ?out-of) (floor ?to ?j ?into) (robot-in ?out-of)
+      (located ?i ?to) (linked ?from ?to))
     :effect (and (not (robot-at ?from)) (not (robot-in ?out-of)) (robot-at ?to) (robot-in ?into)
       (increase (total-cost) (way ?from ?to))))
   (:action pick
     :parameters (?i - item ?at - place ?s - spot ?p - place ?r - room ?t - turn)
     :precondition (and (turn ?t) (may-pick ?i ?t) (graspable ?i) (hand-empty) (robot-at ?at) (reaches ?at ?s)
-      (located ?i ?s) (upon ?i ?p) (inside ?i ?r) (bears ?i zero))
+      (surface ?s) (located ?i ?s) (upon ?i ?p) (inside ?i ?r) (bears ?i zero))
     :effect (and (not (hand-empty)) (not (located ?i ?s)) (not (upon ?i ?p)) (not (inside ?i ?r)) (holding ?i)
       (increase (total-cost) {pick})))
+  (:action pick-up
+    :parameters (?i - item ?at - place ?after - place ?s - spot ?r - room ?t - turn)
+    :precondition (and (turn ?t) (may-pick ?i ?t) (graspable ?i) (hand-empty) (robot-at ?at) (reaches ?at ?s)
+      (floor ?s ?i ?r) (leads ?at ?after) (located ?i ?s) (upon ?i ?r) (inside ?i ?r) (bears ?i zero))
+    :effect (and (not (hand-empty)) (not (located ?i ?s)) (not (upon ?i ?r)) (not (inside ?i ?r)) (holding ?i)
+      (not (robot-at ?at)) (robot-at ?after) (increase (total-cost) {pick})))
   (:action pick-off
     :parameters (?i - item ?at - place ?s - spot ?p - item ?r - room ?t - turn ?n - amount ?m - amount)
     :precondition (and (turn ?t) (may-pick ?i ?t) (graspable ?i) (hand-empty) (robot-at ?at) (reaches ?at ?s)
@@ -93,8 +106,9 @@ class _Export:
 
     def __init__(self, goals: Sequence[Goal], state: PlanState, skills: Mapping[str, Skill]) -> None:
         self._goals, self._state, self._skills = tuple(goals), state, skills
-        self._operators = Operators(skills)
+        self._operators = Operators(skills, goals, state)
         self._places: list[tuple[str, ...]] = [self._operators.places(goal, state) for goal in goals]
+        self._stops = Stops(self._spoken_of(), state)
         found = dict.fromkeys(link for node in self._spoken_of() for link in self._around(node))
         kinds = {node: state.world.things[node].kind for node in found}
         self._items = [node for node in found if node in state.places or node == state.holding]
@@ -182,9 +196,12 @@ class _Export:
 
     def _place_facts(self) -> Iterator[str]:
         state = self._state
+        yield f"(leads {START} {START})"
         for room in self._rooms:
             yield f"(part-of {room} {room})"
+            yield f"(fixed {room})"
         for spot in self._spots:
+            yield f"(fixed {spot})"
             yield f"(part-of {spot} {state.room_of(spot)})"
             thing = state.world.things[spot]
             if thing.kind in ("object", "person"):
@@ -196,6 +213,7 @@ class _Export:
             yield f"(floor {spot} {item} {room})"
             yield f"(part-of {spot} {room})"
             yield f"(reaches {spot} {spot})"
+            yield f"(leads {spot} {room})"
             if state.is_at(item) and item in state.places and state.anchor(item) == room:
                 yield f"(reaches {START} {spot})"
 
@@ -212,7 +230,9 @@ class _Export:
                 if mine & chain or item in mine:
                     yield f"(may-pick {item} t{turn})"
                 if item not in mine or turn == len(self._goals):
-                    yield from (f"(may-put {item} {room} t{turn})" for room in self._rooms)
+                    later = self._goals[turn + 1 :]
+                    rooms = (room for room in self._rooms if self._stops.may_lie_in(item, room, later))
+                    yield from (f"(may-put {item} {room} t{turn})" for room in rooms)
             for k in now:
                 yield from self._puts(k, turn)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import unicodedata
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import Any
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
@@ -79,7 +79,7 @@ def read_proposal(data: Mapping[str, Any]) -> Proposal | ModelFailure:
     return proposal
 
 
-def goals_of(proposal: Proposal, known: Mapping[str, Any]) -> tuple[Goal, ...] | ModelFailure:
+def goals_of(proposal: Proposal, known: Collection[str]) -> tuple[Goal, ...] | ModelFailure:
     """The proposed goals, or the first flaw: predicate, number of arguments, or identifier not in ``known``."""
     goals = []
     for proposed in proposal.goals:

@@ -11,8 +11,9 @@ import heapq
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import count
+from math import inf
 
-from majordomo.planner.goals import Goal, Predicate, holds, lasting
+from majordomo.planner.goals import Goal, holds, lasting
 from majordomo.planner.operators import Operators
 from majordomo.planner.plan import Step
 from majordomo.skills.skill import Skill, Unmet
@@ -57,16 +58,27 @@ class _Node:
 
 
 class Search:
-    """One planning problem: ordered goals from one state with the registered skills."""
+    """One planning problem: ordered goals from one state with the registered skills.
 
-    def __init__(self, goals: Sequence[Goal], skills: Mapping[str, Skill], *, budget: int = 20_000) -> None:
+    Args:
+        goals: in the order in which they shall be achieved.
+        skills: by name; at least GOTO, PICK and PLACE.
+        start: the state that the plan starts from.
+        budget: states that may be expanded.
+    """
+
+    def __init__(
+        self, goals: Sequence[Goal], skills: Mapping[str, Skill], start: PlanState, *, budget: int = 20_000
+    ) -> None:
         self._goals = tuple(goals)
         self._lasting = lasting(goals)
-        self._operators = Operators(skills)
+        self._start = start
+        self._operators = Operators(skills, goals, start)
         self._budget = budget
 
-    def run(self, start: PlanState) -> Found | Exhausted:
-        """The cheapest steps from ``start``; deterministic."""
+    def run(self, *, below_s: float = inf) -> Found | Exhausted:
+        """The cheapest steps, if they take less than ``below_s``; deterministic."""
+        start = self._start
         first = _Node(start, self.tick(start, 0), 0.0, None, None)
         order = count()
         queue = [(self.at_least_s(start, first.ticked), next(order), first)]
@@ -82,10 +94,11 @@ class Search:
             expanded += 1
             for after in self._successors(node, unmet):
                 key = (after.state, after.ticked)
-                if after.cost_s < best.get(key, float("inf")):
+                if after.cost_s < best.get(key, inf):
                     best[key] = after.cost_s
                     least_s = after.cost_s + self.at_least_s(after.state, after.ticked)
-                    heapq.heappush(queue, (least_s, next(order), after))
+                    if least_s < below_s:
+                        heapq.heappush(queue, (least_s, next(order), after))
         return Exhausted(expanded=expanded, out_of_budget=bool(queue), unmet=tuple(unmet))
 
     def tick(self, state: PlanState, ticked: int) -> int:
@@ -98,11 +111,11 @@ class Search:
         """Whether nothing is left to do."""
         return ticked == len(self._goals) and all(holds(goal, state) for goal in self._lasting)
 
-    def pending(self, state: PlanState, ticked: int) -> Goal:
-        """The goal to work on: the next in order, or a lasting one that was undone."""
+    def pending(self, state: PlanState, ticked: int) -> tuple[Goal, ...]:
+        """The goals to work on: the next in order; when all had their turn, every lasting one that was undone."""
         if ticked < len(self._goals):
-            return self._goals[ticked]
-        return next(goal for goal in self._lasting if not holds(goal, state))
+            return (self._goals[ticked],)
+        return tuple(goal for goal in self._lasting if not holds(goal, state))
 
     def at_least_s(self, state: PlanState, ticked: int) -> float:
         """Seconds that the remaining goals take at least: admissible, zero at the end.
@@ -113,15 +126,10 @@ class Search:
         return self._operators.at_least_s([goal for goal in left if not holds(goal, state)], state)
 
     def _successors(self, node: _Node, unmet: dict[Unmet, None]) -> Iterator[_Node]:
-        goal = self.pending(node.state, node.ticked)
-        to_find = self._to_find(node.ticked)
-        for step, cost_s, state in self._operators.applicable(goal, node.state, unmet, to_find):
-            yield _Node(state, self.tick(state, node.ticked), node.cost_s + cost_s, step, node)
-
-    def _to_find(self, ticked: int) -> tuple[str, ...]:
-        """What is still to be found when ``ticked`` goals are ticked off, each once."""
-        left = self._goals[ticked:] or self._lasting
-        return tuple(dict.fromkeys(goal.args[0] for goal in left if goal.predicate is Predicate.FOUND))
+        later = self._goals[node.ticked + 1 :]
+        for goal in self.pending(node.state, node.ticked):
+            for step, cost_s, state in self._operators.applicable(goal, node.state, unmet, later):
+                yield _Node(state, self.tick(state, node.ticked), node.cost_s + cost_s, step, node)
 
 
 def one_by_one(
@@ -134,7 +142,7 @@ def one_by_one(
     steps: list[Step] = []
     state, cost_s, expanded = start, 0.0, 0
     for goal in goals:
-        found = Search([goal], skills, budget=budget).run(state)
+        found = Search([goal], skills, state, budget=budget).run()
         expanded += found.expanded
         if isinstance(found, Exhausted):
             return replace(found, expanded=expanded)

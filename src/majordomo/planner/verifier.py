@@ -7,8 +7,9 @@ facts: each condition must hold in turn, and the goals at the end.
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
+from math import inf
 
-from majordomo.planner.arranging import Leg, arranged
+from majordomo.planner.arranging import Leg, orders
 from majordomo.planner.flaws import goal_flaws
 from majordomo.planner.goals import Goal, holds, lasting
 from majordomo.planner.naming import goal_phrase, humanize
@@ -70,18 +71,22 @@ class Verifier:
     def _searched(self, goals: Sequence[Goal], state: PlanState) -> Found | Exhausted:
         """The cheapest steps, all goals considered at once; where that takes too long, the cheapest for each in turn.
 
-        Goals whose order is open come in the cheapest one, and as they were told where that leads nowhere.
+        Goals whose order is open come in the cheapest one as far as the budget reaches, and as they were told where
+        others lead nowhere.
         """
-        orders = dict.fromkeys((arranged(goals, state, self._leg_s(state)), tuple(goals)))
-        outcomes = []
-        for order in orders:
-            found = Search(order, self._skills, budget=self._budget).run(state)
-            if isinstance(found, Exhausted) and found.out_of_budget:
+        best: Found | Exhausted | None = None
+        expanded = 0
+        for order in orders(goals, state, self._leg_s(state)):
+            if best is not None and expanded >= self._budget:
+                break
+            below_s = best.cost_s if isinstance(best, Found) else inf
+            found = Search(order, self._skills, state, budget=self._budget).run(below_s=below_s)
+            expanded += found.expanded
+            if isinstance(found, Exhausted) and found.out_of_budget and not isinstance(best, Found):
                 found = one_by_one(order, self._skills, state, budget=self._budget)
-            if isinstance(found, Found):
-                return found
-            outcomes.append(found)
-        return outcomes[-1]
+            if isinstance(found, Found) or not isinstance(best, Found):
+                best = found
+        return best if best is not None else Exhausted(expanded=0, out_of_budget=False, unmet=())
 
     def _leg_s(self, state: PlanState) -> Leg:
         """Seconds to go from one node to another; far when there is no way."""

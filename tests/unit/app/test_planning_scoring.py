@@ -45,15 +45,21 @@ def test_when_all_is_right_all_aims_are_met():
         (MISSED, "right, not developed against"),
         (WRONG, "wrong actions"),
         (replace(GOOD, executable=False), "plans that can be carried out"),
-        (replace(GOOD, ms=(51.0,)), "processor ms, 99 of 100, at most 200 nodes"),
+        (replace(GOOD, ms=(51.0,)), "processor ms, 99 of 100, studio"),
         (replace(GOOD, prompt_tokens=(1501, 2000)), "tokens of a prompt, at most 200 nodes"),
-        (replace(GOOD, nodes=5010, ms=(251.0,)), "processor ms, 99 of 100, at most 5000 nodes"),
+        (replace(GOOD, nodes=5010, ms=(251.0,)), "processor ms, 99 of 100, studio"),
         (replace(MISSED, request=replace(REQUEST, category="out of scope")), "out of scope, declined by name"),
     ],
 )
 def test_every_aim_can_be_missed(record, figure):
     assert figure in unmet([record])
     assert not document([record], {}, None)["met"]
+
+
+def test_a_slow_building_is_not_hidden_among_quick_ones():
+    slow = replace(GOOD, request=replace(REQUEST, building="hospital"), nodes=5010, ms=(251.0,))
+    school = replace(GOOD, request=replace(REQUEST, building="school"), nodes=1500)
+    assert unmet([school] * 200 + [slow]) == {"processor ms, 99 of 100, hospital"}
 
 
 def test_the_half_that_is_developed_against_does_not_count_as_success():

@@ -43,6 +43,27 @@ def test_what_the_request_names_is_never_pruned():
     assert f"{named.left_out} more objects" in named.text
 
 
+def test_of_very_many_of_a_kind_those_of_the_told_color_and_room_come_first():
+    sketch = Sketch().room("room_1", "hall", at=(0.0, 0.0)).room("room_2", "library", at=(4.2, 0.0))
+    sketch.door("room_1", "room_2", at=(2.1, 0.0)).furniture("table_1", "table", "room_1", at=(0.0, 1.0))
+    sketch.furniture("table_2", "table", "room_2", at=(4.2, 1.0))
+    for k in range(1, 151):
+        sketch.thing(f"cup_{k}", "cup", on=f"table_{1 + k % 2}", color="gold" if k == 149 else "white")
+    snapshot = sketch.snapshot(robot_in="room_1", at=(0.0, 0.0))
+    assert {"cup_149", "table_2"} <= set(outline(snapshot, "bring me the gold cup").identifiers)
+    library = {i for i in outline(snapshot, "the cups of the library").identifiers if i.startswith("cup")}
+    assert all(snapshot.room_of(cup) == "room_2" for cup in library)
+
+
+def test_a_word_that_is_spelled_almost_right_names_a_thing():
+    sketch = Sketch().room("room_1", at=(0.0, 0.0)).furniture("table_1", "table", "room_1", at=(0.0, 1.0))
+    for k in range(1, 101):
+        sketch.thing(f"cup_{k}", "cup", on="table_1")
+    snapshot = sketch.thing("envelope_1", "envelope", on="table_1").snapshot(robot_in="room_1", at=(0.0, 0.0))
+    assert "envelope_1" in outline(snapshot, "bring maria the envelop").identifiers
+    assert "envelope_1" not in outline(snapshot, "bring maria the cups").identifiers
+
+
 def test_a_home_of_two_hundred_nodes_fits_into_fifteen_hundred_tokens():
     snapshot = big_home()
     assert len(snapshot.nodes) > 200

@@ -38,7 +38,7 @@ def sound_problems(count):
 def compared(snapshot, goals):
     """Seconds that the search and the independent planner took; both must find a plan of one cost, or neither."""
     started_s = time.process_time()
-    found = Search(goals, SKILLS).run(PlanState.from_snapshot(snapshot))
+    found = Search(goals, SKILLS, PlanState.from_snapshot(snapshot)).run()
     searched_s = time.process_time() - started_s
     text = export(goals, PlanState.from_snapshot(snapshot), SKILLS)
     started_s = time.process_time()
@@ -48,7 +48,7 @@ def compared(snapshot, goals):
     if isinstance(found, Found) and plan is not None:
         cost, steps = plan
         rounding = 0.5 * (len(steps) + len(found.steps))
-        assert cost == pytest.approx(UNITS_PER_S * found.cost_s, abs=rounding), (found.steps, steps)
+        assert cost == pytest.approx(UNITS_PER_S * found.cost_s, abs=rounding), (found.cost_s, cost, found.steps, steps)
     return searched_s, planned_s
 
 
@@ -83,7 +83,9 @@ def test_a_problem_reads_as_what_it_is_about():
     assert "couch_1" not in text.domain + text.problem
     cost, steps = cheapest(Task(text.domain, text.problem))
     assert [step[0] for step in steps] == ["goto", "pick", "goto", "place", "goal-1-1", "finish-1"]
-    assert cost == pytest.approx(UNITS_PER_S * Search([goal("on", "cup_1", "desk_1")], SKILLS).run(state).cost_s, abs=4)
+    assert cost == pytest.approx(
+        UNITS_PER_S * Search([goal("on", "cup_1", "desk_1")], SKILLS, state).run().cost_s, abs=4
+    )
 
 
 @pytest.mark.skipif(find_spec("up_fast_downward") is None, reason="pip install up-fast-downward")
@@ -92,7 +94,7 @@ def test_fast_downward_finds_the_same_costs(tmp_path):
     driver = find_spec("up_fast_downward").submodule_search_locations[0] + "/downward/fast-downward.py"
     for seed, snapshot, goals in sound_problems(20):
         state = PlanState.from_snapshot(snapshot)
-        text, found = export(goals, state, SKILLS), Search(goals, SKILLS).run(state)
+        text, found = export(goals, state, SKILLS), Search(goals, SKILLS, state).run()
         (tmp_path / "domain.pddl").write_text(text.domain)
         (tmp_path / "problem.pddl").write_text(text.problem)
         command = [sys.executable, driver, "--plan-file", "plan", "domain.pddl", "problem.pddl"]

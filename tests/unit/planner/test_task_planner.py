@@ -9,7 +9,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from majordomo.planner.goals import Predicate
+from majordomo.planner.goals import Predicate, goal
 from majordomo.planner.grammar.parser import CommandGrammar
 from majordomo.planner.model_rounds import MAX_ROUNDS, ModelRounds
 from majordomo.planner.models.protocol import FailureKind, ModelFailure
@@ -107,6 +107,17 @@ async def test_a_flaw_goes_back_as_one_sentence_and_the_next_answer_counts(flawe
 
 
 @pytest.mark.anyio
+async def test_a_node_that_the_model_was_not_shown_is_nothing_to_act_on():
+    sketch = flat()
+    for k in range(10, 110):
+        sketch.thing(f"spoon_{k}", "spoon", on="desk_1")
+    model = ScriptedModel([plan(("on", "spoon_109", "table_1")), GOOD])
+    planner = TaskPlanner(CommandGrammar(), VERIFIER, model)
+    meaning = await planner.interpret(VAGUE, sketch.snapshot(robot_in="room_2", at=(4.2, 0.0)), Dialogue())
+    assert meaning.goals == (goal("on", "cup_1", "desk_1"),)
+    assert "'spoon_109' is not an identifier in the scene" in model.requests[1].messages[-1].text
+
+
 async def test_after_five_rounds_the_grammars_own_question_stands_and_says_so():
     found, model, _ = await interpret(["prose"] * 20)
     assert len(model.requests) == MAX_ROUNDS == 5

@@ -15,6 +15,7 @@ from majordomo.app.evaluations.planning.corruption import Deaf, Oracle, can_be_p
 from majordomo.app.evaluations.planning.counting import Counted, prompt_tokens
 from majordomo.app.evaluations.planning.expectations import Request
 from majordomo.app.evaluations.planning.judge import Judgement, Verdict, judge
+from majordomo.app.lasting import spare_what_lasts
 from majordomo.planner.grammar.parser import CommandGrammar
 from majordomo.planner.models.protocol import LanguageModel
 from majordomo.planner.models.scripted import ScriptedModel
@@ -46,6 +47,9 @@ async def run_all(
 ) -> list[Record]:
     """Every request with the grammar, and with ``model`` for what it cannot parse."""
     grammar = CommandGrammar()
+    for name in dict.fromkeys(request.building for request in requests):
+        building(name, folder)
+    spare_what_lasts()
     return [
         await run_one(request, grammar, model, folder=folder)
         for request in track(requests, description="requests", console=console)

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from majordomo.planner.answers import ABILITIES
 from majordomo.planner.discourse import Discourse, Stuck
 from majordomo.planner.gathering import Trouble
-from majordomo.planner.grammar.lexer import Lexicon
+from majordomo.planner.grammar.lexicon import Lexicon
 from majordomo.planner.grammar.parser import (
     Choice,
     CommandGrammar,

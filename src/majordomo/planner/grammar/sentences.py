@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
-from majordomo.planner.grammar.lexer import ACTING, Terminal, asks, clauses, trimmed
+from majordomo.planner.grammar.lexer import asks, clauses, trimmed
+from majordomo.planner.grammar.terminals import ACTING, Terminal
 
 Tokens = Sequence[Terminal]
 Parses = Callable[[str, Tokens], bool]

@@ -5,7 +5,7 @@ Lark's Earley parser takes its tokens from here.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 from majordomo.planner.grammar.lexicon import Lexicon
 from majordomo.planner.grammar.politeness import ADVERBS
@@ -17,15 +17,23 @@ from majordomo.planner.grammar.tokens import Word, words_of
 
 def sentences(text: str, lexicon: Lexicon) -> list[list[Terminal]]:
     """The sentences of a request, each as a list of terminals; courtesy is dropped."""
-    words = [word for word in words_of(text) if word.kind != "word" or word.text not in ADVERBS]
-    words = [Word(lexicon.meant(word.text), "word") if word.kind == "word" else word for word in words]
+    words = [Word(lexicon.meant(word.text), "word") if word.kind == "word" else word for word in words_of(text)]
+    words = [word for word in words if word.kind != "word" or word.text not in ADVERBS]
     found: list[list[Terminal]] = [[]]
-    for token in settled_uses(tagged(words, lexicon), lexicon):
+    for token in _owned(settled_uses(tagged(words, lexicon), lexicon)):
         if token.type == "STOP":
             found.append([])
         elif token.type not in ("FILLER", "FRAME"):
             found[-1].append(token)
     return [trimmed(sentence) for sentence in found if trimmed(sentence)]
+
+
+def _owned(tokens: Sequence[Terminal]) -> Iterator[Terminal]:
+    """*Anna is in her office*: whose it is, when a name comes before."""
+    name = ""
+    for token in tokens:
+        name = token.value if token.type == "NAME" else name
+        yield Terminal("POSSESSIVE", f"{name}'s", token.typed) if token.type == "HIS" and name else token
 
 
 def clauses(sentence: Sequence[Terminal]) -> list[list[Terminal]]:
@@ -51,6 +59,8 @@ def _starts_step(tokens: Sequence[Terminal], index: int) -> bool:
             continue
         if token.type == "BACK" and place + 1 == len(tokens):
             return True
+        if token.type == "BE" and place > index - 1 and tokens[index - 1].type == "AND" and not asks(tokens):
+            return False
         return token.type in ACTING or token.type in ASKING or token.type == "THEN"
     return False
 

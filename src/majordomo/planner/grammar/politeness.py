@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 FILLERS: tuple[str, ...] = (
-    "please", "pls", "kindly", "just", "now", "right now", "right away", "quickly", "quick", "carefully",
+    "please", "pls", "run and", "hurry and", "hurry up and", "rush and", "dash and", "run over and", "head over and",
+    "go over and", "go ahead and", "be quick and", "kindly", "just", "now", "right now", "right away", "quickly",
+        "quick", "carefully",
     "immediately",
     "thanks", "thank you", "thank you very much", "many thanks", "ok", "okay", "hey", "hello", "hi", "robot",
     "majordomo",
@@ -74,7 +76,8 @@ FRAMES: tuple[str, ...] = tuple(
 """Courtesy that leads up to a verb, which may stand in the past: *I'd appreciate it if you brought …*."""
 
 ADVERBS = frozenset(
-    {"really", "just", "kindly", "please", "pls", "plz", "possibly", "maybe", "perhaps", "actually", "simply",
+    {"really", "just", "together", "uh", "err", "um", "er", "erm", "hm", "hmm", "ah", "oh", "kindly", "please",
+        "pls", "plz", "possibly", "maybe", "perhaps", "actually", "simply",
     "exactly",
      "exact", "somehow", "basically", "quite", "honestly", "anyway", "immediately", "quickly"}
 )  # fmt: skip

@@ -12,6 +12,7 @@ from majordomo.planner.grammar.terminals import (
     BEFORE_NOUN,
     CLOSED_THAT_STAY,
     END,
+    MODIFYING,
     NO_NOUN_BEFORE,
     NOMINAL,
     NP_START,
@@ -38,7 +39,11 @@ def settled_uses(tokens: Sequence[Terminal], lexicon: Lexicon) -> list[Terminal]
         before = next((t.type for t in reversed(settled) if t.type != "FILLER"), "")
         following = [t for t in tokens[index + 1 : index + 1 + _AHEAD] if t.type != "FILLER"]
         led = led or token.type in _LEADING
-        settled.append(_of_past(token, before, following, led=led) or _choose(token, before, following, lexicon))
+        settled.append(
+            _of_past(token, before, following, led=led)
+            or _in_phrase(token, before, following, lexicon)
+            or _choose(token, before, following, lexicon)
+        )
         led = led and token.type != "STOP"
     return settled
 
@@ -53,23 +58,36 @@ def _of_past(token: Terminal, before: str, following: Sequence[Terminal], *, led
     return Terminal(kind, token.value, token.typed)
 
 
-def _choose(token: Terminal, before: str, following: Sequence[Terminal], lexicon: Lexicon) -> Terminal:
+def _in_phrase(token: Terminal, before: str, following: Sequence[Terminal], lexicon: Lexicon) -> Terminal | None:
+    """What a word is within a noun phrase, or right after one; None where it is no part of one."""
     after = following[0].type if following else ""
     kind, value = token.type, token.value
     if token.typed in _SHUT and _is_adjective(before, after):
         kind, value = "STATE", _SHUT[token.typed]
     elif token.typed in _SIDES and before in ("THE", "MY", "THAT") and after not in END:
         kind = _SIDES[token.typed]
+    elif token.typed == "lost" and before in ("BE", "NOT"):
+        kind, value = "STATE", "lost"
+    elif token.typed == "her" and _is_possessive(before, following):
+        kind = "HIS"
     elif token.typed in LYING and before in NOMINAL | {"BE"} and after in RELATING:
         kind = "FILLER"
     elif kind not in CLOSED_THAT_STAY and before in BEFORE_NOUN and lexicon.is_noun((token.typed,)):
-        kind = "NOUN"
-    elif (
-        token.typed in ("check", "see", "look", "find", "find out") and after in ASKED - {"IN"} and before != "CAN_YOU"
-    ):
+        kind, value = "NOUN", token.typed
+    else:
+        return None
+    return Terminal(kind, value, token.typed)
+
+
+def _choose(token: Terminal, before: str, following: Sequence[Terminal], lexicon: Lexicon) -> Terminal:
+    after = following[0].type if following else ""
+    kind, value = token.type, token.value
+    if token.typed in ("check", "see", "look", "find", "find out") and after in ASKED - {"IN"} and before != "CAN_YOU":
         kind = "TELL"
     elif kind == "TELL" and after not in ASKED:
         return Terminal("UNABLE", token.typed.split()[0], token.typed)
+    elif token.typed == "first" and before in NOMINAL and after in END:
+        kind = "FILLER"
     elif token.typed == "first" and (before in ("", "THEN", "STOP", "AND", "COMMA")):
         kind = "THEN"
     elif kind == "NEXT":
@@ -78,9 +96,22 @@ def _choose(token: Terminal, before: str, following: Sequence[Terminal], lexicon
         kind = "EXCEPT" if after in NP_START else "AND"
     elif token.typed in POLITE_IF_VERB and _is_polite(token.typed, following):
         kind = "THEN" if token.typed == "to" and before in NOMINAL else "FILLER"
-    elif kind in ACTING and token.typed in NOUNLIKE and not _is_verb_here(before, after):
+    elif token.typed == "return" and before == "AND":
+        kind = "RETURN"
+    elif (
+        kind in ACTING
+        and token.typed in NOUNLIKE
+        and (_is_thing_here(token, before, after, lexicon) or not _is_verb_here(before, after))
+    ):
         kind = "NOUN"
     return Terminal(kind, token.typed if kind == "NOUN" else value, token.typed)
+
+
+def _is_possessive(before: str, following: Sequence[Terminal]) -> bool:
+    """*her cup*, but not *bring her the cup* or *bring her cups*."""
+    owned = bool(following) and following[0].type in NOMINAL | MODIFYING
+    receives = before in ("BRING", "GIVE", "GET", "TAKE")
+    return owned and (not receives or any(token.type in ("TO", "ON", "IN", "INTO", "ONTO") for token in following))
 
 
 def _is_adjective(before: str, after: str) -> bool:
@@ -99,6 +130,11 @@ def _is_polite(words: str, following: Sequence[Terminal]) -> bool:
 
 def _is_phrase(following: Sequence[Terminal]) -> bool:
     return bool(following) and following[0].type in NP_START
+
+
+def _is_thing_here(token: Terminal, before: str, after: str, lexicon: Lexicon) -> bool:
+    """*markers and glue in the cabinet*: a thing of the graph, before what tells where."""
+    return lexicon.is_noun((token.typed,)) and before in ("AND", "COMMA") and after in RELATING | {"TO", "INTO", "ONTO"}
 
 
 def _is_verb_here(before: str, after: str) -> bool:

@@ -67,7 +67,7 @@ def _match(words: tuple[str, ...], lexicon: Lexicon) -> Terminal | None:
     if phrase is None and len(words) == 1 and (typed in PERSON_WORDS or singular(typed) in PERSON_WORDS):
         return Terminal("PERSON", typed, typed)
     owner = tuple(typed.removesuffix("'s").removesuffix("s'").split())
-    if typed.endswith(("'s", "s'")) and owner in lexicon.persons and not lexicon.is_noun(words):
+    if typed.endswith(("'s", "s'")) and lexicon.can_own(owner) and not lexicon.is_noun(words):
         return Terminal("POSSESSIVE", typed, typed)
     if typed in _DOOR:
         return Terminal("DOOR", typed, typed)
@@ -84,4 +84,6 @@ def _special(word: Word) -> Terminal:
 def _unknown(word: str) -> Terminal:
     if IDENTIFIER.fullmatch(word):
         return Terminal("IDENTIFIER", word, word)
+    if word.endswith("'s") and len(word) > 3:
+        return Terminal("POSSESSIVE", word, word)
     return Terminal("NUMBER" if word.isdecimal() else "WORD", word, word)

@@ -82,6 +82,7 @@ NP_START = frozenset(
     ]
 )
 NO_NOUN_BEFORE = frozenset({"", "THEN", "AND", "COMMA", "STOP", "OTHERWISE", "IF_SO", "IF_NOT", "BUT", "BUT_FIRST"})
+MODIFYING = frozenset({"COLOR", "BIG", "SMALL", "OTHER", "ORDINAL", "NEAREST", "LARGEST", "SMALLEST", "FARTHEST"})
 END = frozenset({"", "AND", "COMMA", "STOP", "THEN"})
 BEFORE_NOUN = frozenset(
     {

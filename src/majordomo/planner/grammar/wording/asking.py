@@ -5,6 +5,81 @@ from __future__ import annotations
 ASKING: tuple[tuple[str, str], ...] = (
     (
         (
+            "^(?:please )?(?:locate|find) (.+?)(?: for (?:me|us))?,? (?:and )?(?:just |only "
+            "|simply )?(?:tell me|let me know|say)(?: where)?(?=[.!]*$)"
+        ),
+        r"where is \1",
+    ),
+    (
+        (
+            "^(?:who knows|does (?:anyone|anybody|someone) (?:here )?know|(?:anyone|anybody) knows?|do we know"
+            "|you know|do you (?:know|remember|recall)|can (?:anyone|anybody) tell me)(?: about)? (?=(?:where"
+            r"|what|which|who|how|if|whether)\b)"
+        ),
+        "tell me ",
+    ),
+    (
+        (
+            "^where (is|are) (.+?) (?:kept|stored|gone|hiding|located|placed|hidden|put|found|at|now|right now"
+            "|normally|usually|supposed to be|these days)(?=[?.!]*$)"
+        ),
+        r"where \1 \2",
+    ),
+    (
+        (
+            r"^where (?:did|have|do|does|has) (?:i|we|you|he|she|they|\w+) (?:last |just |usually "
+            "|normally )?(?:keep|kept|store|stored|leave|left|put|hide) "
+        ),
+        "where is ",
+    ),
+    ("^(?:which|what) of (?:the|my|our|these|those) ", "which "),
+    ("^(?:you )?(?:got|have) any ", "is there any "),
+    (r"^what (?:do|have) (?:we|you|i) (?:have|got)(?: got)?(?: here| left)? to drink\b", "which drinks are there"),
+    (
+        r"^what (?:do|have) (?:we|you|i) (?:have|got)(?: got)?(?: here| left)? to (?:eat|snack on|nibble)\b",
+        "which food is there",
+    ),
+    (r"^(?:what|which) color (?:does|do|did) (.+?) have\b", r"what color is \1"),
+    (
+        (
+            r"^(?:does|do|has) ([\w ]+?) (?:have|got|own)(?: got)? (an? .+?|any .+?) (on|in|at) (?:her|his"
+            r"|their) (\w+)(?=[?.!]*$)"
+        ),
+        r"is there \2 \3 \1's \4",
+    ),
+    ("^(is|are) (.+?) (?:locked|closed|shut) or (?:open|unlocked)(?=[?.!]*$)", r"\1 \2 closed"),
+    ("^(is|are) (.+?) (?:open|unlocked) or (?:locked|closed|shut)(?=[?.!]*$)", r"\1 \2 open"),
+    (r"^(what|where|which|who|how far|how big) (?:would|might|could|will) be\b", r"\1 is"),
+    (
+        (
+            "^how (?:would|do|can|could|should|might|does) (?:i|we|you|one) (?:best )?(?:walk|go|get|drive"
+            r"|travel|come|make it|find my way) (?=(?:to|into|from)\b)"
+        ),
+        "how do i get ",
+    ),
+    (
+        (
+            "^why (?:can|could|did|do|will|would)(?: not)? you(?: not)? (?:do|carry out|finish|manage|handle"
+            r"|make|understand) (?:that|it|this)\b"
+        ),
+        "why did you fail",
+    ),
+    (r"^what (?:do|can) you (?:have|got) in (?:view|sight)\b", "what do you see"),
+    ("^who else ", "who "),
+    (r"^(?:is|are) ([\w ]+?) (?:at home|home|in|around)(?=[?.!]*$)", r"where is \1"),
+    (
+        r"^is it possible (?:for you )?to (?:walk|go|get|drive|enter|come)(?: in)?(?:to)? (?=(?:the|my)\b)",
+        "can you reach ",
+    ),
+    (
+        (
+            "^(?:can|could) you (?:get (?:in)?to|enter|reach|go (?:in)?to|drive (?:in)?to"
+            r"|get inside) (.+?)\?(?= if (?:so|not|yes|no)\b)"
+        ),
+        r"can you reach \1?",
+    ),
+    (
+        (
             "^(?:any (?:idea|clue)|do you have (?:any idea|a clue)|i (?:forgot|wonder|need to know"
             "|have forgotten|have no idea)|can you (?:tell me|say|remember|check)|could you (?:tell me|say"
             "|check)|please tell me|do you (?:happen to )?(?:know|remember))(?: about)? (?=(?:where|what|which"
@@ -47,8 +122,8 @@ ASKING: tuple[tuple[str, str], ...] = (
     (
         (
             "^(?:i|we) (?:can not|could not|do not|am unable to|are unable to) (?:find|see|locate"
-            "|seem to find) (.+?)(?: anywhere)?(?:[,.;] (?:do you know where (?:it|they) (?:is|are)|where (?:is"
-            "|are) (?:it|they)|help)|)(?=$|[?!.]$)"
+            "|seem to find) (.+?)(?: anywhere)?(?:[,.;] (?:do you know where (?:it|they) (?:is|are)"
+            "|where (?:is|are) (?:it|they)|help)|)(?=$|[?!.]$)"
         ),
         r"where is \1",
     ),
@@ -62,13 +137,12 @@ ASKING: tuple[tuple[str, str], ...] = (
     (
         (
             "^what(?: all)? (?:do (?:we|you|i) have|have (?:we|you) got|can (?:you|i) (?:find|see|get)"
-            "|do you see|lies|stands|sits|can be found|is there|are there|is kept|is stored)(?: there)? (?=(?:in"
-            r"|on|at|next|inside)\b)"
+            "|do you see|lies|stands|sits|can be found|is there|are there|is kept"
+            r"|is stored)(?: there)? (?=(?:in|on|at|next|inside)\b)"
         ),
         "what is ",
     ),
     ("^what does (.+?) (?:contain|hold|have in it)(?=$|[.!?])", r"what is in \1"),
-    (r"^what is (?=(?:lying|standing|sitting|stored|kept) (?:in|on)\b)", "what is "),
     (r"^what(?: kind of| sort of)? color (?:does|do) (.+?) have\b", r"what color is \1"),
     ("^(?:which|what) color has ", "what color is "),
     ("^what is the color of ", "what color is "),
@@ -95,7 +169,7 @@ ASKING: tuple[tuple[str, str], ...] = (
         r"how many \1 are there",
     ),
     ("^(?:do|have) (?:we|i|you) (?:still )?(?:have|got|own)(?: got)? ", "is there "),
-    ("^(?:has|does) (?:the .+? )(?=have)", "is there "),
+    (r"^(?:has|does) (the [\w ]+?) (?:have|got|contain|hold) ((?:an?|any|some) .+?)(?=[?.!]*$)", r"is there \2 in \1"),
     ("^(?:are|is) (.+?) (?:available|around|left|present)(?=$|[.!?])", r"is there \1"),
     (r"^is there (?:anything|something) (?:to (?:eat|nibble)|edible)\b", "is there food"),
     (r"^is there (?:anything|something) to drink\b", "is there a drink"),

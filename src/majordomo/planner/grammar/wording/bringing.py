@@ -3,6 +3,37 @@
 from __future__ import annotations
 
 BRINGING: tuple[tuple[str, str], ...] = (
+    (
+        (
+            r"^(?:i|we) do not (?:want|need|like) the (\w+) (\w+)[,.;]+ (?:but |so "
+            r"|please )?(.*?)\bthe other(?: one)?(?=$|[ .!?])"
+        ),
+        r"\3the \2 that is not \1",
+    ),
+    (
+        "^(?:please )?(?:just )?(?:leave|keep) (.+?) (?:where|as) (?:it|they|he|she) (?:is|are)(?=[.!]*$)",
+        r"do not move \1",
+    ),
+    ("^(put |take |move |bring |carry |)(?:the )?(.+?),? all of (?:it|them)(?=[.!]*$)", r"\1all the \2"),
+    (
+        (
+            "^(?:please )?(?:clear|empty|unload|tip|shift)(?: out| off| up)? (the (?:(?!, (?:put|and|then|move"
+            r"|take)\b).)+?),? (onto|into|on to|in to|on|in) (?=(?:the|my) )"
+        ),
+        r"put everything from \1 \2 ",
+    ),
+    (
+        (
+            r"(?<!where )(?<!what )\b(?:would|will|might|could) (?:be|look|fit|feel)(?: (?:much|far|way|so"
+            "|very))?(?: (?:better|good|nice|nicer|best|great|well|lovely))(?: off)? (?=(?:on|in|at|next to|by"
+            "|near|with) )"
+        ),
+        "should be ",
+    ),
+    (r"\bgo on to (?=(?:the|my)\b)", "go to "),
+    (r"\b(them|those|these) (?:both|all)\b", r"\1"),
+    (r"^(.+?), (?:meaning|that is|i\.?e\.?|namely) (.+?), (?=(?:in|on|to|into|onto)\b)", r"\2 "),
+    (r"\bget rid of (.+?) by (?:putting|placing|throwing) (?:it|them) ", r"put \1 "),
     (r"\bshow (?=(?:me|him|her|anna|ben|\w+) the \w+ and (?:then )?(?:return|put|bring))", "bring "),
     (
         (
@@ -17,7 +48,13 @@ BRINGING: tuple[tuple[str, str], ...] = (
         r"\1 \2 ",
     ),
     (r"\b(?:put|tidy|clear|pack|stow) away (.+?) (?=(?:in|into|on|onto)\b)", r"put \1 "),
-    (r"\b(put|set|lay) (?=(?:on|onto|in|into|next to) (?:the |a |my )?\w+(?: \w+){0,4}[.!]*$)", r"\1 it "),
+    (
+        (
+            "(?:^|(?<=and )|(?<=then )|(?<=, )|(?<=please ))(put|set|lay) (?=(?:on|onto|in|into"
+            r"|next to) (?:the |a |my )?\w+(?: \w+){0,4}[.!]*$)"
+        ),
+        r"\1 it ",
+    ),
     (r"\b(bring|take|carry|drop) (?=to (?:me|him|her|(?:the|my) \w+(?: \w+)?)[.!]*$)", r"\1 it "),
     (r"\b(?:is|are) to (?:be|go|stay|stand|come|end up) (?=(?:in|on|at|to|into|onto|next)\b)", "should be "),
     (
@@ -42,7 +79,6 @@ BRINGING: tuple[tuple[str, str], ...] = (
     ),
     (r"\b(?:i want(?:ed)? )?(it|them|that|this) to (?:go|be) (?=to )", r"put \1 "),
     (r"\b(?:i want(?:ed)? )(it|them|that|this) to (?:go|be) ", r"put \1 "),
-    (r"^(all|every|both|the \w+s) ([\w ]*?)(?<!\bgo )(into|onto) (?=(?:the|a|my)\b)", r"put \1 \2\3 "),
     (r"\bto (?:the|his|her|my) (?=where)", ""),
     (r"\blet(?: us)? (?=(?:the|my|all|every)\b[^.]* (?:go|be) )", "ensure "),
     (
@@ -61,7 +97,6 @@ BRINGING: tuple[tuple[str, str], ...] = (
     (r",? from there (?=(?:to|go|on|drive|head)\b)", ", then "),
     (r"\b(?:after|having done|once done with) that\b,?", "then"),
     (r"\b(should|must|can|may) all (?=(?:be|go)\b)", r"\1 "),
-    (r"^(\w+s) (to|into|onto) (?=(?:the|a|my)\b)", r"put all the \1 \2 "),
     (r"^(?:please )?(?:gather|round|collect)(?: up)? (.+?) and (?=(?:put|bring|take|carry)\b)", r"pick up \1 and "),
     (r"\bback again\b", "back"),
     (r"\b(put|take|bring|return|move) (?:everything|it all|all of it|all of them|all that) back\b", r"\1 them back"),
@@ -83,7 +118,10 @@ BRINGING: tuple[tuple[str, str], ...] = (
     ),
     (r"\bout of (the [\w ]+?) and (?:in)?to\b", r"from \1 to"),
     (r"^(?:could|can|may) (the [\w ]+?) be (?:moved|put|brought|taken|placed|delivered|carried) ", r"put \1 "),
-    (r"^(?:please )?(?:have|get) (the [\w ]+?) (?:brought|taken|moved|delivered|carried|put|placed) ", r"put \1 "),
+    (
+        r"^(?:please )?(?:have|get) (the (?:(?!and\b)\w+ )+?)(?:brought|taken|moved|delivered|carried|put|placed) ",
+        r"put \1 ",
+    ),
     (r"^(?:please )?(?:get|take|grab|fetch|pick up) (the [\w ]+?)[,;] (?:it|they|that) should be ", r"put \1 "),
     (r"\b(bring|give|get|fetch|take)me\b", r"\1 me"),
     (r"\b(?:quickest|fastest|shortest|best|easiest) (?:route|path|way)\b", "way"),
@@ -98,8 +136,8 @@ BRINGING: tuple[tuple[str, str], ...] = (
     (r",? (?:but |and )?only (?:the |an? )?(\w+) ones?(?=$|[.!?])", r" that is \1"),
     (
         (
-            r"^((?:the|my|that) [\w ]+?), (?:can you |could you |please )*(bring|take|put|get|fetch|carry) (?:it"
-            "|them) "
+            r"^((?:the|my|that) (?!.*\b(?:is|are|belongs?|should|goes|needs?)\b[^,]*,)[\w ]+?), (?:can you "
+            "|could you |please )*(bring|take|put|get|fetch|carry) (?:it|them) "
         ),
         r"\2 \1 ",
     ),

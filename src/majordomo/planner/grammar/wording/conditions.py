@@ -5,9 +5,16 @@ from __future__ import annotations
 CONDITIONS: tuple[tuple[str, str], ...] = (
     (
         (
+            "^either (.+?),? or,? (?:else,? )?(?:if (?:it|they|that) (?:is|are) (?:gone|missing|not there|lost"
+            r"|unavailable|not available),? )(?=\w)"
+        ),
+        r"\1, otherwise ",
+    ),
+    (
+        (
             r"\b(?:in case|provided|given|assuming|supposing|suppose|on condition|as long as|so long as|only if"
-            r"|if and only if|if it (?:turns out|happens)|if it is (?:true|the case))(?: that| of)?\b(?= (?:there"
-            r"|the|it|a|you|i|any|\w+ (?:is|are)))"
+            "|if and only if|if it (?:turns out|happens)|if it is (?:true|the case))(?: that"
+            r"| of)?\b(?= (?:there|the|it|a|you|i|any|\w+ (?:is|are)))"
         ),
         "if",
     ),
@@ -32,7 +39,8 @@ CONDITIONS: tuple[tuple[str, str], ...] = (
     (
         (
             "[,;.]? (?:otherwise|or else|else|if not),? (?:do nothing|nothing|leave it(?: there| alone)?"
-            "|do not bother|do not do anything|stay(?: where you are| here| put)?|forget it|just wait)(?=$|[.!])"
+            "|do not bother|do not do anything|stay(?: where you are| here| put)?|forget it|just wait)(?=$"
+            "|[.!])"
         ),
         "",
     ),

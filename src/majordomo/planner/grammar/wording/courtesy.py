@@ -3,6 +3,24 @@
 from __future__ import annotations
 
 SLIPS: tuple[tuple[str, str], ...] = (
+    (r"\b(put|take|bring|get|give|move|in|on|to|from|of|for|and|with|into)the\b", r"\1 the"),
+    (r"\b(\w*)(?:lite)\b(?<!\bsatellite)", r"\1light"),
+    (r"\b(?:nite)(?=\b|s?tand)", "night"),
+    (r"\bthru\b", "through"),
+    (
+        (
+            r"\b((?:take|bring|carry|give|hand|deliver|move"
+            r"|get)\b.* \w+) 2 (?=(?!of\b)[^\W\d]+(?: [^\W\d]+){0,2}(?: (?:thx|pls|plz|please|thanks))?[.!]*$)"
+        ),
+        r"\1 to ",
+    ),
+    (
+        (
+            r"\b([^\W\d]+)'s (?=(?:in|on|at|not|here|there|under|near|next|home|asleep|gone|open|closed|shut"
+            r"|locked|missing|lost|still|inside|with)\b)"
+        ),
+        r"\1 is ",
+    ),
     (r"\b(?:teh|hte|th)\b", "the"),
     (r"\b(?:adn|nad|n)\b(?= )", "and"),
     (r"\bgoto\b", "go to"),
@@ -17,6 +35,60 @@ SLIPS: tuple[tuple[str, str], ...] = (
 """Words that are no English, and what was meant."""
 
 COURTESY: tuple[tuple[str, str], ...] = (
+    (r"\s*(?:\.{2,}|…)\s*(?=\w)", ", "),
+    (r"(?<=\w),? +[-–—]+ +(?=\w)", ", "),
+    (
+        (
+            "^(?:(?:hi|hey|hello|yo|ok|okay|so)?[!,. ]*)?(?:a |one )?(?:quick|small|little) (?:one|question"
+            r"|thing|favou?r|request|task|job)\s*[-,:.!]+ ?"
+        ),
+        "",
+    ),
+    (
+        (
+            r"(?<!would )(?<!do )(?<!if )\b(you|please|just) like (?=(?:go|come|bring|take|get|fetch|put|move"
+            r"|give|find|tell|carry|drive|grab|pick)\b)"
+        ),
+        r"\1 ",
+    ),
+    (r"(?<=\w),? or (?:something(?: like that)?|so|whatever|somewhere)(?=$|[.!?])", ""),
+    (
+        (
+            r"(?<=\w),? (?:can|could|will|would|can not|will not"
+            "|would not) you(?: please)?(?: help(?: me)?(?: out)?| find (?:it|them))?(?=[?.!]*$)"
+        ),
+        "",
+    ),
+    (
+        (
+            r"(?<=\w),? (?:wherever|where ever) (?:it|they|he|she|that) (?:is|are|may be|might be|went|got to"
+            "|has gone)(?=$|[.,!?])"
+        ),
+        "",
+    ),
+    (r" and (?:nothing|no one|nobody) else\b", ""),
+    (
+        (
+            r"^(?:he|she|they|\w+) (?:do|does|did) not (?:want|need|like) (?:it|them|that|this)(?: any ?more"
+            "| any longer| after all)?[,.;!]+ (?:so )?"
+        ),
+        "",
+    ),
+    (
+        (
+            r"(?<=\w),? (?:when|once|after|as soon as) you (?:have|are) (?:been there|done(?: (?:that|it|so))?"
+            "|finished|through|ready|there)(?=$|[.,!?])"
+        ),
+        "",
+    ),
+    (" (?:at the moment|at present|right now|as we speak|these days)(?=[?.!]*$)", ""),
+    (
+        (
+            ",? (?:both|all|each|every one)(?: (?:two|three|four))? of (?:them|these|those)(?=$|,| (?:go|goes"
+            r"|should|must|can|belong|belongs)\b),?"
+        ),
+        "",
+    ),
     (
         (
             "^(?:so,? )?(?:i was (?:just )?(?:thinking|wondering|hoping)|i have been thinking)[,.]* (?=it|can"
@@ -60,7 +132,11 @@ COURTESY: tuple[tuple[str, str], ...] = (
 
 UNDOING: tuple[tuple[str, str], ...] = (
     (
-        "^(?:please )?(?:undo|reverse|revert) (?:that|it|this|the last (?:one|step|thing|move|task))[.! ]*$",
+        (
+            "^(?:please )?(?:undo|reverse|revert|take back|roll back) (?:what you (?:have )?(?:just )?did"
+            "|what you have (?:just )?done|your last (?:step|move|action|task)|the last (?:one|step|thing|move"
+            "|task|action)|it|that|this)(?: please)?[.! ]*$"
+        ),
         "put it back where it was",
     ),
     (
@@ -73,8 +149,8 @@ UNDOING: tuple[tuple[str, str], ...] = (
     (r"^(?:please )?(?:never mind|nevermind|forget it)[,.;:]* (?=(?:put|take|return|bring)\b)", ""),
     (
         (
-            r"\b(?:i|you|we|he|she|they|someone|somebody) (?:have |had |just )*(?:left|put|placed|dropped|forgot"
-            "|laid|set|saw)(?: lying| standing| down)? (?=(?:on|in|at|next|by|near) )"
+            r"\b(?:i|you|we|he|she|they|someone|somebody) (?:have |had |just )*(?:left|put|placed|dropped"
+            "|forgot|laid|set|saw)(?: lying| standing| down)? (?=(?:on|in|at|next|by|near) )"
         ),
         "that is ",
     ),

@@ -21,6 +21,44 @@ FINDING: tuple[tuple[str, str], ...] = (
 """In the order in which they are tried."""
 
 GOING: tuple[tuple[str, str], ...] = (
+    (
+        (
+            "^(?:please )?(?:make |take |do )?(?:a |one )?(?:quick |short |little |brief )?(?:trip|tour|visit"
+            "|run|detour|round|outing) to (.+?) and back(?: again)?(?=[.!]*$)"
+        ),
+        r"go to \1, then go to your starting point",
+    ),
+    (
+        "^(.+?) is where (?:i|we) (?:want|need|would like|expect) you(?: to (?:be|go|wait|stand|come))?(?=[.!]*$)",
+        r"go to \1",
+    ),
+    ("^(?:off|away|on|out) (?:you go )?to (.+?)(?: with you)?(?=[.!]*$)", r"go to \1"),
+    (r"\bgo off to (.+?) with you(?=[.!]*$)", r"go to \1"),
+    (
+        (
+            "^(?:please )?(?:make |take |do )?(?:a |one )?(?:quick |short |little |brief )?(?:trip|tour|visit"
+            "|run|detour|round|outing) to "
+        ),
+        "go to ",
+    ),
+    (
+        (
+            r"\b(?:go (?:and )?)?(?:take|have|grab|get) a (?:quick |little |brief |short )?(?:peek|look|glance"
+            "|peep|gander) (?:in|into|inside|around|round|at) "
+        ),
+        "go to ",
+    ),
+    (r"\b(?:right|straight|directly|immediately) back\b", "back"),
+    (
+        (
+            r"\b(?:go|come|run|drive|head|pop)(?: over)? and (?:see|check|look|find out) (?:whether"
+            r"|if) (\w+) is (?:in|there|around|home|at home|awake|ok|okay|alright)\b"
+        ),
+        r"go to \1",
+    ),
+    (r"(?:,? and|,? then|,)+ (?:on|off|over|along) to (?=(?:the|my)\b)", ", then go to "),
+    (r"\b(?:and|then) return(?=$|[.!?,])", "then come back"),
+    (r"\bback to where you are(?: now| right now)?\b", "to your starting point"),
     (r"^(?:i|we) (?:need|want|would like) you (?:over |to be |to come )?(?=(?:in|at|by|near|next to)\b)", "go "),
     (r"\b(?:be|get yourself|show up|turn up|report) (?=(?:in|at|by) the\b)", "go "),
     (r"\b(?:go|drive|head|move) (?:back )?home\b", "come back"),
@@ -35,8 +73,8 @@ GOING: tuple[tuple[str, str], ...] = (
     (r"\b(?:and|then) (?:report|return|go|come) back(?: to me| here)?(?=$|[.!?,])", "then come back"),
     (
         (
-            r"\b(?:go )?(?:and )?(?:have a (?:quick )?look|take a (?:quick )?look|peek|peep|pop|look in|nip|dash"
-            "|hop) (?=(?:in|into|at|round|over) )"
+            r"\b(?:go )?(?:and )?(?:have a (?:quick )?look|take a (?:quick )?look|peek|peep|pop|look in|nip"
+            "|dash|hop) (?=(?:in|into|at|round|over) )"
         ),
         "go ",
     ),

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 NAMING: tuple[tuple[str, str], ...] = (
+    ("^(?:we|i|you|they) (?:are|will be) (?:calling|naming) ", "call "),
+    (r"^(the .+?) belongs to \w+[,;.]+ (?:and |so )?(?:it|that|this) is (?=(?:my|\w+'s|our)\b)", r"call \1 "),
+    ("^this (?:here|room here|place here|one here) is ", "this is "),
     (
         (
             "^(?:just so you know|for your information|fyi|remember this|note this|learn this|please note"
@@ -29,7 +32,7 @@ NAMING: tuple[tuple[str, str], ...] = (
         r"call \1 \2 ",
     ),
     ("^(?:please )?(?:name|title|label|refer to|treat|think of|regard|know|remember|learn) (.+?) as ", r"call \1 "),
-    (r"^(?:please )?name (?=(?:this|that|the|it)\b)", "call "),
+    (r"^(?:please )?name (?=(?:this|that|the|it)\b)(?!the rooms)", "call "),
     ("^(?:the |this )?(.+?)'s name is ", r"\1 is called "),
     ("^(?:the )?name of (.+?) is ", r"\1 is called "),
     (r"\b(?:should|shall|will|is to|must|can) be (?:called|named|known as) ", "is called "),

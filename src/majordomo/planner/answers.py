@@ -75,7 +75,8 @@ class Answers:
         told = self._reports.of(ask, context)
         if not isinstance(told, Report):
             return told
-        return Answer(text=told.text, query=Query(kind=ask.kind, nodes=told.nodes, phrase=_phrase(ask)))
+        holds = told.text.startswith("Yes") if ask.kind is QueryKind.CAPABLE else None
+        return Answer(text=told.text, query=Query(kind=ask.kind, nodes=told.nodes, phrase=_phrase(ask)), holds=holds)
 
     def _holds(self, ask: Ask, found: Sequence[str]) -> bool | None:
         if ask.kind not in (QueryKind.EXISTS, QueryKind.HOLDING):
@@ -162,6 +163,8 @@ class Answers:
 
     def _list(self, ask: Ask, present: Sequence[str], context: Context) -> str:
         shown = [i for i in present if i not in self._targets(ask, context)]
+        if not shown and self._asks_who(ask):
+            return self._people()
         if not shown:
             return f"I know of nothing there{f' that is {_phrase(ask)}' if ask.things else ''}."
         targets = self._targets(ask, context)
@@ -170,6 +173,14 @@ class Answers:
         if ask.things:
             return f"{capital(listed([describe(i, self._snapshot) for i in shown[: 2 * MAX_NAMED]]))}."
         return f"I have seen {self._inventory(shown)} there."
+
+    def _asks_who(self, ask: Ask) -> bool:
+        return bool(ask.things) and isinstance(ask.things[0], NounPhrase) and ask.things[0].person
+
+    def _people(self) -> str:
+        """Nobody is there: who is elsewhere."""
+        people = [node.id for node in nodes_of(self._snapshot) if isinstance(node, PersonNode)]
+        return f"Nobody that I know of. {self._where(people, rooms_only=False)}".strip()
 
     def _by_place(self, shown: Sequence[str], targets: tuple[str, ...]) -> str:
         sentences = []

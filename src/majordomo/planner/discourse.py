@@ -90,6 +90,8 @@ class Discourse:
     def _divided(self, asked: Ask, answer: Answer) -> Ambiguous | None:
         """*If the door is open*, where one is and another is not: which one decides is asked."""
         (thing, *_) = asked.things or (None,)
+        if asked.least is not None or asked.most is not None:
+            return None
         if asked.place is None or not isinstance(thing, NounPhrase) or thing.quantity not in ("the", "bare", "this"):
             return None
         every = self._grounding.matches(thing, self._context)

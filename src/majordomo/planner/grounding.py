@@ -16,7 +16,7 @@ from majordomo.planner.narrowing import Narrowing
 from majordomo.planner.phrasing import alternatives, describe, phrase_text, which_question
 from majordomo.planner.plan import Exchange
 from majordomo.planner.vocabulary import is_plural, normal, words_for
-from majordomo.scene_graph.nodes import ObjectNode, PersonNode, RoomNode
+from majordomo.scene_graph.nodes import ROBOT_ID, ObjectNode, PersonNode, RoomNode
 from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.skills.state import PlanState
 
@@ -71,6 +71,9 @@ class Grounding:
     def __init__(self, snapshot: Snapshot, state: PlanState) -> None:
         self.snapshot, self.state = snapshot, state
         self._narrowing = Narrowing(snapshot, state, self)
+
+    nowhere = Context()
+    """Nothing that references may lean on."""
 
     def things(self, reference: Reference, context: Context, *, avoid: frozenset[str] = frozenset()) -> Grounded:
         """What is to be carried, found or asked about. ``avoid``: not these, when any one will do."""
@@ -142,8 +145,13 @@ class Grounding:
             return (room,) if isinstance(speaker, NoReferent) and room is not None else speaker
         if word == "that":
             return self._it(replace(context, fresh=context.fresh[:1]))
+        if word == "start":
+            room = self.state.robot_room
+            return (room,) if room is not None else NoReferent(reason="I do not know which room I am in.")
+        if word == "you":
+            return (ROBOT_ID,)
         if word == "there":
-            return context.places[:1] or NoReferent(reason="I do not know which place you mean by “there”.")
+            return self._there(context) or NoReferent(reason="I do not know which place you mean by “there”.")
         if word == "him":
             people = [i for i in context.mentioned if isinstance(self.snapshot.get(i), PersonNode)]
             return tuple(people[:1]) or NoReferent(reason="I do not know whom you mean.")
@@ -154,6 +162,19 @@ class Grounding:
             if len(moved) > 1:
                 return moved
         return self._it(context)
+
+    def _there(self, context: Context) -> tuple[str, ...]:
+        """The place spoken of last; else where the request before led; else where what was found is."""
+        if context.places:
+            return context.places[:1]
+        placed = [goal.args[-1] for exchange in context.earlier[:1] for goal in exchange.goals[-1:]]
+        spoken = [i for i in (*placed, *context.fresh, *context.mentioned) if i in self.snapshot]
+        rooms = [i for i in spoken if not isinstance(self.snapshot.get(i), ObjectNode) or self._is_place(i)]
+        return tuple(rooms[:1])
+
+    def _is_place(self, node_id: str) -> bool:
+        thing = self.state.world.things.get(node_id)
+        return thing is not None and not thing.graspable
 
     def _it(self, context: Context) -> Grounded:
         if context.fresh:
@@ -267,7 +288,7 @@ class Grounding:
         found = named(head, phrase.number, self.snapshot, widely=widely, fixed=fixed)
         if len(found) == 1 or len(head.split()) < 2:
             return found
-        return self._named_in_room(phrase, widely=widely) or found
+        return self._named_in_room(phrase, widely=widely) or found or tuple(self._rooms_with(head))
 
     def _named_in_room(self, phrase: NounPhrase, *, widely: bool) -> tuple[str, ...]:
         """*the kitchen table*: a table in the kitchen."""
@@ -276,10 +297,19 @@ class Grounding:
             lead = " ".join(words[:split])
             called = words_for(lead) | {lead, f"{lead} room"}
             rooms = [room.id for room in self.snapshot.of_type(RoomNode) if normal(room.label) in called]
+            rooms = rooms or self._rooms_with(lead)
             if rooms:
                 rest = named(" ".join(words[split:]), phrase.number, self.snapshot, widely=widely)
                 return tuple(i for i in rest if i not in rooms and any(self._narrowing.is_at(i, r) for r in rooms))
         return ()
+
+    def _rooms_with(self, said: str) -> list[str]:
+        """*the piano room*: rooms known by what is in them."""
+        thing, _, last = said.rpartition(" ")
+        if last != "room" or not thing:
+            return []
+        inside = named(thing, None, self.snapshot, widely=False, fixed=True)
+        return list(dict.fromkeys(room for i in inside if (room := self.state.room_of(i)) is not None))
 
     def _suited(self, found: tuple[str, ...], *, carried: bool) -> tuple[str, ...]:
         """Of several, those that can be carried, or that one can put something on, in or before, if there are any."""

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from majordomo.planner.answers import ABILITIES
 from majordomo.planner.discourse import Discourse, Stuck
 from majordomo.planner.gathering import Trouble
-from majordomo.planner.grammar.lexer import Lexicon
+from majordomo.planner.grammar.lexicon import Lexicon
 from majordomo.planner.grammar.parser import (
     Choice,
     CommandGrammar,
@@ -18,6 +19,7 @@ from majordomo.planner.grammar.parser import (
     Understood,
     flattened,
 )
+from majordomo.planner.grammar.syntax import Perhaps, Wanted
 from majordomo.planner.grammar.tokens import text_flaw
 from majordomo.planner.grounding import Ambiguous, Context, Grounding, NoReferent
 from majordomo.planner.matching import nouns_of
@@ -31,6 +33,7 @@ from majordomo.scene_graph.nodes import ObjectNode, PersonNode
 from majordomo.scene_graph.snapshot import Snapshot
 
 Choices = dict[str, tuple[str, ...]]
+_PLEASE = re.compile(r"\b(?:please|pls|plz)\b")
 DOUBT = "did you mean"
 """The phrase that is settled by *yes*."""
 
@@ -55,8 +58,16 @@ class Interpreter:
         self._grammar, self._verifier = grammar, verifier
         self._lexicon: tuple[Snapshot, Lexicon] | None = None
 
-    def read(self, text: str, snapshot: Snapshot, dialogue: Dialogue, choices: Choices | None = None) -> Reading:
-        """What ``text`` means; ``choices`` settles phrases that were asked about before."""
+    def read(
+        self,
+        text: str,
+        snapshot: Snapshot,
+        dialogue: Dialogue,
+        choices: Choices | None = None,
+        *,
+        verbless: bool = True,
+    ) -> Reading:
+        """What ``text`` means; ``choices`` settles phrases that were asked about before; ``verbless`` as in _whole."""
         flaw = text_flaw(text)
         if flaw is not None:
             return _reading(Kind.REFUSE, flaw)
@@ -70,11 +81,26 @@ class Interpreter:
             repaired = self._repaired(*slip, snapshot, dialogue, choices or {})
             if repaired is not None:
                 return repaired
-        return self._whole(text, snapshot, dialogue, choices)
+        return self._whole(text, snapshot, dialogue, choices, verbless=verbless)
 
-    def _whole(self, text: str, snapshot: Snapshot, dialogue: Dialogue, choices: Choices | None = None) -> Reading:
-        """What ``text`` means when it is no remark about something said before."""
+    def _whole(
+        self,
+        text: str,
+        snapshot: Snapshot,
+        dialogue: Dialogue,
+        choices: Choices | None = None,
+        *,
+        verbless: bool = True,
+    ) -> Reading:
+        """What ``text`` means when it is no remark about something said before.
+
+        ``verbless``: *the cup on the desk* may be a request; after *no, …* it only says which cup.
+        """
         steps = self._grammar.parse(text, self.lexicon(snapshot))
+        if not verbless and not steps:
+            return _reading(Kind.CLARIFY, "Can you say it differently?", wholly=False)
+        if not verbless and any(_is_verbless(step) for step in steps):
+            return _reading(Kind.CLARIFY, _not_understood_reply(list(flattened(steps))), wholly=False)
         if not steps:
             return _reading(Kind.ANSWER, f"What can I do for you? {ABILITIES}")
         every = list(flattened(steps))
@@ -83,7 +109,10 @@ class Interpreter:
             return _reading(Kind.REFUSE, _unable_reply(unable, len(every)))
         if any(isinstance(step, NotUnderstood) or _is_open(step) for step in every):
             return _reading(Kind.CLARIFY, _not_understood_reply(every), wholly=False)
-        return self._ground(steps, snapshot, dialogue, choices or {})
+        choices = dict(choices or {})
+        if _PLEASE.search(text.casefold()) and all(map(_is_wish, steps)):
+            choices[DOUBT] = (DOUBT,)
+        return self._ground(steps, snapshot, dialogue, choices)
 
     def grounding(self, snapshot: Snapshot) -> Grounding:
         """References on ``snapshot``."""
@@ -104,7 +133,8 @@ class Interpreter:
         reviser = Reviser(self.grounding(snapshot), _context(dialogue, choices, snapshot))
         if about.how == "again":
             return self.checked([reviser.again(earlier)], snapshot, choices)
-        outcome = reviser.by_phrase(about.how, self._grammar.phrase(about.rest, lexicon), earlier)
+        phrases = self._grammar.phrase(about.rest, lexicon) or self._grammar.phrase(f"the {about.rest} one", lexicon)
+        outcome = reviser.by_phrase(about.how, phrases, earlier)
         if outcome is None and about.how == "correct":
             steps = self._grammar.parse(f"put it {about.rest}", lexicon)
             understood = steps[0] if len(steps) == 1 and isinstance(steps[0], Understood) else None
@@ -129,7 +159,8 @@ class Interpreter:
             revised = self._revised(Revision(how="correct", rest=rest), snapshot, again, choices)
             return revised if revised is not None and _settled(revised) else None
         if not is_place(rest):  # *to the office* is where something goes, and no request of its own
-            alone = self._whole(rest, snapshot, dialogue, choices)
+            spoken = replace(dialogue, mentioned=(*first.mentioned, *dialogue.mentioned))
+            alone = self._whole(rest, snapshot, spoken, choices, verbless=False)
             if alone.interpretation.kind is Kind.PLAN:
                 return alone
         return self._restated(said, rest, snapshot, dialogue, choices)
@@ -153,6 +184,9 @@ class Interpreter:
     def checked(self, meanings: list[Meant], snapshot: Snapshot, choices: Choices) -> Reading:
         """What steps mean together, if the verifier finds no flaw; what was not said as a request is asked about."""
         found = self._checked(meanings, snapshot)
+        if meanings and all(meant.told for meant in meanings):
+            said = listed([name_of(i, snapshot) for meant in meanings for i in meant.things])
+            return _reading(Kind.CLARIFY, f"What shall I do with {said}?")
         doubtful = found.kind is Kind.PLAN or found.lessons
         if doubtful and any(meant.doubt for meant in meanings) and DOUBT not in choices:
             asked = Interpretation(kind=Kind.CLARIFY, reply=_did_you_mean(found, snapshot), mentioned=found.mentioned)
@@ -178,6 +212,17 @@ class Interpreter:
 def _settled(reading: Reading) -> bool:
     """Whether every word was understood, and something is to be done, asked or said of it."""
     return reading.wholly and reading.interpretation.kind is not Kind.REFUSE
+
+
+def _is_wish(step: ParsedStep) -> bool:
+    return isinstance(step, Understood) and all(isinstance(reading, Wanted) for reading in step.readings)
+
+
+def _is_verbless(step: ParsedStep) -> bool:
+    return isinstance(step, Understood) and all(
+        isinstance(reading, Wanted) or (isinstance(reading, Perhaps) and reading.verbless and not reading.sure)
+        for reading in step.readings
+    )
 
 
 def _is_open(step: ParsedStep) -> bool:

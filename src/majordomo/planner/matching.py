@@ -11,6 +11,7 @@ from majordomo.planner.vocabulary import (
     PERSON_WORDS,
     ROOM_WORDS,
     is_known,
+    is_room_label,
     kind_labels,
     normal,
     singular,
@@ -109,7 +110,7 @@ def _rank(head: str, node: Place, *, fixed: bool) -> int | None:
         return 1
     if label in words_for(head):
         return 2
-    if label.rpartition(" ")[2] in forms and (isinstance(node, ObjectNode) or _is_own_name(label)):
+    if label.rpartition(" ")[2] in forms and (isinstance(node, ObjectNode) or _is_own_name(label) or _is_sort(label)):
         return 3
     return 4 if isinstance(node, ObjectNode) and _is_kind(forms, node, fixed=fixed) else None
 
@@ -118,6 +119,12 @@ def _is_own_name(room_label: str) -> bool:
     """Whether a room of two words or more ends in a name of its own, as *meeting room Oslo* does."""
     last = room_label.rpartition(" ")[2]
     return " " in room_label and not is_known(last) and not last.isdecimal()
+
+
+def _is_sort(room_label: str) -> bool:
+    """Whether a room of two words is a sort of what its last word says: *the main corridor* is a corridor."""
+    last = room_label.rpartition(" ")[2]
+    return " " in room_label and is_room_label(last) and last not in ROOM_WORDS
 
 
 def _is_kind(forms: Iterable[str], node: ObjectNode, *, fixed: bool) -> bool:

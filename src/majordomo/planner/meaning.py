@@ -16,17 +16,20 @@ from majordomo.planner.grammar.syntax import (
     Destination,
     Find,
     Go,
+    Mention,
     NounPhrase,
     Perhaps,
     Pick,
     Pronoun,
     PutBack,
     PutDown,
+    Quantity,
     Reference,
     Restriction,
     Several,
     Step,
     Teach,
+    Wanted,
 )
 from majordomo.planner.grounding import Ambiguous, Context, Grounding, NoReferent
 from majordomo.planner.meant import Meant
@@ -73,8 +76,15 @@ class Meaning:
             return _clearest([outcome for outcome in outcomes if not isinstance(outcome, Meant)])
         news = [m for m in meant if not m.goals or not all(holds(goal, self._state) for goal in m.goals)] or meant
         distinct = list({(m.goals, m.lessons): m for m in reversed(news)}.values())[::-1]
+        distinct = [m for m in distinct if self._can_be_carried(m)] or distinct
         strongest = [m for m in distinct if not any(self._follows(m, other) for other in distinct if other is not m)]
         return strongest[0] if len(strongest) == 1 else self._either(strongest or distinct)
+
+    def _can_be_carried(self, meant: Meant) -> bool:
+        """Whether nothing is to be moved that stands where it stands, such as a counter."""
+        things = self._state.world.things
+        moved = [goal.object_id for goal in meant.goals if goal.object_id is not None]
+        return all(i not in things or things[i].graspable for i in moved)
 
     def _follows(self, weak: Meant, strong: Meant) -> bool:
         """Whether goals like *in the kitchen* follow from goals like *on the table*, which stands in the kitchen."""
@@ -105,9 +115,8 @@ class Meaning:
                 return self._put_down(step, context)
             case PutBack():
                 return self._put_back(step, context)
-            case Perhaps():
-                outcome = self._carry(step.step, context)
-                return replace(outcome, doubt=True) if isinstance(outcome, Meant) else outcome
+            case Perhaps() | Wanted() | Mention():
+                return self._said(step, context)
             case Teach():
                 return self._teaching.of(step, context)
             case Ask():
@@ -116,19 +125,65 @@ class Meaning:
                     return answer
                 return Meant(answer=answer.text, query=answer.query, things=answer.query.nodes[:MAX_MENTIONED])
 
+    def _said(self, step: Perhaps | Wanted | Mention, context: Context) -> Outcome:
+        """What is asked for without a verb, or only told."""
+        match step:
+            case Perhaps():
+                return self._perhaps(step, context)
+            case Wanted():
+                return self._wanted(step, context)
+            case Mention():
+                return self._mention(step, context)
+
+    def _perhaps(self, step: Perhaps, context: Context) -> Outcome:
+        outcome = self._carry(step.step, context)
+        if not isinstance(outcome, Meant) or step.sure:
+            return outcome
+        is_so = all(holds(goal, self._state) for goal in outcome.goals)
+        return replace(outcome, doubt=is_so or not step.verbless)
+
+    def _wanted(self, step: Wanted, context: Context) -> Outcome:
+        """A place is gone to, a thing is brought; which it is, is asked, unless it was said with a *please*."""
+        if isinstance(step.thing, NounPhrase) and not self._grounding.matches(step.thing, context):
+            unknown = self._grounding.nothing(step.thing, context).reason
+            return NoReferent(reason=f"I do not understand that. {unknown}", unknown=True, asks=True)
+        matched = self._grounding.matches(step.thing, context) if isinstance(step.thing, NounPhrase) else ()
+        things = self._state.world.things
+        carried = any(i in things and things[i].graspable for i in matched)
+        me = Destination(relation="to", reference=Pronoun(word="me"))
+        deed = Carry(things=(step.thing,), destination=me) if carried else Go(target=step.thing)
+        outcome = self._step(deed, context)
+        return replace(outcome, doubt=True) if isinstance(outcome, Meant) else outcome
+
+    def _mention(self, step: Mention, context: Context) -> Outcome:
+        """What was told must be so; *a mug* is the one mug there, or a question."""
+        thing = step.thing
+        if isinstance(thing, NounPhrase) and thing.quantity is Quantity.A:
+            thing = replace(thing, quantity=Quantity.THE, count=None)
+        found = self._grounding.things(thing, context)
+        if not isinstance(found, tuple):
+            return found
+        return Meant(things=found, noun=noun_of((thing,), context), told=True)
+
     def _carry(self, step: Carry, context: Context) -> Outcome:
         if step.destination is not None and step.destination.relation not in ("to", "in", "on", "near"):
             relation = step.destination.relation
-            return NoReferent(reason=f"I can put things on, in or next to something, not “{relation}” it.")
+            spot = relation if relation.endswith("floor") else f"“{relation}” it"
+            return NoReferent(reason=f"I can put things on, in or next to something, not {spot}.")
         if step.destination is None:
-            things = self._gathering.all_of(step.things, context)
+            things = self._gathering.to_carry(step.things, context)
             if not isinstance(things, tuple):
                 return things
+            if not any(i in self._state.world.things and self._state.world.things[i].graspable for i in things):
+                return NoReferent(
+                    reason=f"I cannot carry {name_of(things[0], self._snapshot)}: it is no object for my hand."
+                )
             names = " and ".join(name_of(i, self._snapshot) for i in things)
             return Ambiguous(question=f"Where should I {step.verb} {names}?", phrase="destination", candidates=())
-        place = self._destination(step.destination, step.things, context)
+        place = self._destination(step.destination, step.things, self._with_said(step.things, context))
         if not isinstance(place, str):
-            return place
+            unmet = self._gathering.to_carry(step.things, context)
+            return unmet if isinstance(unmet, NoReferent) else place
         predicate = self.predicate(step.destination.relation, place)
         room = self._state.room_of(place)
         here = in_room(self._snapshot, room) if room is not None else ()
@@ -145,6 +200,15 @@ class Meaning:
         origins = {i: origin for i in things if (origin := self._grounding.origin(i)) is not None}
         return Meant(goals=goals, implied=step.implied, things=things, places=(place,), noun=noun, origins=origins)
 
+    def _with_said(self, references: tuple[Reference, ...], context: Context) -> Context:
+        """What *there* and *the other one* lean on in a destination: the things, and the places that tell them."""
+        phrases = [r for r in references if isinstance(r, NounPhrase)]
+        told = [x for phrase in phrases for x in phrase.restrictions]
+        places = [found for x in told if len(found := self._grounding.targets(x, context)) == 1]
+        things = [found for phrase in phrases if len(found := self._grounding.matches(phrase, context)) == 1]
+        said = tuple(i for found in (*things, *places) for i in found)
+        return replace(context, mentioned=(*said, *context.mentioned)) if said else context
+
     def _several(self, step: Several, context: Context) -> Outcome:
         goals: tuple[Goal, ...] = ()
         things: tuple[str, ...] = ()
@@ -157,10 +221,11 @@ class Meaning:
             mentioned = (*outcome.things, *outcome.places, *context.mentioned)
             context = replace(context, mentioned=mentioned, noun=outcome.noun or context.noun)
         origins = {i: place for i in things if (place := self._grounding.origin(i)) is not None}
-        return Meant(goals=goals, things=things, places=places, noun=context.noun, origins=origins)
+        doubt = step.verbless and all(holds(goal, self._state) for goal in goals)
+        return Meant(goals=goals, things=things, places=places, noun=context.noun, origins=origins, doubt=doubt)
 
     def _put_back(self, step: PutBack, context: Context) -> Outcome:
-        things = self._gathering.to_carry(step.things, context)
+        things = self._moved_before(self._gathering.to_carry(step.things, context), context)
         if not isinstance(things, tuple):
             return things
         unknown = next((i for i in things if i not in context.origins), None)
@@ -173,6 +238,13 @@ class Meaning:
             for i, place in zip(things, places, strict=True)
         )
         return Meant(goals=goals, things=things, places=places)
+
+    def _moved_before(self, found: tuple[str, ...] | Trouble, context: Context) -> tuple[str, ...] | Trouble:
+        """Of several that are asked about, the one that was moved is what is put back."""
+        if not isinstance(found, Ambiguous):
+            return found
+        moved = tuple(i for i in found.candidates if i in context.origins)
+        return moved if len(moved) == 1 else found
 
     def _destination(self, destination: Destination, things: tuple[Reference, ...], context: Context) -> str | Trouble:
         """One place; *it* is never the thing that is carried."""

@@ -14,7 +14,8 @@ from majordomo.skills.state import PlanState
 class Meant:
     """What one step means: goals, or the answer to a question; and what it mentioned.
 
-    ``doubt``: it was not said as a request, and is asked about first. ``origins``: where its things were before.
+    ``doubt``: it was not said as a request, and is asked about first. ``told``: it is only what the next step is
+    about. ``origins``: where its things were before.
     """
 
     goals: tuple[Goal, ...] = ()
@@ -26,6 +27,7 @@ class Meant:
     focus: str | None = None
     noun: str = ""
     doubt: bool = False
+    told: bool = False
     lessons: tuple[Lesson, ...] = ()
     origins: Mapping[str, str] = field(default_factory=dict)
 
@@ -49,6 +51,7 @@ def without_steps_between(meanings: list[Meant], state: PlanState) -> tuple[Goal
         refined = goal.predicate is Predicate.IN and any(
             state.room_of(other.args[-1]) == goal.args[-1] for other in later
         )
-        if not later or not (implied or refined):
+        again = any((other.predicate, other.args) == (goal.predicate, goal.args) for other in later)
+        if not again and (not later or not (implied or refined)):
             kept.append(goal)
     return tuple(kept)

@@ -8,11 +8,20 @@ from math import hypot, inf, prod
 from typing import TYPE_CHECKING
 
 from majordomo.planner.goals import gap_m
-from majordomo.planner.grammar.syntax import NounPhrase, Reference, Restriction
+from majordomo.planner.grammar.syntax import NounPhrase, Pronoun, Reference, Restriction
 from majordomo.planner.naming import name_of
 from majordomo.planner.spatial import VIEWED, is_between, is_in_view, is_related, leftwards_m, relation_name
 from majordomo.scene_graph.identifiers import natural_key
-from majordomo.scene_graph.nodes import DoorNode, DoorState, ObjectNode, RegionNode, RoomNode
+from majordomo.scene_graph.nodes import (
+    ROBOT_ID,
+    DoorNode,
+    DoorState,
+    ObjectNode,
+    ObjectState,
+    PersonNode,
+    RegionNode,
+    RoomNode,
+)
 from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.skills.state import PlanState
 
@@ -81,22 +90,14 @@ class Narrowing:
         relation, reference = restriction.relation, restriction.reference
         if isinstance(reference, NounPhrase) and reference.head in BUILDING:
             return candidates
-        if relation == "color":
-            return [i for i in candidates if self._has_color(i, restriction.word)]
-        if relation == "state":
-            return [i for i in candidates if self._is_state(i, restriction.word)]
-        if relation == "held":
-            return [i for i in candidates if i == self._state.holding]
-        if relation in ("here", "there"):
-            room = (
-                self._snapshot.current_room
-                if relation == "here"
-                else next(iter(context.places), self._snapshot.current_room)
-            )
-            return [i for i in candidates if room is not None and self.is_at(i, room)]
+        told = self._of_themselves(candidates, restriction, context)
+        if told is not None:
+            return told
         targets = self.targets(restriction, context)
-        if relation in ("nearest", "of person"):
-            return (self._closest if relation == "nearest" else self._owned)(candidates, targets)
+        if relation in ("nearest", "farthest"):
+            return self._closest(candidates, targets, farthest=relation == "farthest")
+        if relation in ("of", "of person"):
+            return self._of(candidates, targets, restriction)
         if relation == "near" and any(isinstance(self._snapshot.get(i), RoomNode) for i in candidates):
             doors = [set(door.rooms) for door in self._state.world.doors]
             return [i for i in candidates if any({i, target} in doors for target in targets)]
@@ -110,15 +111,68 @@ class Narrowing:
         if relation == "same room":
             rooms = {self._state.room_of(target) for target in targets}
             return [i for i in candidates if self._state.room_of(i) in rooms and i not in targets]
-        if relation in ("on", "in", "from", "at", "to", "of", "into", "out of"):
+        if relation in ("on", "in", "from", "at", "to", "into", "out of"):
+            if restriction.other is not None:
+                targets += self.targets(replace(restriction, reference=restriction.other, other=None), context)
             return [i for i in candidates if any(self.is_at(i, target) for target in targets if target != i)]
         return [i for i in candidates if any(is_related(i, relation, target, self._snapshot) for target in targets)]
+
+    def _of_themselves(self, candidates: list[str], restriction: Restriction, context: Context) -> list[str] | None:
+        """What is told without a second thing: color, state, *on the floor*, *the red one*, *here*; None of others."""
+        here = self._snapshot.current_room
+        match restriction.relation:
+            case "color":
+                return [i for i in candidates if self._has_color(i, restriction.word)]
+            case "state":
+                return [i for i in candidates if self._is_state(i, restriction.word)]
+            case "floor":
+                return [i for i in candidates if self._snapshot.support_of(i) is None]
+            case "is" | "kind":
+                return [i for i in candidates if i in self._alike(candidates, restriction)]
+            case "held":
+                return [i for i in candidates if i == self._state.holding]
+            case "here":
+                return [i for i in candidates if here is not None and self.is_at(i, here)]
+            case "there":
+                return self._there(candidates, context)
+            case _:
+                return None
 
     def _is_between(self, node_id: str, one: str, other: str) -> bool:
         node = self._snapshot.get(node_id)
         if isinstance(node, DoorNode):
             return {one, other} <= set(node.rooms)
         return is_between(node_id, one, other, self._snapshot)
+
+    def _alike(self, candidates: list[str], restriction: Restriction) -> tuple[str, ...]:
+        """Those of ``candidates`` that *are the red one*, or *look like a tool*."""
+        phrase = restriction.reference
+        if not isinstance(phrase, NounPhrase):
+            return ()
+        if restriction.relation == "is":
+            return self._grounding.among(candidates, phrase)
+        alike = self._grounding.matches(phrase, self._grounding.nowhere)
+        return tuple(i for i in candidates if i in alike)
+
+    def _there(self, candidates: list[str], context: Context) -> list[str]:
+        """Those in the room spoken of last in which there are any."""
+        spoken = (*context.places, *context.fresh, *context.mentioned)
+        rooms = [room for i in spoken if (room := self._state.room_of(i)) is not None]
+        for room in (*rooms, self._snapshot.current_room):
+            found = [i for i in candidates if room is not None and self.is_at(i, room)]
+            if found:
+                return found
+        return []
+
+    def _of(self, candidates: list[str], targets: tuple[str, ...], restriction: Restriction) -> list[str]:
+        """*the desk of Anna*, *the pharmacy's counter*, *the bowl of fruit*."""
+        if not targets and isinstance(restriction.reference, Pronoun):
+            return candidates
+        people = tuple(i for i in targets if isinstance(self._snapshot.get(i), PersonNode))
+        if people:
+            return self._owned(candidates, people)
+        there = [i for i in candidates if any(self.is_at(i, target) for target in targets if target != i)]
+        return there or [i for i in candidates if any(self.is_at(target, i) for target in targets if target != i)]
 
     def _owned(self, found: list[str], owners: tuple[str, ...]) -> list[str]:
         """*Anna's mug*: the only one there is, else what is where Anna is; her room is the one she is in."""
@@ -129,6 +183,8 @@ class Narrowing:
 
     def _is_state(self, node_id: str, word: str) -> bool:
         node = self._snapshot.get(node_id)
+        if word in ("lost", "missing", "gone"):
+            return isinstance(node, ObjectNode) and node.state is ObjectState.MISSING
         if isinstance(node, RoomNode):
             doors = [d for d in self._snapshot.of_type(DoorNode) if node_id in d.rooms]
             return bool(doors) and any(d.state is not DoorState.CLOSED for d in doors) == (word == "open")
@@ -142,7 +198,11 @@ class Narrowing:
         if not isinstance(reference, NounPhrase):
             found = self._grounding.place(reference, context)
             return found if isinstance(found, tuple) else ()
-        return self._grounding.matches(reference, context, widely=False)
+        found = self._grounding.matches(reference, context, widely=False)
+        if reference.other:
+            spoken = {*context.fresh, *context.mentioned}
+            return tuple(i for i in found if i not in spoken) or found
+        return found
 
     def missing_reference(self, phrase: NounPhrase, context: Context) -> NoReferent | None:
         """When it is the place in a restriction that nobody knows, that is the news."""
@@ -186,7 +246,8 @@ class Narrowing:
             room = self._state.room_of(node_id)
             return room is not None and room in self._snapshot.rooms_in(place)
         if isinstance(self._snapshot.get(place), RoomNode):
-            return node_id != place and self._state.room_of(node_id) == place
+            here = self._state.robot_room if node_id == ROBOT_ID else self._state.room_of(node_id)
+            return node_id != place and here == place
         return place in list(self._chain(node_id))[1:]
 
     def _chain(self, node_id: str) -> Iterable[str]:
@@ -206,14 +267,18 @@ class Narrowing:
         return close or [i for i in found if gaps[i] <= LOOSELY_BESIDE_M]
 
     def _together(self, node_id: str, target: str) -> bool:
+        """Whether *next to* may be said of them: in one room, and neither carries the other."""
         if isinstance(self._snapshot.get(node_id), RoomNode):
+            return False
+        if target in list(self._chain(node_id)) or node_id in list(self._chain(target)):
             return False
         return node_id != target and self._state.room_of(node_id) == self._state.room_of(target)
 
-    def _closest(self, found: list[str], targets: tuple[str, ...]) -> list[str]:
+    def _closest(self, found: list[str], targets: tuple[str, ...], *, farthest: bool = False) -> list[str]:
         others = [(min((self._distance_m(i, t) for t in targets if t != i), default=inf), i) for i in found]
         reachable = [(distance_m, i) for distance_m, i in others if distance_m < inf]
-        return [min(reachable, key=lambda pair: (pair[0], natural_key(pair[1])))[1]] if reachable else []
+        sign = -1 if farthest else 1
+        return [min(reachable, key=lambda pair: (sign * pair[0], natural_key(pair[1])))[1]] if reachable else []
 
     def _sized(self, found: list[str], size: str) -> list[str]:
         """Of several, those clearly at that end of the sizes."""

@@ -36,7 +36,12 @@ def phrase_text(phrase: NounPhrase) -> str:
     if phrase.number is not None:
         words.append(str(phrase.number))
     for restriction in phrase.restrictions:
-        words += [*(["not"] if restriction.negated else []), restriction.word or restriction.relation]
+        if isinstance(restriction.reference, Pronoun) and restriction.relation == "of person":
+            continue
+        relation = {"of person": "of", "floor": "on the floor", "kind": "like", "is": ""}.get(
+            restriction.relation, restriction.relation
+        )
+        words += [word for word in ("not" if restriction.negated else "", restriction.word or relation) if word]
         for reference in (restriction.reference, restriction.other):
             words += [] if reference is None else ["and"] if reference is restriction.other else []
             words += [] if reference is None else [_reference_text(reference)]
@@ -85,11 +90,43 @@ def place_phrase(object_id: str, snapshot: Snapshot) -> str:
 
 
 def which_question(ask: str, text: str, candidates: Sequence[str], snapshot: Snapshot) -> str:
-    """A question that lists the candidates with their identifiers."""
-    options = [f"{describe(i, snapshot)} ({i})" for i in candidates[:MAX_LISTED]]
+    """A question that lists the candidates as a person would tell them apart; they can be answered by number, too."""
+    options = _told_apart(candidates[:MAX_LISTED], snapshot)
     more = f", or one of {len(candidates) - MAX_LISTED} more" if len(candidates) > MAX_LISTED else ""
     lead = f"“{text}” could be several things. " if text != "you" else ""
     return f"{lead}{ask}: {_ored(options)}{more}?"
+
+
+def _told_apart(candidates: Sequence[str], snapshot: Snapshot) -> list[str]:
+    """Descriptions, with what is beside them where two are alike, and a count where that is alike as well."""
+    told = [describe(i, snapshot) for i in candidates]
+    told = [
+        _with_company(i, text, snapshot) if told.count(text) > 1 else text
+        for i, text in zip(candidates, told, strict=True)
+    ]
+    alike = {text for text in told if told.count(text) > 1}
+    return [f"{text} (number {k})" if text in alike else text for k, text in enumerate(told, 1)]
+
+
+def _with_company(node_id: str, text: str, snapshot: Snapshot) -> str:
+    """A room by a person or a piece of furniture in it, a thing by what stands on it."""
+    node = snapshot.get(node_id)
+    if isinstance(node, RoomNode):
+        there = [other for other in nodes_of(snapshot) if snapshot.room_of(other.id) == node_id]
+        people = [other.name for other in there if isinstance(other, PersonNode) and other.name]
+        objects = [_bare(other) for other in there if isinstance(other, ObjectNode) and not other.graspable]
+        marks = people or objects
+    else:
+        marks = [
+            _bare(other)
+            for other in nodes_of(snapshot)
+            if isinstance(other, ObjectNode) and snapshot.support_of(other.id) == node_id
+        ]
+    return f"{text} with {marks[0]}" if marks else text
+
+
+def _bare(node: ObjectNode) -> str:
+    return node.name or f"the {node.color} {node.label}".replace("  ", " ").replace("_", " ")
 
 
 def alternatives(phrase: NounPhrase, same: Sequence[str], snapshot: Snapshot) -> str:

@@ -153,7 +153,7 @@ class Reports:
 def _told(kind: QueryKind, earlier: tuple[Exchange, ...]) -> str:
     if kind is QueryKind.DOING:
         busy = [e for e in earlier if e.status in ("running", "paused", "planning", "queued")]
-        return " ".join(map(_sentence, busy[:1])) or "I am waiting for your request."
+        return " ".join(map(_sentence, busy[:1])) or "Nothing right now: I am waiting for your request."
     if kind is QueryKind.FAILURE:
         failed = [e for e in earlier if e.status in ("failed", "refused", "cancelled")]
         return _sentence(failed[0]) if failed else "I have not failed at anything that I remember."

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 
 from majordomo.planner.goals import PLACING, Goal, Predicate
 from majordomo.planner.grammar.syntax import Carry, NounPhrase, Pronoun, Step
+from majordomo.planner.grammar.words import NUMBERS
 from majordomo.planner.grounding import Context, Grounding
 from majordomo.planner.matching import named
 from majordomo.planner.meaning import Meaning, Outcome
@@ -21,24 +22,28 @@ _TRAILING = re.compile(r"[\s,]+(?:instead|please|rather|i mean|i meant)[\s.!]*$"
 _LED = re.compile(rf"^{_COURTESY}")
 _NO = re.compile(
     rf"^{_COURTESY}(?:no+|nope|not (?:that|this)(?: one)?"
-    r"|not (?:to|on|in|into|onto|at) [\w ]+?(?=[,;.])"
+    r"|not (?:to|on|in|into|onto|at) [\w ]+?(?=[,;.])|not \w+(?: ones?)?(?=[,;.] )"
     r"|instead of [\w ]+?(?:,|(?= (?:take|bring|give|put|use|the)\b))"
     r"(?:\s*(?:take|bring|give|put|use)\b(?: me| him| her)?)?|wrong(?: (?!is\b)\w+)?|that(?: is|'s) wrong|not "
     r"the \w+(?: one)?)\b"
     r"[\s,.!;:-]*(?:sorry[\s,]*)?(?:(?:i|we) (?:meant|mean|said|wanted|want)\b(?: to say)?[\s,]*)?(?P<rest>.*)$"
 )
 _REPAIR = re.compile(
-    r"^(?P<said>.+?)(?:[\s,.;:!…-]+(?:i mean(?:t)?(?: to say)?|no,? (?:sorry|wait)|(?:sorry|wait),? no|scratch "
+    r"^(?P<said>.+?)(?:[\s,.;:!…-]+(?:forget (?:it|that)|on second thoughts?|come to think of it"
+    r"|i mean(?:t)?(?: to say)?|no,? (?:sorry|wait)|(?:sorry|wait),? no|scratch "
     r"that|or rather|make that"
-    r"|no,? i mean(?:t)?|correction)\b|\s*(?:[,.;:!…]+|\s-)\s*(?:no|sorry|actually|rather|wait|oops|make it|not "
+    r"|no,? i mean(?:t)?|correction)\b|\s*(?:[,.;:!…]+|\s[-–—])\s*(?:(?:oh|ah|oops|uh|um|er+"
+    r"|hm+)\b[\s,]*)?(?:err?|erm|uh+|um+|oops|no|sorry|actually|rather|wait|oops|make it|not "
     r"that"
     r"|well|hang on|hold on)\b(?!\s+(?:matter|problem|rush|hurry|one|longer)))+[\s,.;:!…-]*(?P<rest>.+)$"
 )
 _RESUMED = re.compile(r"^(?P<said>.+?)\s*(?:\.\.\.+|…)\s*(?P<rest>(?:the|a|an|to|on|in|my|just)\b.+)$")
 _NOT_THAT = re.compile(r"^(?:not|wasn't|isn't) (?:the |a |to )?[\w ]{1,30}?(?:[,;.]+| but) *")
 _MEANT = re.compile(
-    rf"^{_COURTESY}(?:actually|rather|make (?:it|that)"
-    r"|(?:change|switch|correct) (?:it|that|this) to|(?:i|we) (?:meant|mean|said)(?: to say)?|better)[\s,]+"
+    rf"^{_COURTESY}(?:actually|rather|make (?:it|that)|(?:i (?:have )?)?changed my mind"
+    rf"|on second thoughts?|come to think of it"
+    r"|(?:that is|that's|this is) not what i (?:meant|wanted|said|asked for)|my mistake|my bad|i misspoke|correction"
+    r"|(?:change|switch|correct) (?:it|that|this) to|(?:i|we) (?:meant|mean|said)(?: to say)?|better)[\s,.:;!]+"
     r"(?P<rest>.+)$"
 )
 _SORRY = re.compile(
@@ -64,6 +69,8 @@ _TOO = re.compile(
 MAX_REPLACED = 5
 _WHERE = frozenset({"to", "on", "onto", "in", "into", "at", "under", "beside", "near", "next", "by", "for"})
 """Words that a remark may stand for."""
+_DETERMINERS = frozenset({"the", "a", "an", "my", "our", "your", "his", "her", "their", "this", "that", "these",
+                          "those", "all", "both", "every", "each", "some", "any", "another"})  # fmt: skip
 MAX_CHARACTERS = 200
 """Remarks are short."""
 
@@ -86,7 +93,7 @@ def revision(text: str) -> Revision | None:
     for pattern in (_INSTEAD, _NO, _MEANT, _SORRY, _NOT):
         found = pattern.match(said)
         if found and found["rest"].strip(" .!?"):
-            rest = _TRAILING.sub("", _LED.sub("", found["rest"]))
+            rest = _NOT_THAT.sub("", _TRAILING.sub("", _LED.sub("", found["rest"])))
             return Revision(how="correct", rest=rest.strip(" .!?"))
     found = _TOO.match(said)
     if found:
@@ -100,7 +107,7 @@ def repair(text: str) -> tuple[str, str] | None:
     found = _REPAIR.match(said) or _RESUMED.match(said) if len(said) <= MAX_CHARACTERS else None
     if found is None:
         return None
-    rest = _NOT_THAT.sub("", found["rest"]).strip(" .!?,")
+    rest = _NOT_THAT.sub("", _TRAILING.sub("", found["rest"])).strip(" .!?,")
     return (found["said"].strip(" .,;:-"), rest) if rest else None
 
 
@@ -112,10 +119,20 @@ def is_place(rest: str) -> bool:
 def restated(said: str, rest: str) -> Iterator[str]:
     """``said`` with its last words replaced by ``rest``, the fewest first; *just* begins anew."""
     words = said.split()
-    if " and " in said or " then " in said:
+    if rest in NUMBERS or rest.isdecimal():
+        yield " ".join(rest if word in NUMBERS or word.isdecimal() else word for word in words)
+    if re.search(r" and (?!nothing else)", said) or " then " in said:
         return
     for kept in range(len(words) - 1, max(len(words) - MAX_REPLACED - 1, 0), -1):
-        yield " ".join([*words[:kept], rest])
+        if _sort_of(words[kept]) == _sort_of(rest.split(maxsplit=1)[0]):
+            yield " ".join([*words[:kept], rest])
+
+
+def _sort_of(word: str) -> str:
+    """What a phrase is that begins with ``word``: only a place takes the place of a place, a thing of a thing."""
+    if word in _WHERE:
+        return "place"
+    return "thing" if word in _DETERMINERS or word in NUMBERS or word.isdecimal() else "word"
 
 
 class Reviser:

@@ -13,7 +13,34 @@ from majordomo.scene_graph.snapshot import Snapshot
 
 _ORDINALS = {"first": 0, "1": 0, "second": 1, "2": 1, "third": 2, "3": 2, "fourth": 3, "4": 3, "fifth": 4, "5": 4}
 _ALL = {"all", "both", "all of them", "both of them", "everything", "every one"}
-_ANY = {"any", "any of them", "either", "whichever", "does not matter", "it does not matter", "any one", "you choose"}
+_ANY = {
+    "any",
+    "any of them",
+    "either",
+    "whichever",
+    "does not matter",
+    "it does not matter",
+    "any one",
+    "you choose",
+    "either one",
+    "either of them",
+    "either will do",
+    "any will do",
+    "whichever one",
+    "whatever",
+    "whatever one",
+    "i do not care",
+    "i do not mind",
+    "do not care",
+    "do not mind",
+    "no preference",
+    "you pick",
+    "you decide",
+    "surprise me",
+    "any one of them",
+    "one of them",
+    "it makes no difference",
+}
 _DROPPED = frozenset({"please", "the", "one", "number", "take", "i", "mean", "meant", "bring", "option", "a", "an"})
 _YES = {"yes", "yeah", "yep", "sure", "ok", "okay", "right", "correct", "exactly", "yes please", "please do", "do it",
         "that is right", "yes do it", "go ahead", "of course", "indeed", "yes that is right", "i did",

@@ -114,7 +114,7 @@ class TaskPlanner:
         self, text: str, answer: str, choices: Choices, snapshot: Snapshot, *, was_parsed: bool
     ) -> tuple[str, Choices]:
         """An answer that is a whole request takes the old one's place; one that says nothing leaves it open."""
-        parsed = self._interpreter.read(answer, snapshot, Dialogue(), {})
+        parsed = self._interpreter.read(answer, snapshot, Dialogue(), {}, verbless=False)
         return (answer, {}) if parsed.wholly or not was_parsed else (text, choices)
 
     def _answered(

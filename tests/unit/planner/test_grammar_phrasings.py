@@ -287,7 +287,7 @@ def test_what_has_several_meanings_or_none_is_asked_about(text, candidates):
     found = read(text)
     assert (found.kind, found.goals) == (Kind.CLARIFY, ())
     assert found.candidates == tuple(candidates.split())
-    assert all(candidate in found.reply for candidate in found.candidates)
+    assert not any(candidate in found.reply for candidate in found.candidates)
 
 
 @pytest.mark.parametrize(("text", "reason"), REFUSED)

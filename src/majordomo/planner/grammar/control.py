@@ -27,11 +27,40 @@ _PHRASES: dict[Control, tuple[str, ...]] = {
                     "hold it", "wait there", "wait here", "just a moment", "just a second"),
     Control.RESUME: ("resume", "go on", "continue", "carry on", "proceed", "keep going", "you can go on", "go ahead",
                      "you may continue", "you can continue", "unpause"),
-    Control.CANCEL: ("cancel", "abort", "never mind", "nevermind", "forget it", "cancel that", "cancel it", "abort it",
-                     "cancel the task", "abort the task", "leave it", "cancel this", "forget about it", "drop it"),
+    Control.CANCEL: ("cancel", "abort", "never mind", "nevermind", "forget it", "cancel that", "cancel it",
+        "abort it",
+                     "cancel the task", "abort the task", "leave it", "cancel the job", "cancel the order",
+                     "cancel the request", "cancel the mission", "cancel my request",
+                     "cancel everything", "cancel all", "cancel my last request", "abort the mission",
+                     "abort mission",
+                     "scratch that", "call it off", "leave it be", "cancel this", "forget about it", "drop it"),
 }  # fmt: skip
-_COURTESY = frozenset({"please", "robot", "majordomo", "butler", "now", "ok", "okay", "hey", "no", "oh", "immediately"})
-_VAGUE = frozenset({"right", "a", "second", "moment", "minute", "sec", "just", "for", "at", "once", "bit", "everything",
+_COURTESY = frozenset(
+    {
+        "please",
+        "robot",
+        "whoa",
+        "woah",
+        "yo",
+        "quick",
+        "quickly",
+        "sorry",
+        "you",
+        "can",
+        "could",
+        "majordomo",
+        "butler",
+        "now",
+        "ok",
+        "okay",
+        "hey",
+        "no",
+        "oh",
+        "immediately",
+    }
+)
+_VAGUE = frozenset({"right", "a", "second", "moment", "minute", "sec", "just", "for", "at", "once", "bit",
+    "everything",
                     "thanks", "then", "so", "well"})  # fmt: skip
 """Adds nothing after a control word, as in *hold on a second*."""
 _MEANING = {phrase: control for control, phrases in _PHRASES.items() for phrase in phrases}
@@ -46,12 +75,13 @@ def control_word(text: str) -> Control | None:
     if len(text) > MAX_CHARACTERS:
         return None
     words = [word.text for word in words_of(text) if word.kind == "word" and word.text not in _COURTESY]
-    return _repeated(words) or _repeated([word for word in words if word not in _VAGUE])
+    return _one_control(words) or _one_control([word for word in words if word not in _VAGUE])
 
 
-def _repeated(words: list[str]) -> Control | None:
-    for length in range(1, len(words) + 1):
+def _one_control(words: list[str]) -> Control | None:
+    """The control that every part of ``words`` stands for: *stop, stop*, or *drop it, cancel the job*."""
+    for length in range(len(words), 0, -1):
         control = _MEANING.get(" ".join(words[:length]))
-        if control is not None and words == (words[:length] * len(words))[: len(words)] and len(words) % length == 0:
+        if control is not None and (length == len(words) or _one_control(words[length:]) is control):
             return control
     return None

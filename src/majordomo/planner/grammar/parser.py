@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, lru_cache
 from importlib import resources
 from typing import Any
 
@@ -12,12 +12,14 @@ from lark import Lark, Token, Tree, UnexpectedInput
 from lark.lexer import Lexer
 from lark.visitors import CollapseAmbiguities
 
-from majordomo.planner.grammar.lexer import ACTING, Lexicon, Terminal, asks, clauses, sentences, typed
+from majordomo.planner.grammar.lexer import asks, clauses, sentences, typed
+from majordomo.planner.grammar.lexicon import Lexicon
 from majordomo.planner.grammar.lookahead import LookaheadParser
 from majordomo.planner.grammar.phrases import is_sensible
 from majordomo.planner.grammar.reading import Reader
 from majordomo.planner.grammar.sentences import Clause, Forbidden, Fork, Part, Structure, Unclear
 from majordomo.planner.grammar.syntax import Ask, Carry, NounPhrase, Step
+from majordomo.planner.grammar.terminals import ACTING, Terminal
 
 MAX_STEPS = 20
 MAX_STEP_TOKENS = 60
@@ -120,7 +122,7 @@ class CommandGrammar:
         found = sentences(text, lexicon)
         if len(found) != 1 or len(found[0]) > MAX_STEP_TOKENS:
             return ()
-        readings = _readings("np", found[0])
+        readings = _readings("referred", found[0])
         return tuple(reading for reading in readings if isinstance(reading, NounPhrase))
 
 
@@ -157,7 +159,7 @@ def _step(step: Sequence[Terminal]) -> ParsedStep:
     strange = next((token for token in step if token.type in ("MEANING", "JUNK", "PAST")), None)
     if strange is not None:
         return NotUnderstood(text=text, at=strange.typed)
-    readings = tuple(_readings("question" if asks(step) else "command", step))
+    readings = tuple(_readings("question" if asks(step) else "command", step)) or tuple(_readings("narrated", step))
     if step[0].typed in _SOFT and not any(_is_settled(reading) for reading in readings):
         return Unable(text=text, verb=step[0].typed)
     if readings:
@@ -177,13 +179,18 @@ def _lark() -> LookaheadParser:
         parser="earley",
         lexer=_TokenStream,
         ambiguity="explicit",
-        start=["command", "deed", "question", "condition", "np"],
+        start=["command", "deed", "question", "condition", "referred", "narrated"],
         maybe_placeholders=False,
     )
     return LookaheadParser(lark)
 
 
 def _forest(start: str, step: Sequence[Terminal]) -> Tree[Token] | None:
+    return _parse(start, tuple(step))
+
+
+@lru_cache(maxsize=512)
+def _parse(start: str, step: tuple[Terminal, ...]) -> Tree[Token] | None:
     tokens = tuple(Token(terminal.type, terminal.value) for terminal in step)
     try:
         return _lark().parse(tokens, start)
@@ -199,16 +206,22 @@ def _parses(start: str, tokens: Sequence[Terminal]) -> bool:
 
 
 def _readings(start: str, step: Sequence[Terminal]) -> list[Any]:
+    return list(_read(start, tuple(step)))
+
+
+@lru_cache(maxsize=512)
+def _read(start: str, step: tuple[Terminal, ...]) -> tuple[Any, ...]:
+    """The readings of terminals: the same words are read once, whatever the graph."""
     forest = _forest(start, step)
     if forest is None:
-        return []
+        return ()
     trees = CollapseAmbiguities().transform(forest)
     found: list[Any] = []
     for tree in trees[:MAX_READINGS]:
         reading = Reader().transform(tree)
         if reading not in found and _sensible(reading):
             found.append(reading)
-    return found
+    return tuple(found)
 
 
 def _sensible(value: Any) -> bool:

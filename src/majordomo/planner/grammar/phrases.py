@@ -8,7 +8,7 @@ from typing import Any
 from lark import Token, Transformer
 
 from majordomo.planner.grammar.syntax import NounPhrase, Pronoun, Quantity, Reference, Restriction, Spot
-from majordomo.planner.vocabulary import is_plural
+from majordomo.planner.vocabulary import is_plural, singular
 
 Children = list[Any]
 _SIZE = {"BIG": "big", "SMALL": "small"}
@@ -63,6 +63,13 @@ class PhraseReader(Transformer[Token, Any]):
     def the(self, _: Children) -> dict[str, Any]:
         return {"quantity": Quantity.THE}
 
+    def his(self, _: Children) -> dict[str, Any]:
+        whose = Restriction(relation="of person", reference=Pronoun(word="him"))
+        return {"quantity": Quantity.THE, "restrictions": (whose,)}
+
+    def all_owned(self, children: Children) -> dict[str, Any]:
+        return {**self.owned([child for child in children if child.type == "POSSESSIVE"]), "quantity": Quantity.ALL}
+
     def a(self, _: Children) -> dict[str, Any]:
         return {"quantity": Quantity.A, "count": 1}
 
@@ -70,9 +77,9 @@ class PhraseReader(Transformer[Token, Any]):
         return {"quantity": Quantity.THIS}
 
     def owned(self, children: Children) -> dict[str, Any]:
-        owner = str(children[0]).removesuffix("'s").removesuffix("'")
-        reference = NounPhrase(words=tuple(owner.split()), quantity=Quantity.THE, person=True)
-        return {"quantity": Quantity.THE, "restrictions": (Restriction(relation="of person", reference=reference),)}
+        owner = str(children[-1]).removesuffix("'s").removesuffix("'")
+        reference = NounPhrase(words=tuple(owner.split()), quantity=Quantity.THE)
+        return {"quantity": Quantity.THE, "restrictions": (Restriction(relation="of", reference=reference),)}
 
     def all_of(self, _: Children) -> dict[str, Any]:
         return {"quantity": Quantity.ALL}
@@ -105,7 +112,10 @@ class PhraseReader(Transformer[Token, Any]):
 
     def modifier_either(self, children: Children) -> dict[str, Any]:
         colors = tuple(str(token) for token in children if token.type == "COLOR")
-        return {"colors": colors, "either": True}
+        return {"colors": colors, "either": True, **({} if _has(children, "NOR") else {"quantity": Quantity.ALL})}
+
+    def one_head(self, children: Children) -> dict[str, Any]:
+        return {"words": (str(children[0]),)}
 
     def head(self, children: Children) -> dict[str, Any]:
         numbers = [int(token) for token in children if token.type == "NUMBER"]
@@ -120,16 +130,36 @@ class PhraseReader(Transformer[Token, Any]):
         return phrase
 
     def headless(self, children: Children) -> NounPhrase:
-        token = children[-1]
-        if token.type in _SIZE:
-            return NounPhrase(words=("one",), quantity=Quantity.THE, sizes=(_SIZE[token.type],))
-        if any(child.type == "NOT" for child in children):
-            color = Restriction(relation="color", word=str(token), negated=True)
-            return NounPhrase(words=("one",), quantity=Quantity.THE, restrictions=(color,))
-        return NounPhrase(words=("one",), quantity=Quantity.THE, colors=(str(token),))
+        phrase = NounPhrase(words=("one",), quantity=Quantity.A if _has(children, "A") else Quantity.THE)
+        parts = values_of(children) or [{"other": True}]
+        for part in parts:
+            phrase = replace(phrase, **_merged(phrase, part))
+        lone_orange = phrase.colors == ("orange",) and len(parts) == 1  # the fruit, not the color
+        return replace(phrase, words=()) if lone_orange else phrase
 
     def whatever(self, children: Children) -> NounPhrase:
-        return NounPhrase(words=("things",), quantity=Quantity.THE, restrictions=tuple(values_of(children)))
+        phrase = NounPhrase(words=("things",), quantity=Quantity.THE)
+        parts = values_of(children)
+        if any(isinstance(part, dict) and "words" in part for part in parts):
+            phrase = replace(phrase, quantity=Quantity.ALL)
+        for part in parts:
+            phrase = replace(phrase, **_merged(phrase, part))
+        if _has(children, "AND"):
+            color = Restriction(relation="color", word=str(tokens_of(children)[-1]))
+            phrase = replace(phrase, restrictions=(*phrase.restrictions, color))
+        return phrase
+
+    def whichever(self, children: Children) -> NounPhrase:
+        """*whichever bedroom is nearest*."""
+        phrase = NounPhrase(words=(), quantity=Quantity.THE)
+        for part in values_of(children):
+            phrase = replace(phrase, **_merged(phrase, part))
+        return phrase
+
+    def apposed(self, children: Children) -> NounPhrase:
+        """*the cup, the red one*: one thing, said twice."""
+        first, *rest = apposed(*values_of(children))
+        return first if isinstance(first, NounPhrase) and not rest else NounPhrase(words=())
 
     def exception(self, children: Children) -> tuple[str, tuple[Reference, ...]]:
         return ("exceptions", tuple(values_of(children)))
@@ -167,6 +197,18 @@ class PhraseReader(Transformer[Token, Any]):
     def restricted_not(self, children: Children) -> Restriction:
         return replace(self.restriction(children), negated=True)
 
+    def restricted_nor(self, children: Children) -> dict[str, Any]:
+        """*that is not on the counter or in the box*."""
+        relations = [value for value in values_of(children) if isinstance(value, str)]
+        references = [value for value in values_of(children) if not isinstance(value, str)]
+        pairs = zip((relations[0], relations[-1]), references, strict=True)
+        return {"restrictions": tuple(Restriction(relation=r, reference=x, negated=True) for r, x in pairs)}
+
+    def restricted_and_color(self, children: Children) -> dict[str, Any]:
+        """*that is on the desk and red*."""
+        color = Restriction(relation="color", word=str(tokens_of(children)[-1]))
+        return {"restrictions": (self.restriction(children), color)}
+
     def restricted_color(self, children: Children) -> Restriction:
         token = next(child for child in children if child.type in ("COLOR", "ORANGE"))
         return Restriction(relation="color", word=str(token))
@@ -192,6 +234,31 @@ class PhraseReader(Transformer[Token, Any]):
     def restricted_held(self, _: Children) -> Restriction:
         return Restriction(relation="held")
 
+    def restricted_floor(self, _: Children) -> Restriction:
+        return Restriction(relation="floor")
+
+    def restricted_farthest(self, children: Children) -> Restriction:
+        return Restriction(relation="farthest", reference=values_of(children)[0])
+
+    def owner(self, children: Children) -> Reference:
+        return self.recipient(children)
+
+    def restricted_owned(self, children: Children) -> Restriction:
+        return Restriction(relation="of person", reference=values_of(children)[0])
+
+    def restricted_is(self, children: Children) -> Restriction:
+        return Restriction(relation="is", reference=values_of(children)[0])
+
+    def restricted_is_not(self, children: Children) -> Restriction:
+        return replace(self.restricted_is(children), negated=True)
+
+    def restricted_kind(self, children: Children) -> Restriction:
+        return Restriction(relation="kind", reference=values_of(children)[0])
+
+    def restricted_neither(self, children: Children) -> dict[str, Any]:
+        colors = [str(token) for token in tokens_of(children) if token.type in ("COLOR", "ORANGE")]
+        return {"restrictions": tuple(Restriction(relation="color", word=c, negated=True) for c in colors)}
+
     def restricted_nearest(self, children: Children) -> Restriction:
         return Restriction(relation="nearest", reference=values_of(children)[0])
 
@@ -210,7 +277,7 @@ class PhraseReader(Transformer[Token, Any]):
         if kinds[:1] == ["BOTH"] and isinstance(values[0], NounPhrase) and is_plural(values[0].head):
             return (NounPhrase(words=()),)
         if kinds == ["COMMA"] and len(values) == 2:
-            return _apposed(*values)
+            return apposed(*values) if _may_follow(*values) else (NounPhrase(words=()),)
         return tuple(values)
 
     def recipient(self, children: Children) -> Reference:
@@ -223,15 +290,41 @@ class PhraseReader(Transformer[Token, Any]):
         return NounPhrase(words=(str(children[0]),), quantity=Quantity.THE, person=True)
 
 
+_MASSES = frozenset(
+    {"fruit", "food", "cutlery", "laundry", "medicine", "stationery", "crockery", "silverware", "clothing"}
+)
+
+
+def generic(reference: Reference) -> Reference:
+    """*Cups go in the sink*, *medicine belongs in the cabinet*: said of the kind, it is meant for all of it."""
+    if not isinstance(reference, NounPhrase) or not reference.words or reference.number is not None:
+        return reference
+    mass = reference.words[-1] in _MASSES and reference.quantity is Quantity.THE
+    bare = reference.quantity is Quantity.BARE and (is_plural(reference.head) or reference.words[-1] in _MASSES)
+    return replace(reference, quantity=Quantity.ALL) if mass or bare else reference
+
+
+def _may_follow(first: Reference, second: Reference) -> bool:
+    """Whether *X, Y* without *and* may be a list: not *the nearest ball, any ball*, nor *cups in the sink, plates*."""
+    if not isinstance(first, NounPhrase) or not isinstance(second, NounPhrase) or second.words in _ONE:
+        return True
+    return not first.restrictions and singular(first.head) != singular(second.head)
+
+
+_ONE = (("one",), ("ones",))
+
+
 def _may_except(phrase: NounPhrase) -> bool:
     """Whether something can be left out of it: of *all cups* or *any cup*, not of *the box*."""
     several = phrase.quantity not in (Quantity.THE, Quantity.THIS, Quantity.BARE)
     return not phrase.exceptions or several or is_plural(phrase.words[-1])
 
 
-def _apposed(first: Reference, second: Reference) -> tuple[Reference, ...]:
+def apposed(first: Reference, second: Reference) -> tuple[Reference, ...]:
     """*The cup, the red one*: one thing, said twice."""
-    if not isinstance(first, NounPhrase) or not isinstance(second, NounPhrase) or second.words != ("one",):
+    if not isinstance(first, NounPhrase) or not isinstance(second, NounPhrase) or second.words not in _ONE:
+        return (first, second)
+    if (is_plural(first.words[-1]) if first.words else False) and second.words == ("one",):
         return (first, second)
     superlative, rank = second.superlative or first.superlative, second.rank or first.rank
     colors, sizes = (*first.colors, *second.colors), (*first.sizes, *second.sizes)
@@ -270,8 +363,6 @@ def is_sensible(phrase: NounPhrase) -> bool:
     """Whether number and noun agree: *both the cup* is not English, so such a reading is dropped."""
     if not phrase.words:
         return False
-    if phrase.either:
-        return is_plural(phrase.words[-1]) or phrase.words[-1] == "ones"
     if phrase.other and phrase.rank is not None:
         return False
     if phrase.quantity in (Quantity.BOTH, Quantity.EXACTLY) and (phrase.count or 0) > 1:

@@ -5,13 +5,14 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
-from majordomo.planner.grammar.phrases import ORDINALS, SUPERLATIVE, Children, PhraseReader, tokens_of, values_of
+from majordomo.planner.grammar.asking import QuestionReader
+from majordomo.planner.grammar.phrases import Children, apposed, generic, tokens_of, values_of
 from majordomo.planner.grammar.syntax import (
-    Ask,
     Carry,
     Destination,
     Find,
     Go,
+    Mention,
     NounPhrase,
     Perhaps,
     Pick,
@@ -25,15 +26,15 @@ from majordomo.planner.grammar.syntax import (
     Spot,
     Step,
     Teach,
+    Wanted,
 )
-from majordomo.planner.plan import QueryKind
 
 NONSENSE = NounPhrase(words=())
 """Stands where words would be dropped; no reading with it is kept."""
 
 
-class Reader(PhraseReader):
-    """One method a rule: how commands and questions are read."""
+class Reader(QuestionReader):
+    """One method a rule: how commands are read, and what is taught."""
 
     def dest_to(self, children: Children) -> Destination:
         return Destination(relation="to", reference=values_of(children)[0])
@@ -71,12 +72,58 @@ class Reader(PhraseReader):
         )
         return replace(deed, things=things) if things else Go(target=NONSENSE)
 
+    def with_more(self, children: Children) -> Step:
+        """*Put the milk on the counter, and the juice too.*"""
+        deed, more = values_of(children)
+        if not isinstance(deed, Carry) or deed.destination is None:
+            return Go(target=NONSENSE)
+        return replace(deed, things=(*deed.things, *more))
+
+    def with_favor(self, children: Children) -> Step:
+        """*Go to the kitchen for me.*"""
+        deed: Step = values_of(children)[0]
+        return deed
+
+    def with_choice(self, children: Children) -> Step:
+        """*Put the cup on the desk, the red one*: said of the thing."""
+        deed, choice = values_of(children)
+        things: tuple[Reference, ...] = getattr(deed, "things", ())
+        if len(things) != 1 or not isinstance(deed, Carry | Pick | Find):
+            return Go(target=NONSENSE)
+        one, *rest = apposed(things[0], choice)
+        return Go(target=NONSENSE) if rest else replace(deed, things=(one,))
+
+    def with_neither(self, children: Children) -> Step:
+        """*I want a folder on the table, neither blue nor red*: said of the thing."""
+        colors = [str(token) for token in tokens_of(children) if token.type in ("COLOR", "ORANGE")]
+        neither = tuple(Restriction(relation="color", word=color, negated=True) for color in colors)
+        choice = NounPhrase(words=("one",), restrictions=neither)
+        return self.with_choice([values_of(children)[0], choice])
+
+    def goes(self, children: Children) -> Perhaps:
+        return replace(self.statement(children), sure=True)
+
+    def dest_floor(self, _: Children) -> Destination:
+        return Destination(relation="on the floor", reference=Pronoun(word="here"))
+
+    def laid(self, children: Children) -> Perhaps:
+        things, destination = values_of(children)
+        every = tuple(map(generic, _as_things(things)))
+        return Perhaps(step=Carry(things=every, destination=destination), verbless=True)
+
+    def laid_to(self, children: Children) -> Perhaps:
+        return replace(self.laid(children), sure=True)
+
+    def wanted(self, children: Children) -> Wanted:
+        return Wanted(thing=values_of(children)[0])
+
     def statement(self, children: Children) -> Perhaps:
         things, destination = values_of(children)
-        return Perhaps(step=Carry(things=_as_things(things), destination=destination))
+        return Perhaps(step=Carry(things=tuple(map(generic, _as_things(things))), destination=destination))
 
     def wants(self, children: Children) -> Carry:
-        person = NounPhrase(words=(str(children[0]),), quantity=Quantity.THE, person=True)
+        named = next(token for token in tokens_of(children) if token.type in ("NAME", "PERSON", "HIM"))
+        person = self.recipient([named])
         destination = Destination(relation="to", reference=person)
         return Carry(things=values_of(children)[0], destination=destination, verb="bring")
 
@@ -86,6 +133,12 @@ class Reader(PhraseReader):
         recipient = next(value for value in values if not isinstance(value, tuple))
         return Carry(things=things, destination=Destination(relation="to", reference=recipient), verb=_verb(children))
 
+    def bring_named(self, children: Children) -> Carry:
+        """*Bring key Anna*, as typed in haste."""
+        person = NounPhrase(words=(str(tokens_of(children)[-1]),), quantity=Quantity.THE, person=True)
+        destination = Destination(relation="to", reference=person)
+        return Carry(things=_as_things(values_of(children)[0]), destination=destination, verb=_verb(children))
+
     def bring_implied(self, children: Children) -> Carry:
         destination = Destination(relation="to", reference=Pronoun(word="me"))
         return Carry(things=values_of(children)[0], destination=destination, implied=True, verb=_verb(children))
@@ -94,6 +147,8 @@ class Reader(PhraseReader):
         values = values_of(children)
         destination = next(value for value in values if isinstance(value, Destination))
         things = next(value for value in values if isinstance(value, tuple))
+        if any(token.type == "SHOULD" for token in tokens_of(children)):
+            things = tuple(map(generic, things))
         return Carry(things=things, destination=destination, verb=_verb(children))
 
     def gapped(self, children: Children) -> Several:
@@ -101,6 +156,12 @@ class Reader(PhraseReader):
         pairs = zip(values[::2], values[1::2], strict=True)
         verb = _verb(children)
         return Several(steps=tuple(_carried(one, other, verb) for one, other in pairs))
+
+    def laid_several(self, children: Children) -> Several:
+        """*Towels in the basket and toothbrushes in the cabinet.*"""
+        values = [tuple(map(generic, value)) if isinstance(value, tuple) else value for value in values_of(children)]
+        pairs = zip(values[::2], values[1::2], strict=True)
+        return Several(steps=tuple(_carried(one, other, "put") for one, other in pairs), verbless=True)
 
     def go_several(self, children: Children) -> Several:
         return Several(steps=tuple(Go(target=target) for target in values_of(children)))
@@ -161,166 +222,39 @@ class Reader(PhraseReader):
         sure = tokens_of(children)[0].type == "MY_NAME"
         return replace(_teach(children), target=Pronoun(word="me"), named=sure)
 
+    def teach_mine(self, children: Children) -> Teach:
+        """*My mug is the green one*: the one of that noun."""
+        words = tuple(str(token) for token in tokens_of(children) if token.type in ("NOUN", "WORD"))
+        target = values_of(children)[0]
+        return Teach(words=words, mine=True, named=True, target=replace(target, words=words))
+
+    def narrated(self, children: Children) -> Mention:
+        """*There is a mug on the desk*: said before what is to be done with it."""
+        thing, *where = values_of(children)
+        states = [str(token) for token in tokens_of(children) if token.type == "STATE"]
+        colors = [str(token) for token in tokens_of(children) if token.type in ("COLOR", "ORANGE")]
+        if where:
+            thing = replace(thing, restrictions=(*thing.restrictions, *where))
+        return Mention(thing=replace(thing, colors=(*thing.colors, *colors)), lost=bool(states))
+
+    def referred(self, children: Children) -> Reference:
+        reference: Reference = values_of(children)[0]
+        return reference
+
+    def start(self, _: Children) -> Pronoun:
+        return Pronoun(word="start")
+
+    def speaking(self, children: Children) -> Pronoun:
+        return Pronoun(word="you" if children[0].type == "YOU" else "me")
+
     def teach_np(self, children: Children) -> Teach:
         return replace(_teach(children), target=values_of(children)[0])
-
-    def question(self, children: Children) -> Ask:
-        asked: Ask = values_of(children)[0]
-        return asked
-
-    def where(self, children: Children) -> Ask:
-        return Ask(kind=QueryKind.WHERE, things=values_of(children)[0])
-
-    def room_of(self, children: Children) -> Ask:
-        return Ask(kind=QueryKind.ROOM_OF, things=values_of(children)[0])
-
-    def robot_room(self, _: Children) -> Ask:
-        return Ask(kind=QueryKind.ROBOT_ROOM)
-
-    def where_me(self, _: Children) -> Ask:
-        return Ask(kind=QueryKind.WHERE, things=(Pronoun(word="me"),))
-
-    def count(self, children: Children) -> Ask:
-        return _about(QueryKind.COUNT, children)
-
-    def list_at(self, children: Children) -> Ask:
-        return Ask(kind=QueryKind.LIST, place=values_of(children)[0])
-
-    def list_of(self, children: Children) -> Ask:
-        return _about(QueryKind.LIST, children)
-
-    def seen(self, _: Children) -> Ask:
-        return Ask(kind=QueryKind.SEEN)
-
-    def describe(self, children: Children) -> Ask:
-        return Ask(kind=QueryKind.LIST, place=Restriction(relation="at", reference=values_of(children)[0]))
-
-    def exists(self, children: Children) -> Ask:
-        return _about(QueryKind.EXISTS, children)
-
-    def exists_no(self, children: Children) -> Ask:
-        return replace(_about(QueryKind.EXISTS, children), negated=True)
-
-    def exists_at(self, children: Children) -> Ask:
-        return _about(QueryKind.EXISTS, children)
-
-    def seen_if(self, children: Children) -> Ask:
-        return _about(QueryKind.EXISTS, children)
-
-    def compared(self, children: Children) -> Ask:
-        (least, most), phrase = values_of(children)
-        return replace(_about(QueryKind.EXISTS, [phrase]), least=least, most=most)
-
-    def comparison(self, children: Children) -> tuple[int | None, int | None]:
-        kind, number = children[0].type, int(children[1])
-        return {
-            "MORE_THAN": (number + 1, None),
-            "AT_LEAST": (number, None),
-            "LESS_THAN": (None, number - 1),
-            "AT_MOST": (None, number),
-        }[kind]
-
-    def open_closed(self, children: Children) -> Ask:
-        return _is_so("state", children)
-
-    def is_colored(self, children: Children) -> Ask:
-        return _is_so("color", children)
-
-    def which_most(self, children: Children) -> Ask:
-        phrase, *rest = values_of(children)
-        merged = replace(phrase, quantity=Quantity.ALL, **(rest[0] if rest else {}))
-        return Ask(kind=QueryKind.WHERE, things=(merged,))
-
-    def most(self, children: Children) -> dict[str, Any]:
-        found: dict[str, Any] = {}
-        for token in tokens_of(children):
-            if token.type == "ORDINAL":
-                found["rank"] = ORDINALS[str(token)]
-            elif token.type in ("BIG", "SMALL"):
-                found["superlative"] = "largest" if token.type == "BIG" else "smallest"
-            elif token.type in SUPERLATIVE:
-                found["superlative"] = SUPERLATIVE[token.type]
-        values = values_of(children)
-        if values and isinstance(values[0], Restriction):
-            found["restrictions"] = (values[0],)
-        elif values:
-            found["superlative"] = None
-            found["restrictions"] = (Restriction(relation="nearest", reference=values[0]),)
-        return found
-
-    def support(self, children: Children) -> Ask:
-        return Ask(kind=QueryKind.WHERE, things=next(v for v in values_of(children) if isinstance(v, tuple)))
-
-    def distance(self, children: Children) -> Ask:
-        return Ask(kind=QueryKind.DISTANCE, things=tuple(values_of(children)))
-
-    def size(self, children: Children) -> Ask:
-        return _about(QueryKind.SIZE, children)
-
-    def way(self, children: Children) -> Ask:
-        values = values_of(children)
-        backwards = [token.type for token in tokens_of(children)][:2] == ["WAY", "FROM"]
-        return Ask(kind=QueryKind.PATH, things=tuple(reversed(values)) if backwards else tuple(values))
-
-    def last_seen(self, children: Children) -> Ask:
-        return Ask(kind=QueryKind.LAST_SEEN, things=values_of(children)[0])
-
-    def did(self, _: Children) -> Ask:
-        return Ask(kind=QueryKind.DONE)
-
-    def failure(self, _: Children) -> Ask:
-        return Ask(kind=QueryKind.FAILURE)
-
-    def doing(self, _: Children) -> Ask:
-        return Ask(kind=QueryKind.DOING)
-
-    def battery(self, _: Children) -> Ask:
-        return Ask(kind=QueryKind.BATTERY)
-
-    def own_name(self, _: Children) -> Ask:
-        return Ask(kind=QueryKind.NAME)
-
-    def own_self(self, _: Children) -> Ask:
-        return Ask(kind=QueryKind.NAME, things=(Pronoun(word="me"),))
-
-    def capable(self, children: Children) -> Ask:
-        return Ask(kind=QueryKind.CAPABLE, things=tuple(values_of(children)))
-
-    def holding(self, children: Children) -> Ask:
-        return Ask(kind=QueryKind.HOLDING, things=tuple(values_of(children)))
-
-    def rooms(self, _: Children) -> Ask:
-        return Ask(kind=QueryKind.ROOMS)
-
-    def color(self, children: Children) -> Ask:
-        return _about(QueryKind.COLOR, children)
-
-    def abilities(self, _: Children) -> Ask:
-        return Ask(kind=QueryKind.ABILITIES)
-
-    def who(self, children: Children) -> Ask:
-        places = values_of(children)
-        people = NounPhrase(words=("people",), quantity=Quantity.ALL, person=True)
-        return Ask(kind=QueryKind.LIST, things=(people,), place=places[0] if places else None)
-
-
-def _is_so(relation: str, children: Children) -> Ask:
-    tokens = tokens_of(children)
-    place = Restriction(relation=relation, word=str(tokens[-1]))
-    negated = any(token.type == "NOT" for token in tokens)
-    return Ask(kind=QueryKind.EXISTS, things=(values_of(children)[0],), place=place, negated=negated)
 
 
 def _carried(one: Any, other: Any, verb: str) -> Carry:
     if isinstance(other, Destination):
         return Carry(things=_as_things(one), destination=other, verb=verb)
     return Carry(things=_as_things(other), destination=Destination(relation="to", reference=one), verb=verb)
-
-
-def _about(kind: QueryKind, children: Children) -> Ask:
-    values = values_of(children)
-    place = next((value for value in values if isinstance(value, Restriction)), None)
-    return Ask(kind=kind, things=(values[0],), place=place)
 
 
 def _verb(children: Children) -> str:

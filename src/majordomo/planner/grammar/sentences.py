@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
-from majordomo.planner.grammar.lexer import ACTING, Terminal, asks, clauses, trimmed
+from majordomo.planner.grammar.lexer import asks, clauses, trimmed
+from majordomo.planner.grammar.terminals import ACTING, Terminal
 
 Tokens = Sequence[Terminal]
 Parses = Callable[[str, Tokens], bool]
@@ -63,6 +64,8 @@ class Structure:
         """Append the parts of the next sentence; *if so* and *otherwise* at its start belong to the one before."""
         first, rest = sentence[0].type, trimmed(sentence[1:])
         before = self.parts[-1] if self.parts else None
+        if first == "OTHERWISE" and isinstance(before, Clause) and asks(before.tokens):
+            first = "IF_NOT" if self._is_condition(before.tokens) else first
         if first in ("IF_SO", "IF_NOT") and isinstance(before, Clause) and self._is_condition(before.tokens):
             then, otherwise = self._cut(rest, ("OTHERWISE", "IF_NOT"))
             self.parts[-1] = Fork(
@@ -99,6 +102,9 @@ class Structure:
             return [Unclear(tokens=tuple(sentence))]
         if self._asks(sentence):
             return self._steps(sentence)
+        again = _second_if(sentence)
+        if again is not None:
+            return [*self._of(trimmed(sentence[:again])), *self._of(sentence[again:])]
         for index, token in enumerate(sentence):
             if token.type in _IF and not _is_told(sentence, index):
                 return [self._fork(sentence, ())]
@@ -161,8 +167,21 @@ class Structure:
             whither = step[0].type == "TO" and not (verb or found) and going
             full = [_GO, *step] if whither else self._completed(step, verb)
             verb = _verb_of(full) or verb
-            found.append(Clause(tokens=tuple(full)))
+            found += [Clause(tokens=tuple(part)) for part in self._parted(full, verb)]
         return found
+
+    def _parted(self, step: list[Terminal], verb: list[Terminal]) -> list[list[Terminal]]:
+        """*Cups in the sink, books on the shelf*: steps that no verb tells apart, each of which makes sense."""
+        if asks(step) or self.parses("command", step) or self.parses("narrated", step):
+            return [step]
+        for index, token in enumerate(step):
+            if token.type not in ("COMMA", "AND") or not self.parses("command", step[:index]):
+                continue
+            rest = self._completed(trimmed(step[index:]), verb)
+            parts = self._parted(rest, verb) if rest else []
+            if parts and all(self.parses("command", part) for part in parts):
+                return [step[:index], *parts]
+        return [step]
 
     def _completed(self, step: list[Terminal], verb: list[Terminal]) -> list[Terminal]:
         """*Go to the kitchen, then to the office*: a step without a verb has the one before it."""
@@ -186,6 +205,16 @@ class Structure:
 
 
 _GO, _TO = Terminal("GO", "go", "go"), Terminal("TO", "to", "to")
+
+
+def _second_if(sentence: Tokens) -> int | None:
+    """Where the second condition begins: *if it is red, take it to Ben, if it is green, to Anna*."""
+    if sentence[0].type not in _IF:
+        return None
+    breaks = ("COMMA", "AND", "THEN")
+    return next(
+        (k for k in range(3, len(sentence)) if sentence[k].type in _IF and sentence[k - 1].type in breaks), None
+    )
 
 
 def _goes(part: Part) -> bool:

@@ -103,13 +103,27 @@ class Several:
     """*Put the cup on the table and the book on the desk*: one verb, several things with a destination each."""
 
     steps: tuple[Carry | Go, ...]
+    verbless: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)
 class Perhaps:
-    """What a statement may be asking for: *the apple belongs on the desk*. It is asked about before it is done."""
+    """What a statement may be asking for: *the apple belongs on the desk*. It is asked about before it is done.
+
+    ``verbless``: *the apple on the desk*, which is asked about only if it may describe an apple that is there;
+    ``sure``: *the apple to the desk*, which describes nothing.
+    """
 
     step: Carry
+    verbless: bool = False
+    sure: bool = False
+
+
+@dataclass(frozen=True, kw_only=True)
+class Wanted:
+    """*The bathroom, please*: a thing to be brought, or a place to go to."""
+
+    thing: Reference
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -173,4 +187,12 @@ class Ask:
     most: int | None = None
 
 
-Step = Carry | Several | Perhaps | PutDown | PutBack | Go | Find | Pick | Teach | Ask
+@dataclass(frozen=True, kw_only=True)
+class Mention:
+    """*There is a mug on the desk*: what the next step is about. ``lost``: *my phone is gone*."""
+
+    thing: Reference
+    lost: bool = False
+
+
+Step = Carry | Several | Perhaps | Wanted | Mention | PutDown | PutBack | Go | Find | Pick | Teach | Ask

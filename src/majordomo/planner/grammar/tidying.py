@@ -4,14 +4,18 @@ from __future__ import annotations
 
 import re
 
+from majordomo.planner.vocabulary import singular
+
 _HEADING = re.compile(
-    r"^(?:please |can you |could you |let us )*(?:tidy|clean|clear|sort|organi[sz]e|straighten|arrange)(?: (?:up"
-    r"|out|off|away))?"
-    r" ?(?P<what>[\w' ]*?)\s*(?::|,| -|;|\.| by putting| and put)\s+(?P<rest>.+)$"
+    r"^(?:please |can you |could you |let us )*(?:(?:tidy|clean|clear|sort|organi[sz]e|straighten|arrange)(?: (?:up"
+    r"|out|off|away))?|(?:get|put|bring|set)(?= [\w' ]+? in(?:to)? (?:order|shape)\b))"
+    r" ?(?P<what>[\w' ]*?)(?: in(?:to)? (?:order|shape)| by (?:colou?r|size|kind|type))?\s*"
+    r"(?::|,| -|;|\.| by putting| and put)\s+(?P<rest>.+)$"
 )
 _PART = re.compile(
     r"^(?:and |then |please )*(?:put |move |bring |take )?(?P<things>.+?)(?: should| must| can| may)?"
-    r"(?: go| goes| belongs?| be)? (?P<way>to|into|in|on|onto|next to) (?P<place>(?:the|a|my|his|her|\w+)\b.*)$"
+    r"(?: go| goes| belongs?| be)? (?:back )?(?P<way>to|into|in|on|onto|next to)"
+    r" (?P<place>(?:the|a|my|his|her|\w+)\b.*)$"
 )
 _COMMAS = re.compile(
     r"[,;.]\s+(?:and |then )*| and (?=(?:the |all |every |put )?(?:[\w']+ ){1,3}?(?:to|into|onto|go|goes|belongs"
@@ -19,6 +23,9 @@ _COMMAS = re.compile(
 )
 _EVERY = re.compile(r"^(?:the |all (?:of )?(?:the )?|every |any |each )+")
 _ONES = re.compile(r"\bones?$")
+_STAYS = re.compile(
+    r" (?:can |may |should )?(?:stays?|remains?|(?:is|are) fine)(?: (?:there|here|put|as (?:it|they) (?:is|are)))?$"
+)
 _OPENING = ("everything", "whatever", "anything", "it", "them")
 
 
@@ -31,6 +38,8 @@ def spelled_out(text: str) -> str:
     parts: list[str] = []
     open_part = ""
     for part in _COMMAS.split(found["rest"].rstrip(" .!")):
+        if _STAYS.search(part) and not open_part:
+            continue
         said = f"{open_part} and {part}" if open_part else part
         matched = _PART.match(said)
         open_part = "" if matched else said
@@ -44,7 +53,8 @@ def _things(said: str, what: str) -> str:
     if bare in _OPENING:
         return f"everything from the {what}" if what else said
     if _ONES.search(bare) and what:
-        return f"all the {_ONES.sub(what, bare)}"
+        one = singular(what) if bare.endswith("one") else what
+        return f"{'the' if one != what else 'all the'} {_ONES.sub(one, bare)}"
     several = bare.endswith("s") or bare != said.removeprefix("the ")
     from_there = f" from the {what}" if what and " from " not in bare and " in " not in bare else ""
     return f"{'all the' if several else 'the'} {bare}{from_there}"

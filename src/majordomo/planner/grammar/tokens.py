@@ -24,7 +24,7 @@ _TOKEN = re.compile(
 )
 _WORD = re.compile(r"[^\W_]+(?:[_'\-][^\W_]+)*'?")
 _NON = re.compile(r"\bnon-(?=\w)")
-_COLORED = re.compile(r"(?<=\w)[- ]colou?red\b")
+_COLORED = re.compile(r"(?<=\w)[- ](?:colou?red|covered|bound|lidded|label(?:l)?ed|capped|painted)\b")
 _LISTED = re.compile(r"(?:(?<=^)|(?<=[\s.,;:]))(\d{1,2}[.)]|[-*•])\s+(?=[^\W\d_])")
 _QUOTES = str.maketrans({"’": "'", "‘": "'", "“": '"', "”": '"', "„": '"', "`": "'"})
 

@@ -6,72 +6,17 @@ grammar mentions wherever the word may stand. Phrases match before their single 
 
 from __future__ import annotations
 
+from majordomo.planner.grammar.politeness import FILLERS, FRAMES
 from majordomo.planner.grammar.unable import UNABLE
+from majordomo.planner.grammar.verbs import PAST, VERBS, gerund
 from majordomo.planner.vocabulary import COLORS
-
-VERBS: dict[str, tuple[str, ...]] = {
-    "BRING": ("bring", "fetch", "retrieve", "grab me", "bring over", "bring back", "bring along",
-              "go get", "go fetch", "go and get", "go and fetch"),
-    "GET": ("get", "bring out"),
-    "TAKE": ("take",),
-    "CARRY": ("carry", "deliver", "transport", "transfer", "haul", "ferry"),
-    "MOVE": ("move", "relocate", "shift"),
-    "RETURN": ("return",),
-    "GIVE": ("give", "hand", "pass", "hand over", "serve"),
-    "PUT": ("put", "place", "set", "lay", "deposit", "stow", "stick", "put away", "pop", "store", "tidy", "tidy away",
-            "plonk", "position", "gather", "gather up", "bung", "plop"),
-    "DROP": ("drop", "drop off", "leave", "release", "let go of"),
-    "LET": ("let",),
-    "NEEDED": ("you are needed", "you are wanted", "your help is needed"),
-    "GO": ("go", "drive", "navigate", "walk", "head", "travel", "proceed", "roll", "run", "go over", "go on over",
-           "make your way", "get over", "move over", "get yourself", "take yourself", "go on", "find your way",
-           "drop in",
-           "drop by", "swing by", "stop by", "go off", "wander", "journey"),
-    "STAND": ("stand", "go stand", "go and stand", "go and wait", "go wait", "wait", "stop", "station yourself",
-              "position yourself", "park yourself", "place yourself", "stay", "remain"),
-    "VISIT": ("visit", "enter", "approach", "go see", "check out", "go and see", "inspect", "check on",
-        "check up on"),
-    "COME": ("come", "come over", "come on over", "come closer", "come along"),
-    "FIND": ("find", "locate", "look for", "search for", "seek", "hunt for", "look out for", "go find",
-        "try to find", "track down", "go look for", "go and look for", "go and find", "help me find",
-             "help me to find", "help me look for", "have a look for", "take a look for", "keep an eye out for",
-             "go search for", "hunt down"),
-    "SEARCH": ("search", "look through", "look around in", "check"),
-    "LOOK": ("look", "have a look", "take a look", "go look", "go and look", "go have a look", "go and have a look",
-             "look around", "look inside"),
-    "PICK": ("pick", "pick up", "grab", "grasp", "lift", "lift up", "collect", "hold", "take hold of", "get hold of"),
-    "ENSURE": ("make sure", "make sure that", "ensure", "ensure that", "see to it that", "see that", "check that",
-               "see to it"),
-    "WANT": ("i want", "i would like", "i need", "i would love", "we need", "we want", "i could use", "can i have",
-             "could i have", "may i have", "can i get", "could i get", "i will have", "i will take",
-             "i want to have", "i would like to have", "i could do with", "i am after",
-             "i am in need of", "let me have", "may i get", "may we have", "can we have", "could we have",
-             "we would like"),
-}  # fmt: skip
-"""Verbs the robot can act on."""
-
-NOUNLIKE = frozenset(
-    {
-        "water", "iron", "book", "light", "brush", "comb", "paint", "plant", "drill", "hammer", "saw", "tape",
-        "glue", "screw",
-        "watch", "lock", "mop", "dust", "drink", "play", "call", "text", "email", "order", "print", "show", "record",
-        "film",
-        "park", "ring", "tie", "rake", "shovel", "shower", "charge", "plug", "guide", "lead", "answer", "press",
-        "nurse",
-        "clean", "dry", "warm", "empty", "open", "switch", "place", "set", "hand", "run", "drive", "walk", "lift",
-        "return",
-        "pass", "search", "hold", "head", "drop", "pick", "stick", "check", "trim", "dress", "pack", "load",
-        "cut",
-        "stack", "pile", "share", "race", "ride", "cook", "slice", "roll", "move", "turn", "fold", "wrap", "break",
-        "fly",
-    }
-)  # fmt: skip
-"""Verbs that are nouns or adjectives as well; they act as verbs only at the start of a clause, before a noun phrase."""
 
 CLOSED: dict[str, tuple[str, ...]] = {
     "THE": ("the",),
-    "MY": ("my", "our", "your", "his"),
-    "A": ("a", "an", "some", "any", "any old", "either", "either of", "whichever"),
+    "MY": ("my", "our", "your", "kids'", "kid's", "children's", "family's", "everyone's", "everybody's", "whose"),
+    "HIS": ("his", "their", "its"),
+    "A": ( "a", "a piece of", "one piece of", "a single", "one single", "just one", "an", "some", "any", "any old",
+        "either", "either of", "whichever"),
     "THIS": ("this", "these"),
     "THAT": ("that", "those"),
     "ALL": ("all", "every", "each", "all of", "every one of", "each of", "every single", "each and every",
@@ -84,7 +29,7 @@ CLOSED: dict[str, tuple[str, ...]] = {
     "I": ("i", "we"),
     "YOU": ("you", "yourself"),
     "IT": ("it", "them", "they", "those ones", "these ones"),
-    "HIM": ("him", "her"),
+    "HIM": ("him", "her", "he", "she"),
     "HERE": ("here", "over here", "in here"),
     "THERE": ("there",),
     "OVER_THERE": ("over there", "in there", "up there", "down there", "on there", "from there"),
@@ -95,17 +40,29 @@ CLOSED: dict[str, tuple[str, ...]] = {
         "across to",
            "round to", "around to", "away to", "off to", "back over to", "all the way to", "straight to"),
     "FOR": ("for",),
-    "ON": ("on", "on top of", "atop", "upon", "on the top of"),
+    "ON": ( "on", "outside on", "out on", "up on", "over on", "down there on", "over there on", "on top of", "atop",
+        "upon", "on the top of"),
     "ONTO": ("onto", "on to", "back on", "back onto", "back on top of", "down on", "down onto"),
-    "IN": ("in", "inside", "within", "inside of", "over in", "out in"),
+    "IN": ("in", "inside", "within", "inside of", "over in", "out in", "up in", "out there in", "over there in"),
     "INTO": ("into", "in to", "back in", "back into", "back inside", "down in"),
     "NEAR": ("next to", "beside", "near", "near to", "by", "close to", "alongside", "nearby", "adjacent to",
              "besides", "right next to", "right by", "right beside", "just next to", "around", "at the side of"),
     "FROM": ("from", "out of", "from on", "from inside", "from the top of", "from in", "from within",
         "from on top of"),
     "OFF": ("off", "off of", "from off", "off the top of"),
-    "AT": ("at", "over at"),
+    "AT": ("at", "over at", "down at", "up at"),
     "BETWEEN": ("between", "in between"),
+    "NEITHER": ("neither",),
+    "NOR": ("nor", "or"),
+    "LIKE": ("looks like", "look like", "resembles", ),
+    "LOSES": ( "lost", "has lost", "have lost", "misplaced", "has misplaced", "can not find", "is looking for",
+        "is missing",
+              "forgot", "has forgotten", "left behind", "mislaid"),
+    "FLOOR": ("on the floor", "on the ground", "off the floor", "from the floor", "lying on the floor"),
+    "START": ("your starting point",),
+    "PART": ( "cover", "lid", "label", "cap", "binding", "spine", "shell", "finish", "paint", "stripe", "stripes",
+        "sleeve",
+             "front", "exterior"),
     "WITH": ("with", "containing", "that has", "which has", "that contains", "together with", "alongside with"),
     "BESIDE": ("under", "underneath", "below", "beneath", "behind", "in front of", "above", "left of", "right of",
                "to the left of", "to the right of", "over", "against", "across from", "opposite", "on the left of",
@@ -146,16 +103,16 @@ CLOSED: dict[str, tuple[str, ...]] = {
     "TELL": ("tell me", "let me know", "i want to know", "i would like to know", "say", "show me",
              "i wonder", "find out", "tell us", "remind me", "any idea", "do you have any idea"),
     "WHETHER": ("whether", "if"),
-    "NEAREST": ("nearest", "closest"),
+    "NEAREST": ("nearest", "closest", "nearer", "closer"),
     "LARGEST": ("largest", "biggest", "tallest", "longest", "widest"),
     "SMALLEST": ("smallest", "littlest", "shortest", "tiniest"),
     "BIG": ("big", "large", "tall", "huge", "long", "bigger", "larger", "taller"),
     "SMALL": ("small", "little", "tiny", "short", "smaller", "shorter"),
     "SAME_ROOM": ("in the same room as", "from the same room as"),
-    "FARTHEST": ("farthest", "furthest", "most distant", "remotest"),
+    "FARTHEST": ("farthest", "furthest", "most distant", "remotest", "farther", "further"),
     "ORDINAL": ("second", "third", "fourth", "fifth", "first", "2nd", "3rd", "4th", "5th", "1st"),
     "OTHER": ("other", "remaining"),
-    "STATE": ("closed",),
+    "STATE": ("closed", "gone", "missing", "lost"),
     "NOT": ("not", "never", "do not ever"),
     "NO": ("no", "not any"),
     "EXCEPT": ("except", "except for", "apart from", "other than", "but not", "excluding", "excepting", "aside from",
@@ -176,7 +133,10 @@ CLOSED: dict[str, tuple[str, ...]] = {
     "SHOULD": ("should", "must", "has to", "have to", "needs to", "need to", "ought to", "is to", "are to",
                "is supposed to", "are supposed to", "is meant to", "needs"),
     "BELONG": ("belong", "belongs"),
-    "WANTS": ("wants", "needs", "would like", "asked for", "is asking for", "would love", "could use"),
+    "WANTS": ("wants", "needs", "would like", "asked for", "is asking for", "would love", "could use", "asks for",
+              "is after", "gets", "is waiting for", "has asked for", "keeps asking for", "wanted", "needed",
+              "requires",
+              "could do with", "is in need of", "should have", "should get", "is to get", "is to have", "requested"),
     "CALLED": ("called", "named", "known as"),
     "CALL": ("call", "rename", "relabel", "label"),
     "MY_NAME": ("my name",),
@@ -226,7 +186,7 @@ CLOSED: dict[str, tuple[str, ...]] = {
                 "what is the battery level", "how full is your battery", "what is your battery",
                 "is your battery low",
                 "is your battery full", "how is the battery", "what is your battery status"),
-    "MEANING": ("never", "until", "while", "when", "or", "nor", "neither", "because", "instead", "only if not",
+    "MEANING": ("never", "until", "while", "when", "because", "instead", "only if not",
                 "again", "twice", "times", "than", "most", "least", "half", "more", "fewer", "less", "few", "several",
                 "many", "much", "every time", "always", "as", "though", "although", "since", "whenever", "rather",
                 "same",
@@ -238,67 +198,14 @@ CLOSED: dict[str, tuple[str, ...]] = {
 """``MEANING`` holds words that change what is asked and that no rule understands: their clause is not understood."""
 
 SEPARATORS: tuple[str, ...] = (
-    "then", "and then", "after that", "and after that", "afterwards", "and afterwards", "subsequently", "followed by",
+    "then", "and then", "only then", "and only then", "and after that one", "once that is done", "when that is done",
+    "after which", "before finally", "after that", "and after that", "afterwards", "and afterwards", "subsequently",
+        "followed by",
     "and finally", "finally", "first of all", "lastly", "and also", "also", "firstly", "secondly", "thirdly",
     "next and",
     "once you are done", "once done", "when you are done", "when done", "and next",
 )  # fmt: skip
 """Words that separate the steps of a request."""
-
-FILLERS: tuple[str, ...] = (
-    "please", "pls", "kindly", "just", "now", "right now", "right away", "quickly", "quick", "carefully",
-    "immediately",
-    "thanks", "thank you", "thank you very much", "many thanks", "ok", "okay", "hey", "hello", "hi", "robot",
-    "majordomo",
-    "butler", "jeeves", "dear", "if you can", "if you could", "if possible", "if you please", "if you do not mind",
-    "if you would", "if it is not too much trouble", "as soon as possible", "asap", "well", "so", "um", "uh", "er",
-    "hmm",
-    "really", "actually", "straight", "directly", "gently", "go ahead and", "do me a favor and", "do me a favour and",
-    "be so kind and", "be so kind as to", "be a dear and", "would you mind", "do you mind", "would you", "will you",
-    "i want you to", "i would like you to", "i need you to", "i would love you to", "you should", "you must",
-    "you need to",
-    "you have to", "your task is to", "your job is to", "let us", "lets", "good morning", "good evening",
-    "good afternoon",
-    "excuse me", "sorry", "for a second", "for a moment", "real quick", "try to", "help me to", "help me and",
-    "alright",
-    "all right", "go and", "come and", "sir", "mate", "buddy", "kind sir", "my friend",
-    "when you get a chance", "when you have time", "when you can", "i was wondering if you could",
-    "could you possibly",
-    "do you think", "any chance", "is there any chance", "is there a chance", "is it possible",
-    "is it possible for you to",
-    "is it ok if", "i was hoping", "i was wondering", "i was wondering if", "i am hoping", "i wonder if you could",
-    "would you be able to", "are you able to", "would you be willing to", "would you be so kind as to",
-    "would you be so kind", "so kind as to", "mind", "if you would not mind", "if you would be so kind",
-    "i need someone to",
-    "when you have a minute", "when you have a moment", "when you get a minute", "when you get a moment",
-    "when you have a second", "when you are free", "when you are ready", "whenever you can", "whenever you have time",
-    "if you have time", "if you have a moment", "if you have a minute", "if you get a chance", "when convenient",
-    "if that is ok", "if that is okay", "if it is not too much bother", "if it is no trouble", "at your convenience",
-    "i would like for you to", "i would love for you to", "i would appreciate you", "i am asking you to",
-    "i would ask you to",
-    "can i ask you to", "could i ask you to", "may i ask you to", "could i trouble you to", "can i trouble you to",
-    "to begin with", "to start with", "to start", "for starters", "do the following", "from now on",
-    "remember that", "note that", "here is what i want", "listen", "be a love and", "be a pal and",
-    "be a good robot and",
-    "there is a good robot", "good robot", "cheers", "ta", "much appreciated", "thank you so much", "thanks a lot",
-    "thanks so much", "thanks in advance", "thx", "ty", "plz", "there you go", "ok then", "well then", "right then",
-    "next up", "your next task is to", "i have a task for you", "here is a task", "one more thing", "that is all",
-    "nothing but", "only", "would you please", "could you please", "can you please",
-    "for a sec", "a sec", "at once", "hurry", "hurry up",
-    "quick as you can", "as quickly as you can", "as fast as you can", "as soon as you can", "when you are at it",
-    "while you are at it", "while you are there", "while you are here", "while there", "for a change", "by the way",
-    "i think", "i guess", "i suppose", "i believe", "you know", "you see", "that you saw", "you saw", "you have seen",
-    "that you have seen", "which you saw", "that you know of", "you know of", "you found", "that you found",
-    "need you to", "want you to", "would like you to", "make sure to", "be sure to", "do not forget to",
-    "remember to",
-    "start by", "begin by", "go ahead", "in order to", "perhaps", "maybe", "yo", "dude", "possibly", "currently",
-)  # fmt: skip
-"""Words that carry courtesy, not meaning; dropped."""
-
-POLITE_IF_VERB = frozenset(
-    {"can you", "could you", "do you", "go", "come", "you", "to", "you can", "you could", "you have", "you would"}
-)
-"""Dropped when an action verb follows: *can you bring*, *go get*; kept in *can you see*."""
 
 CONTRACTIONS: dict[str, str] = {
     "another": "an other",
@@ -317,7 +224,11 @@ CONTRACTIONS: dict[str, str] = {
     "when's": "when is", "why's": "why is", "r": "are", "ur": "your", "gotta": "have to", "gonna": "going to",
     "pc's": "pc", "hows": "how is", "whos": "who is", "c'mon": "come on", "kindof": "",
     "u": "you",
-    "where're": "where are", "what're": "what are", "wanna": "want to", "lemme": "let me", "doesn't": "does not",
+    "where're": "where are", "where'd": "where did", "who'd": "who would", "what'd": "what did", "how'd": "how did",
+    "that'll": "that will", "it'll": "it will", "you'll": "you will", "we'll": "we will", "ain't": "is not",
+        "y'all": "you",
+    "that'd": "that would", "it'd": "it would", "what're": "what are", "wanna": "want to", "lemme": "let me",
+        "doesn't": "does not",
 }  # fmt: skip
 
 NUMBERS: dict[str, int] = {
@@ -330,36 +241,13 @@ NUMBERS: dict[str, int] = {
     "a couple of": 2,
     "a pair of": 2,
     "a dozen": 12,
+    "a dozen of": 12,
+    "half a dozen": 6,
+    "half a dozen of": 6,
+    "a half dozen": 6,
+    "a pair": 2,
+    "a couple": 2,
 }
-
-
-FRAMES: tuple[str, ...] = tuple(
-    f"{opening} {link}"
-    for opening in (
-        "it would be great", "it would be nice", "it would be lovely", "it would be good", "it would be wonderful",
-        "it would be helpful", "it would help", "it would be fantastic", "it would be really great",
-        "it would be kind",
-        "i would appreciate it", "i would be grateful", "i would be happy", "i would be glad", "i would be pleased",
-        "i would be thankful", "i would be delighted", "i would like it", "i would love it", "would it be possible",
-        "would it be ok", "would it be okay", "would it be alright", "it is time", "i would be much obliged",
-        "would you mind", "do you mind", "i was wondering", "i would be obliged", "i wonder", "i would prefer it",
-        "see",
-    )
-    for link in ("if you", "if you could", "if you can", "if you would", "that you")
-)  # fmt: skip
-"""Courtesy that leads up to a verb, which may stand in the past: *I'd appreciate it if you brought …*."""
-
-PAST: dict[str, str] = {
-    "brought": "bring", "fetched": "fetch", "retrieved": "retrieve", "got": "get", "gotten": "get", "took": "take",
-    "taken": "take", "carried": "carry", "delivered": "deliver", "moved": "move", "returned": "return",
-    "gave": "give",
-    "given": "give", "handed": "hand", "passed": "pass", "put": "put", "placed": "place", "dropped": "drop",
-    "went": "go", "gone": "go", "driven": "drive", "drove": "drive", "visited": "visit", "came": "come",
-    "found": "find",
-    "located": "locate", "searched": "search", "looked": "look", "picked": "pick", "picked up": "pick up",
-    "grabbed": "grab", "collected": "collect", "checked": "check",
-}  # fmt: skip
-"""Past forms of the verbs; verbs only after such courtesy, *after* or *before*, else what somebody tells."""
 
 LYING = frozenset(
     {"lying", "standing", "sitting", "located", "placed", "situated", "found", "kept", "stored", "resting", "laying",
@@ -367,27 +255,6 @@ LYING = frozenset(
      "hanging"}
 )  # fmt: skip
 """Say nothing new between a noun and *on*, *in* or *next to*; dropped there."""
-
-ADVERBS = frozenset(
-    {"really", "just", "kindly", "please", "pls", "plz", "possibly", "maybe", "perhaps", "actually", "simply",
-    "exactly",
-     "exact", "somehow", "basically", "quite", "honestly", "anyway", "immediately", "quickly"}
-)  # fmt: skip
-"""Dropped wherever they stand, before anything else is read."""
-
-
-def gerund(verb: str) -> str:
-    """*bring* becomes *bringing*, *take* becomes *taking*, *put* becomes *putting*; of a phrase, its first word."""
-    first, space, rest = verb.partition(" ")
-    if first.endswith("e") and not first.endswith("ee"):
-        stem = first[:-1]
-    elif len(first) == 3 and first[-1] in "tgnp" and first[1] in "aeiou":
-        stem = first + first[-1]
-    elif first == "drop":
-        stem = "dropp"
-    else:
-        stem = first
-    return f"{stem}ing{space}{rest}"
 
 
 def phrase_table() -> dict[tuple[str, ...], tuple[str, str]]:

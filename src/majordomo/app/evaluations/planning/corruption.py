@@ -21,7 +21,7 @@ from majordomo.app.evaluations.planning.expectations import (
     Turn,
 )
 from majordomo.planner.goals import Predicate
-from majordomo.planner.grammar.lexer import Lexicon
+from majordomo.planner.grammar.lexicon import Lexicon
 from majordomo.planner.grammar.parser import CommandGrammar, NotUnderstood, ParsedStep
 from majordomo.planner.models.protocol import FailureKind, ModelFailure, ModelRequest
 from majordomo.planner.models.scripted import Line

@@ -1,0 +1,176 @@
+"""Ways of asking for things to be carried: *the cup should be on the desk*, *could the vase be moved*."""
+
+from __future__ import annotations
+
+BRINGING: tuple[tuple[str, str], ...] = (
+    (
+        (
+            r"^(?:i|we) do not (?:want|need|like) the (\w+) (\w+)[,.;]+ (?:but |so "
+            r"|please )?(.*?)\bthe other(?: one)?(?=$|[ .!?])"
+        ),
+        r"\3the \2 that is not \1",
+    ),
+    (
+        "^(?:please )?(?:just )?(?:leave|keep) (.+?) (?:where|as) (?:it|they|he|she) (?:is|are)(?=[.!]*$)",
+        r"do not move \1",
+    ),
+    ("^(put |take |move |bring |carry |)(?:the )?(.+?),? all of (?:it|them)(?=[.!]*$)", r"\1all the \2"),
+    (
+        (
+            "^(?:please )?(?:clear|empty|unload|tip|shift)(?: out| off| up)? (the (?:(?!, (?:put|and|then|move"
+            r"|take)\b).)+?),? (onto|into|on to|in to|on|in) (?=(?:the|my) )"
+        ),
+        r"put everything from \1 \2 ",
+    ),
+    (
+        (
+            r"(?<!where )(?<!what )\b(?:would|will|might|could) (?:be|look|fit|feel)(?: (?:much|far|way|so"
+            "|very))?(?: (?:better|good|nice|nicer|best|great|well|lovely))(?: off)? (?=(?:on|in|at|next to|by"
+            "|near|with) )"
+        ),
+        "should be ",
+    ),
+    (r"\bgo on to (?=(?:the|my)\b)", "go to "),
+    (r"\b(them|those|these) (?:both|all)\b", r"\1"),
+    (r"^(.+?), (?:meaning|that is|i\.?e\.?|namely) (.+?), (?=(?:in|on|to|into|onto)\b)", r"\2 "),
+    (r"\bget rid of (.+?) by (?:putting|placing|throwing) (?:it|them) ", r"put \1 "),
+    (r"\bshow (?=(?:me|him|her|anna|ben|\w+) the \w+ and (?:then )?(?:return|put|bring))", "bring "),
+    (
+        (
+            r"\bthrow (.+?) (?:away )?(in|into|in to) (?=(?:the |a |my )?(?:\w+ )?(?:trash|bin|garbage|rubbish"
+            "|waste|dustbin))"
+        ),
+        r"put \1 in ",
+    ),
+    (r"\b(?:toss|chuck|dump|sling|bin) (.+?) (in|into|onto|on) (?=(?:the|a|my)\b)", r"put \1 \2 "),
+    (
+        r"\b(put|set|place|lay|stow|store|tidy|clear|pack|drop|move|take) (.+?) away (?=(?:in|into|on|onto|to)\b)",
+        r"\1 \2 ",
+    ),
+    (r"\b(?:put|tidy|clear|pack|stow) away (.+?) (?=(?:in|into|on|onto)\b)", r"put \1 "),
+    (
+        (
+            "(?:^|(?<=and )|(?<=then )|(?<=, )|(?<=please ))(put|set|lay) (?=(?:on|onto|in|into"
+            r"|next to) (?:the |a |my )?\w+(?: \w+){0,4}[.!]*$)"
+        ),
+        r"\1 it ",
+    ),
+    (r"\b(bring|take|carry|drop) (?=to (?:me|him|her|(?:the|my) \w+(?: \w+)?)[.!]*$)", r"\1 it "),
+    (r"\b(?:is|are) to (?:be|go|stay|stand|come|end up) (?=(?:in|on|at|to|into|onto|next)\b)", "should be "),
+    (
+        (
+            r"\b(?:should|must|needs? to|ought to|has to|have to|is supposed to|are supposed to) (?:be )?(?:put"
+            "|placed|moved|taken|brought|delivered|carried|stored|kept|returned|transferred) "
+        ),
+        "should go ",
+    ),
+    (r"\b(?:should|must|needs? to|ought to|has to|have to) (?:live|stand|sit|lie|end up|belong) ", "should be "),
+    (r"\b(?:wants? to be|want) (?=(?:on|in|onto|into) the\b)", "should be "),
+    (r"\b(\w+ (?:is|are)) to (?:be )?(?:put|placed|moved|brought|taken) ", r"\1 to go "),
+    (r"\b(?:belongs?|goes) (?=(?:on|in|at|with|inside|next|into|onto|back)\b)", "should be "),
+    (
+        r"\b(?!lets\b|thanks\b|always\b|us\b)(\w+s) (?:can |may |will )?go (?=(?:on|in|into|onto|next)\b)",
+        r"\1 should be ",
+    ),
+    (r"\bgoes (?=to (?:me|him|her|the|\w+)\b)", "should be "),
+    (
+        r"(?<!if )\b(\w+) (?:should|must|may|can|shall) (?:have|get) (it|them|that|the [\w ]+)(?=$|[.!?,])",
+        r"give \2 to \1",
+    ),
+    (r"\b(?:i want(?:ed)? )?(it|them|that|this) to (?:go|be) (?=to )", r"put \1 "),
+    (r"\b(?:i want(?:ed)? )(it|them|that|this) to (?:go|be) ", r"put \1 "),
+    (r"\bto (?:the|his|her|my) (?=where)", ""),
+    (r"\blet(?: us)? (?=(?:the|my|all|every)\b[^.]* (?:go|be) )", "ensure "),
+    (
+        (
+            r"\b(?:the rest|everything else|all else|the others?) (?:can |may |should )?(?:stays?"
+            "|remains?)(?: (?:where|there|put|as|here)[^.,;]*)?"
+        ),
+        "",
+    ),
+    (r"\bcould i (?:trouble|bother) you for\b", "can i have"),
+    (r"\b(?:i am|we are) (?:dying|longing) for\b", "i want"),
+    (r"\bgo(?: and)? (?:bring|get|fetch) \b", "fetch "),
+    (r"\b(?:over )?to where i am(?: now| standing| sitting)?\b", "to me"),
+    (r"\b(?:back )?to where you (?:were|started|came from|came)(?: from)?(?: before| at)?\b", "back"),
+    (r"^(?:and |ok |okay |then |now )*(?:and )?then (?=\w)", "then "),
+    (r",? from there (?=(?:to|go|on|drive|head)\b)", ", then "),
+    (r"\b(?:after|having done|once done with) that\b,?", "then"),
+    (r"\b(should|must|can|may) all (?=(?:be|go)\b)", r"\1 "),
+    (r"^(?:please )?(?:gather|round|collect)(?: up)? (.+?) and (?=(?:put|bring|take|carry)\b)", r"pick up \1 and "),
+    (r"\bback again\b", "back"),
+    (r"\b(put|take|bring|return|move) (?:everything|it all|all of it|all of them|all that) back\b", r"\1 them back"),
+    (r"^(?:i|we) (?:do not|no longer) need (?:\w+ ){1,4}?(?:any ?more|any longer|now)[,.;!]+ (?:so )?(?:please )?", ""),
+    (r"^(?:i|we) (?:am|are) (?:done|finished|through)(?: with [\w ]+?)?[,.;!]+ (?:so )?", ""),
+    (
+        (
+            r"^(?:do not \w+ (?:me )?|not )(?:the |a )(?:\w+ )?(\w+)[,;]+ (?:but |just |instead )*(?=(?:bring"
+            r"|take|put|go|fetch|get|carry|move|give)\b)(.*)\bone\b"
+        ),
+        r"\2\1",
+    ),
+    (r"^not (?:the |a |to the )[\w ]+?[,;] (?:but )?(?=(?:bring|take|put|go|fetch|get|carry|move|give)\b)", ""),
+    (r"\bthat is not an? (\w+)(?=$|[.!?,])(?<! one)", r"except \1s"),
+    (r",? but (?:no|not an?|not the) (\w+?)(?: ones?)?(?=$|[.!?])", r" that is not \1"),
+    (
+        r"\b(?:something|anything) (red|green|blue|yellow|black|white|brown|pink|purple|gray|grey|orange)\b",
+        r"a \1 thing",
+    ),
+    (r"\bout of (the [\w ]+?) and (?:in)?to\b", r"from \1 to"),
+    (r"^(?:could|can|may) (the [\w ]+?) be (?:moved|put|brought|taken|placed|delivered|carried) ", r"put \1 "),
+    (
+        r"^(?:please )?(?:have|get) (the (?:(?!and\b)\w+ )+?)(?:brought|taken|moved|delivered|carried|put|placed) ",
+        r"put \1 ",
+    ),
+    (r"^(?:please )?(?:get|take|grab|fetch|pick up) (the [\w ]+?)[,;] (?:it|they|that) should be ", r"put \1 "),
+    (r"\b(bring|give|get|fetch|take)me\b", r"\1 me"),
+    (r"\b(?:quickest|fastest|shortest|best|easiest) (?:route|path|way)\b", "way"),
+    (r"^what (\w+) (?:do|have) (?:we|you|i) (?:have|got)(?=$|[.!?])", r"which \1 are there"),
+    (
+        (
+            r"^(?:is|are) (.+?) (?:in|on|at) (?:the |a |my )[\w ]+? or (?:in |on |at )?(?:the |a "
+            r"|my )?[\w ]+?(?=$|[.!?])"
+        ),
+        r"where is \1",
+    ),
+    (r",? (?:but |and )?only (?:the |an? )?(\w+) ones?(?=$|[.!?])", r" that is \1"),
+    (
+        (
+            r"^((?:the|my|that) (?!.*\b(?:is|are|belongs?|should|goes|needs?)\b[^,]*,)[\w ]+?), (?:can you "
+            "|could you |please )*(bring|take|put|get|fetch|carry) (?:it|them) "
+        ),
+        r"\2 \1 ",
+    ),
+    (
+        (
+            r"^(?:i|we) do not (?:want|need) [\w ]+?[,.;]+ (?:just |but |so |please )*(?=(?:bring|take|put|get"
+            r"|fetch|give)\b)"
+        ),
+        "",
+    ),
+    (r"^do not (\w+)( me)? the (?:\w+ )?(\w+),? but (?:rather |instead )?the (\w+) one(?=$|[.!])", r"\1\2 the \4 \3"),
+    (r"^on (?:the|your) way to ([\w ]+?), (.+)$", r"\2, then go to \1"),
+    (r",? on (?:the|your) way to ([\w ]+)(?=$|[.!])", r", then go to \1"),
+    (
+        r"^(?:while|when|if) you are (?:over )?(?:in|at) ([\w ]+?), (?=(?:bring|take|get|fetch|pick|put|grab)\b)",
+        r"go to \1, then ",
+    ),
+    (r"\b(?:meet|join|wait for) (?:me|us) (?=(?:in|at)\b)", "go "),
+    (r"\b(?:the|all the|all) stuff (?=(?:on|in|from|at)\b)", "everything "),
+    (
+        (
+            r"^(?:i|we) (?:forgot|left|need|lost|want|misplaced) (my|the|our) ([\w ]+?)[,.;]+ (?:can|could|will"
+            "|would)? ?(?:you )?(?:please )?(?:bring|get|fetch|grab) (?:me )?(?:it|them)(?: to me"
+            "| for me)?(?: please)?(?=$|[.!?])"
+        ),
+        r"bring me \1 \2",
+    ),
+    (
+        (
+            r"^(?:get rid of|deal with|take care of) (the [\w ]+?)[,;.:] (?:please )?(?:put|take|throw"
+            "|drop) (?:it|them) "
+        ),
+        r"put \1 ",
+    ),
+)
+"""In the order in which they are tried."""

@@ -1,0 +1,84 @@
+"""Ways of stating a condition: *in the event that*, *should Anna be in*."""
+
+from __future__ import annotations
+
+CONDITIONS: tuple[tuple[str, str], ...] = (
+    (
+        (
+            "^either (.+?),? or,? (?:else,? )?(?:if (?:it|they|that) (?:is|are) (?:gone|missing|not there|lost"
+            r"|unavailable|not available),? )(?=\w)"
+        ),
+        r"\1, otherwise ",
+    ),
+    (
+        (
+            r"\b(?:in case|provided|given|assuming|supposing|suppose|on condition|as long as|so long as|only if"
+            "|if and only if|if it (?:turns out|happens)|if it is (?:true|the case))(?: that"
+            r"| of)?\b(?= (?:there|the|it|a|you|i|any|\w+ (?:is|are)))"
+        ),
+        "if",
+    ),
+    (r"\bin the event (?:that|of)\b", "if"),
+    (
+        (
+            r"(^|[.,;] )(?:when|whenever|once) (?=(?:there (?:is|are)|the [\w ]+ (?:is|are) (?:in|on|at|open"
+            r"|closed|there)|\w+ is in )\b)"
+        ),
+        r"\1if ",
+    ),
+    (r"^should (there|the [\w ]+?|\w+) be (.+?),", r"if \1 is \2,"),
+    (
+        (
+            r"\bif you (?:happen to )?(?:see|find|come across|spot|notice|have|discover) (a|an|any|some"
+            r"|the) (.+?)(?= (?:in|on|at)\b|,)"
+        ),
+        r"if there is \1 \2",
+    ),
+    (r"\bif there (?:is|are) (?:any|some|one|a few)(?: left)?(?=$|[.!?,])", ""),
+    (r"\bgo to (the [\w ]+?) if (\w+|the [\w ]+?) is there\b", r"go to \1 if \2 is in \1"),
+    (
+        (
+            "[,;.]? (?:otherwise|or else|else|if not),? (?:do nothing|nothing|leave it(?: there| alone)?"
+            "|do not bother|do not do anything|stay(?: where you are| here| put)?|forget it|just wait)(?=$"
+            "|[.!])"
+        ),
+        "",
+    ),
+    (r"\b(is|are) (?:not )?(?:locked|shut)\b", r"\1 closed"),
+    (
+        (
+            "^(?:please )?(?:go (?:and )?)?(?:check|see|look|find out|tell me) (?:if|whether) (.+?)(?:[.,;?]"
+            "| and)+ (?:and )?(?:if so|if yes|if it is|if they are|if (?:he|she) is|then|in that case"
+            "|if there (?:is|are))[,:]? "
+        ),
+        r"if \1, ",
+    ),
+    (
+        (
+            "^(?:please )?(?:go (?:and )?)?(?:check|see|look|find out|tell me) (?:if|whether) (.+?)(?:[.,;?]"
+            "| and)+ (?:and )?(?:if not|otherwise|if it is not|if there is none)[,:]? "
+        ),
+        r"unless \1, ",
+    ),
+    (r"\bif there (?:is|are) (?:still |some |any |at least one )+", "if there is a "),
+    (r"\bif (?:nobody|no one|no person|noone) is (?=(?:in|at)\b)", "if there is no person "),
+    (r"\bif (?:anyone|anybody|someone|somebody) is (?=(?:in|at)\b)", "if there is a person "),
+    (r"\bif not[,:]? then\b", "otherwise"),
+    (
+        (
+            r"\b(?:but )?if (?:it|that|this|he|she) (?:is not|is not so|does not|are not)(?=,| (?:go|bring|put"
+            "|take|come))"
+        ),
+        "otherwise",
+    ),
+    (
+        (
+            r"\b(?:and )?if (?:there is not|there are not|there is none|none|nothing is there|it is not there"
+            "|not so|they are not)(?: (?:any|one|there))?(?=,| (?:go|bring|put|take|come))"
+        ),
+        "otherwise",
+    ),
+    (r"\? (?:if so|if yes|in that case|then|if it is|if there (?:is|are)|if that is so|when so)[,:]? ", "? if so, "),
+    (r"\bif not,? (?=(?:go|bring|put|take|come|get|drive|fetch|return|wait|pick)\b)", "otherwise "),
+)
+"""In the order in which they are tried."""

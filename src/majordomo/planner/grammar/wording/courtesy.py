@@ -1,0 +1,158 @@
+"""Slips of the keyboard, courtesy and motives: what is typed around a request."""
+
+from __future__ import annotations
+
+SLIPS: tuple[tuple[str, str], ...] = (
+    (r"\b(put|take|bring|get|give|move|in|on|to|from|of|for|and|with|into)the\b", r"\1 the"),
+    (r"\b(\w*)(?:lite)\b(?<!\bsatellite)", r"\1light"),
+    (r"\b(?:nite)(?=\b|s?tand)", "night"),
+    (r"\bthru\b", "through"),
+    (
+        (
+            r"\b((?:take|bring|carry|give|hand|deliver|move"
+            r"|get)\b.* \w+) 2 (?=(?!of\b)[^\W\d]+(?: [^\W\d]+){0,2}(?: (?:thx|pls|plz|please|thanks))?[.!]*$)"
+        ),
+        r"\1 to ",
+    ),
+    (
+        (
+            r"\b([^\W\d]+)'s (?=(?:in|on|at|not|here|there|under|near|next|home|asleep|gone|open|closed|shut"
+            r"|locked|missing|lost|still|inside|with)\b)"
+        ),
+        r"\1 is ",
+    ),
+    (r"\b(?:teh|hte|th)\b", "the"),
+    (r"\b(?:adn|nad|n)\b(?= )", "and"),
+    (r"\bgoto\b", "go to"),
+    (r"\b(?:form)\b(?= the\b)", "from"),
+    (r"\b(go|goes|come|drive|head|back|walk|move) (?:too|ot|2)(?= )", r"\1 to"),
+    (r"\b(?:u+m+|e+r+m+|u+h+m*|h+m+|pleas|plase|pleese|pls+|plz+|plox|thx|tnx|thanx)\b(?=.)", "please"),
+    (r"\byuo\b", "you"),
+    (r"^(?:wher|whre|were)(?= (?:is|are)\b)", "where"),
+    (r"\b(?:fo|4|fro)(?= (?:me|you|her|him)\b)", "for"),
+    (r"\bhw many\b", "how many"),
+)
+"""Words that are no English, and what was meant."""
+
+COURTESY: tuple[tuple[str, str], ...] = (
+    (r"\s*(?:\.{2,}|…)\s*(?=\w)", ", "),
+    (r"(?<=\w),? +[-–—]+ +(?=\w)", ", "),
+    (
+        (
+            "^(?:(?:hi|hey|hello|yo|ok|okay|so)?[!,. ]*)?(?:a |one )?(?:quick|small|little) (?:one|question"
+            r"|thing|favou?r|request|task|job)\s*[-,:.!]+ ?"
+        ),
+        "",
+    ),
+    (
+        (
+            r"(?<!would )(?<!do )(?<!if )\b(you|please|just) like (?=(?:go|come|bring|take|get|fetch|put|move"
+            r"|give|find|tell|carry|drive|grab|pick)\b)"
+        ),
+        r"\1 ",
+    ),
+    (r"(?<=\w),? or (?:something(?: like that)?|so|whatever|somewhere)(?=$|[.!?])", ""),
+    (
+        (
+            r"(?<=\w),? (?:can|could|will|would|can not|will not"
+            "|would not) you(?: please)?(?: help(?: me)?(?: out)?| find (?:it|them))?(?=[?.!]*$)"
+        ),
+        "",
+    ),
+    (
+        (
+            r"(?<=\w),? (?:wherever|where ever) (?:it|they|he|she|that) (?:is|are|may be|might be|went|got to"
+            "|has gone)(?=$|[.,!?])"
+        ),
+        "",
+    ),
+    (r" and (?:nothing|no one|nobody) else\b", ""),
+    (
+        (
+            r"^(?:he|she|they|\w+) (?:do|does|did) not (?:want|need|like) (?:it|them|that|this)(?: any ?more"
+            "| any longer| after all)?[,.;!]+ (?:so )?"
+        ),
+        "",
+    ),
+    (
+        (
+            r"(?<=\w),? (?:when|once|after|as soon as) you (?:have|are) (?:been there|done(?: (?:that|it|so))?"
+            "|finished|through|ready|there)(?=$|[.,!?])"
+        ),
+        "",
+    ),
+    (" (?:at the moment|at present|right now|as we speak|these days)(?=[?.!]*$)", ""),
+    (
+        (
+            ",? (?:both|all|each|every one)(?: (?:two|three|four))? of (?:them|these|those)(?=$|,| (?:go|goes"
+            r"|should|must|can|belong|belongs)\b),?"
+        ),
+        "",
+    ),
+    (
+        (
+            "^(?:so,? )?(?:i was (?:just )?(?:thinking|wondering|hoping)|i have been thinking)[,.]* (?=it|can"
+            "|could|would)"
+        ),
+        "",
+    ),
+    (
+        (
+            "^(?:i am|we are|he is|she is) (?:so |really |very |a bit |a little |quite |feeling )*(?:thirsty"
+            "|hungry|cold|tired|bored|busy|sick|late|hot|in a hurry|starving|freezing)[,.!;:]*(?: and"
+            r"| so)? (?=\w)"
+        ),
+        "",
+    ),
+    (
+        (
+            r",? (?:because|cause|cuz) (?:i|we|he|she|it|they|my|the \w+|\w+) (?:am|is|are|was|have|has|need"
+            r"|needs|want|wants|would|will|can not|feel|feels|forgot)\b[^.;!?]*(?=$|[.;!?])"
+        ),
+        "",
+    ),
+    (
+        (
+            ",? so (?:that )?(?:i|we|he|she|they|it) (?:can|could|will|may|do not|does not|is|are"
+            r"|am)\b[^.;!?]*(?=$|[.;!?])"
+        ),
+        "",
+    ),
+    (
+        (
+            "^(?:hey|hi|ok|okay|oh|well|so|and|now|right|alright|listen|hello|yo|good|great|thanks|thank you"
+            "|cool|perfect)[,!.]+ "
+        ),
+        "",
+    ),
+    ("^i(?: would|) (?:need|want|like|love|prefer)(?: for)? you to ", ""),
+    (r"\b(?:for|to) the (?:moment|time being)\b", ""),
+)
+"""Openings, moods and reasons; they change nothing in what is asked."""
+
+UNDOING: tuple[tuple[str, str], ...] = (
+    (
+        (
+            "^(?:please )?(?:undo|reverse|revert|take back|roll back) (?:what you (?:have )?(?:just )?did"
+            "|what you have (?:just )?done|your last (?:step|move|action|task)|the last (?:one|step|thing|move"
+            "|task|action)|it|that|this)(?: please)?[.! ]*$"
+        ),
+        "put it back where it was",
+    ),
+    (
+        (
+            "^(?:please )?(?:never mind|nevermind|forget it|stop|wait|no)[,.;:!]+ (?=(?:put|take|return"
+            r"|bring) (?:it|them|that|the \w+) back\b)"
+        ),
+        "",
+    ),
+    (r"^(?:please )?(?:never mind|nevermind|forget it)[,.;:]* (?=(?:put|take|return|bring)\b)", ""),
+    (
+        (
+            r"\b(?:i|you|we|he|she|they|someone|somebody) (?:have |had |just )*(?:left|put|placed|dropped"
+            "|forgot|laid|set|saw)(?: lying| standing| down)? (?=(?:on|in|at|next|by|near) )"
+        ),
+        "that is ",
+    ),
+)
+"""Taking back, in a word."""

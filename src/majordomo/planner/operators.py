@@ -111,7 +111,7 @@ class Operators:
             if state.holding is not None and (goal.predicate is Predicate.FOUND or state.holding in self._needed):
                 yield from self._put_away(state, state.holding, goal, later)
             if goal.predicate is Predicate.FOUND and state.holding is None:
-                yield Step(skill=PICK, args=goal.args)
+                yield from (Step(skill=PICK, args=(x,)) for x in (goal.args[0], *_stacked(state, goal.args[0])))
         elif state.holding == goal.args[0]:
             yield from self._put(state, goal.args[0], self.places(goal, state))
         elif state.holding is not None:

@@ -172,6 +172,10 @@ def least_that_search_and_brute_force_find(snapshot, goals):
 @example(
     small_world(tables=((0.0, 0.8), (0.0, 0.0)), holding="cup_1"), [goal("found", "cup_2"), goal("holding", "cup_2")]
 )
+@example(
+    small_world(tables=((0.0, 0.8), (0.0, 0.0)), cups_on=("table_1", "cup_1")),
+    [goal("found", "cup_1"), goal("holding", "cup_1")],
+)
 def test_no_way_is_cheaper_than_the_one_found(snapshot, goals):
     found_s, least_s = least_that_search_and_brute_force_find(snapshot, goals)
     assert found_s == pytest.approx(least_s, abs=1e-6)

@@ -14,7 +14,7 @@ from majordomo.planner.plan import Step
 from majordomo.planner.stops import Stops
 from majordomo.planner.surfaces import surfaces_near
 from majordomo.skills.skill import Skill, Unmet
-from majordomo.skills.state import PlanState, World
+from majordomo.skills.state import PlaceRelation, PlanState, World
 
 GOTO, PICK, PLACE = "GOTO", "PICK", "PLACE"
 
@@ -72,7 +72,7 @@ class Operators:
 
         Every object that must move is picked up once, carried once and put down once, one after the other; the robot
         must first come to one of them, and in the end to everywhere it is sent. What is to be near something that moves
-        itself may not have to.
+        itself may not have to, nor what is in something that can be carried.
         """
         first: dict[str, Goal] = {}
         moving = {goal.object_id for goal in goals}
@@ -80,7 +80,7 @@ class Operators:
         for goal in goals:
             if goal.object_id is None or goal.predicate is Predicate.FOUND:
                 sent_s = max(sent_s, self._sent_s(goal, state))
-            elif goal.predicate is not Predicate.NEAR or goal.args[1] not in moving:
+            elif (goal.predicate is not Predicate.NEAR or goal.args[1] not in moving) and not _comes_along(goal, state):
                 first.setdefault(goal.args[0], goal)
         handling_s, approaches_s = 0.0, [inf]
         for object_id, goal in first.items():
@@ -108,10 +108,10 @@ class Operators:
     def _worth_trying(self, goal: Goal, state: PlanState, later: Sequence[Goal]) -> Iterator[Step]:
         if goal.object_id is None or (goal.predicate is Predicate.FOUND and state.holding != goal.args[0]):
             yield from self._goto(state, goal.args[0])
-            if state.holding in self._needed:
-                yield from self._put_away(state, str(state.holding), goal, later)
+            if state.holding is not None and (goal.predicate is Predicate.FOUND or state.holding in self._needed):
+                yield from self._put_away(state, state.holding, goal, later)
             if goal.predicate is Predicate.FOUND and state.holding is None:
-                yield Step(skill=PICK, args=goal.args)
+                yield from (Step(skill=PICK, args=(x,)) for x in (goal.args[0], *_stacked(state, goal.args[0])))
         elif state.holding == goal.args[0]:
             yield from self._put(state, goal.args[0], self.places(goal, state))
         elif state.holding is not None:
@@ -204,9 +204,16 @@ def _is_room(node_id: str, state: PlanState) -> bool:
     return state.world.things[node_id].kind == "room"
 
 
+def _comes_along(goal: Goal, state: PlanState) -> bool:
+    """Whether the goal's object is in something that can be carried, and may be moved with it."""
+    places = (state.places.get(link) for link in state.chain(goal.args[0]))
+    into = [place for at in places if at is not None for relation, place in (at,) if relation is PlaceRelation.IN]
+    return any(place in state.places or place == state.holding for place in into)
+
+
 def _stacked(state: PlanState, object_id: str) -> list[str]:
-    """Everything that stands on ``object_id``, whatever it stands on in between."""
+    """Everything that stands on ``object_id``, whatever it stands on in between; what is in it comes along."""
     found: list[str] = []
-    for other in state.on_top_of(object_id):
+    for other in state.standing_on(object_id):
         found += [other, *_stacked(state, other)]
     return found

@@ -2,8 +2,8 @@
 
 Typed STRIPS, costs in tenths of a second. Exported are the goals' things, what stands on or under them, what the hand
 holds, and their rooms: no cheaper plan needs more. Goals come in their order, as ``turn``; in its turn a goal's own
-object is moved, and what stands on it out of the way. Free space is told as it is at the start; to find a thing is to
-come to where it is.
+object is moved, and what stands on or is in it out of the way, though the search carries along what is in it. Free
+space is told as it is at the start; to find a thing is to come to where it is.
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from math import prod
 
 import numpy as np
@@ -10,7 +10,15 @@ import numpy as np
 from majordomo.scene_graph.nodes import ObjectNode
 from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.skills.geometry import Points
-from majordomo.skills.place_spot import GAP_M, lattice, outline_radius_m, room_m, stands_on
+from majordomo.skills.place_spot import (
+    FINE_STEP_M,
+    GAP_M,
+    STEP_M,
+    lattice,
+    outline_radius_m,
+    room_m,
+    stands_on,
+)
 from majordomo.skills.state import Thing
 
 
@@ -42,9 +50,13 @@ class Capacity:
     def _set(self, support: str, staying: frozenset[str], coming: tuple[str, ...]) -> bool:
         here = [node for node in stands_on(self._snapshot, support, None) if self._stays(node, support, staying)]
         radii_m = sorted((outline_radius_m(self._size_m(thing)) for thing in coming), reverse=True)
+        return any(self._in_rows(support, here, radii_m, step_m) for step_m in (STEP_M, FINE_STEP_M))
+
+    def _in_rows(self, support: str, here: Sequence[ObjectNode], radii_m: Sequence[float], step_m: float) -> bool:
+        """Whether discs of these radii fit beside what is ``here``, each set down at the first free point."""
         done: list[tuple[Points, float]] = []
         for radius_m in radii_m:
-            points = lattice(self._snapshot.object(support).size_m, radius_m)
+            points = lattice(self._snapshot.object(support).size_m, radius_m, step_m)
             air_m = room_m(self._snapshot, support, points, here) - radius_m
             for point, other_m in done:
                 air_m = np.minimum(air_m, np.hypot(*(points - point).T) - other_m - radius_m)

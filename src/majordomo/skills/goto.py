@@ -50,7 +50,7 @@ class Goto:
         if unmet := unknown_arguments(self.name, self.parameters, state, args):
             return unmet
         (target,) = args
-        if target == state.holding:
+        if state.holding is not None and state.holding in state.chain(target):
             return [Unmet(message=f"{target} is in the gripper: no need to go to it.", nodes=(target,))]
         if target in state.missing:
             return [Unmet(message=f"{target} is not where it was last seen: look for it first.", nodes=(target,))]

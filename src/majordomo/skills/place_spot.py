@@ -21,6 +21,8 @@ EDGE_MARGIN_M = 0.04
 GAP_M = 0.03
 """Between the object and its neighbors; what a finger needs to open between them."""
 STEP_M = 0.04
+FINE_STEP_M = 0.01
+"""Tried where no spot of the coarse steps is free: a gap between things need not lie on them."""
 STRIP_M = 0.48
 """How far in from an edge the arm reaches: 0.80 m from the axis less the base and its clearance."""
 TOP_TOLERANCE_M = 0.12
@@ -50,8 +52,12 @@ def spots_on(snapshot: Snapshot, support_id: str, size_m: tuple[float, float, fl
     if is_container(support.label):
         return [Spot(anchor=Anchor(support_id, (0.0, 0.0, top_m)), room_m=0.0, inside=True)]
     radius_m = outline_radius_m(size_m)
-    points = lattice(support.size_m, radius_m)
-    room = room_m(snapshot, support_id, points, stands_on(snapshot, support_id, held)) - radius_m
+    others = stands_on(snapshot, support_id, held)
+    for step_m in (STEP_M, FINE_STEP_M):
+        points = lattice(support.size_m, radius_m, step_m)
+        room = room_m(snapshot, support_id, points, others) - radius_m
+        if (room >= GAP_M).any():
+            break
     order = np.argsort(-np.minimum(room, 0.10), kind="stable")
     return [
         Spot(anchor=Anchor(support_id, (float(points[i, 0]), float(points[i, 1]), top_m)), room_m=float(room[i]))
@@ -109,14 +115,14 @@ def _objects_beside(snapshot: Snapshot, support_id: str) -> list[ObjectNode]:
     return [node for node in nodes if isinstance(node, ObjectNode)]
 
 
-def lattice(size_m: tuple[float, float, float], radius_m: float) -> Points:
-    """Points (N, 2) about ``STEP_M`` apart on a top of ``size_m``, in rows, where a disc stands within the arm's reach;
+def lattice(size_m: tuple[float, float, float], radius_m: float, step_m: float = STEP_M) -> Points:
+    """Points (N, 2) about ``step_m`` apart on a top of ``size_m``, in rows, where a disc stands within the arm's reach;
     none where it is too large.
     """
     half = np.array(size_m[:2]) / 2 - EDGE_MARGIN_M - radius_m
     if (half < 0).any():
         return np.zeros((0, 2))
-    x, y = (np.linspace(-h, h, max(int(2 * h / STEP_M) + 1, 1)) if h > 0 else np.zeros(1) for h in half)
+    x, y = (np.linspace(-h, h, max(int(2 * h / step_m) + 1, 1)) if h > 0 else np.zeros(1) for h in half)
     points = np.stack([axis.ravel() for axis in np.meshgrid(x, y, indexing="ij")], axis=1)
     return np.asarray(points[_edge_distance_m(points, size_m) <= STRIP_M])
 

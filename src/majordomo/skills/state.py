@@ -192,6 +192,10 @@ class PlanState:
             return tuple(sorted(self.places.at(node_id)))
         return tuple(sorted(thing for thing, (_, place) in self.places.items() if place == node_id))
 
+    def standing_on(self, node_id: str) -> tuple[str, ...]:
+        """Objects on ``node_id`` that are in the way of carrying it; what is in it is not. Sorted."""
+        return tuple(thing for thing in self.on_top_of(node_id) if self.places[thing][0] is not PlaceRelation.IN)
+
     def has_room_for(self, object_id: str, place: str) -> bool:
         """Whether an object fits on or in a place beside what is there in this state."""
         target = self.world.things[place]

@@ -136,6 +136,20 @@ def test_a_vantage_point_is_one_that_a_way_leads_to() -> None:
     assert shut_in is None or shut_in[0] > 4.0
 
 
+@pytest.mark.parametrize(("steps", "seed"), [(9, 0), (5, 1)])
+def test_a_small_room_seen_from_beside_its_door_is_not_cut_at_the_door_s_post(steps: int, seed: int) -> None:
+    rooms = {"bathroom": rectangle(2.48, 1.94), "hall": rectangle(4.2, 1.64, x=-1.5, y=2.09)}
+    house = House(
+        rooms=rooms,
+        doors=[Door(rooms=("bathroom", "hall"), center=(1.6, 2.015), width=1.02)],
+        wall_thickness=0.15,
+    )
+    way = [(1.6 - 0.35 * step / 8, 1.38 - 0.5 * step / 8) for step in range(steps)]
+    outline = outline_from(house, *way, seed=seed)
+    assert outline.closed
+    assert corner_error_m(rooms["bathroom"], outline.polygon) < 0.012
+
+
 @pytest.mark.parametrize("x_m", [3.3, 3.6, 3.8])
 def test_standing_in_front_of_an_open_door_does_not_join_two_rooms(x_m: float) -> None:
     house = House(

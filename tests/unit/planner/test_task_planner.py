@@ -118,6 +118,7 @@ async def test_a_node_that_the_model_was_not_shown_is_nothing_to_act_on():
     assert "'spoon_109' is not an identifier in the scene" in model.requests[1].messages[-1].text
 
 
+@pytest.mark.anyio
 async def test_after_five_rounds_the_grammars_own_question_stands_and_says_so():
     found, model, _ = await interpret(["prose"] * 20)
     assert len(model.requests) == MAX_ROUNDS == 5

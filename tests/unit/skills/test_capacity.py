@@ -9,6 +9,7 @@ from majordomo.planner.plan import Impossible, Plan
 from majordomo.planner.sketch import Sketch
 from majordomo.planner.verifier import Verifier
 from majordomo.scene_graph.nodes import ObjectState
+from majordomo.skills.place_spot import spots_on
 from majordomo.skills.registry import load_registry
 
 VERIFIER = Verifier(load_registry([]))
@@ -80,3 +81,32 @@ def test_into_a_container_goes_what_is_smaller_than_it(size_m, fits):
 def test_of_furniture_of_unknown_size_nothing_is_assumed():
     sketch = room().furniture("ledge_1", "ledge", "room_1", at=(-1.2, -1.2), size_m=(0.0, 0.0, 0.0))
     assert isinstance(planned(sketch, *(goal("on", f"cup_{k + 1}", "ledge_1") for k in range(6))), Plan)
+
+
+@pytest.mark.parametrize(("gap_m", "fits"), [(0.135, True), (0.12, False)])
+def test_a_cup_fits_into_a_gap_between_others_wherever_that_is(gap_m, fits):
+    """A cup of 0.07 m needs 0.03 m on both sides."""
+    sketch = Sketch().room("room_1", "kitchen", at=(0.0, 0.0))
+    sketch.furniture("table_1", "coffee table", "room_1", at=(0.0, 1.0), size_m=(0.8, 0.18, 0.4))
+    sketch.furniture("table_2", "table", "room_1", at=(0.0, -1.0)).thing("cup_1", "cup", on="table_2")
+    for k, (left_m, right_m) in enumerate([(-0.4, -0.055), (gap_m - 0.055, 0.4)]):
+        at, size_m = ((left_m + right_m) / 2, 1.0), (right_m - left_m, 0.1, 0.2)
+        sketch.thing(f"vase_{k}", "vase", on="table_1", at=at, size_m=size_m, graspable=False)
+    snapshot = sketch.snapshot(robot_in="room_1", at=(1.0, 0.0))
+    assert isinstance(VERIFIER.plan_for([goal("on", "cup_1", "table_1")], snapshot), Plan) == fits
+    assert bool(spots_on(snapshot, "table_1", (0.07, 0.07, 0.12), "cup_1")) == fits
+
+
+def test_what_is_in_a_bowl_moves_with_it():
+    sketch = (
+        Sketch().room("room_1", at=(0.0, 0.0)).room("room_2", at=(4.2, 0.0)).door("room_1", "room_2", at=(2.1, 0.0))
+    )
+    sketch.furniture("table_1", "table", "room_1", at=(0.0, 1.0)).furniture("desk_1", "desk", "room_2", at=(4.2, 1.0))
+    sketch.thing("bowl_1", "bowl", on="table_1", size_m=(0.08, 0.08, 0.08))
+    sketch.thing("apple_1", "apple", on="bowl_1", relation="in")
+    snapshot = sketch.snapshot(robot_in="room_1", at=(0.0, 0.0))
+    plan = VERIFIER.plan_for([goal("on", "bowl_1", "desk_1"), goal("in", "apple_1", "room_2")], snapshot)
+    assert isinstance(plan, Plan)
+    assert [step.skill for step in plan.steps] == ["PICK", "GOTO", "PLACE"]
+    out = VERIFIER.plan_for([goal("on", "bowl_1", "desk_1"), goal("on", "apple_1", "table_1")], snapshot)
+    assert [str(step) for step in out.steps if step.skill == "PICK"] == ["PICK(bowl_1)", "PICK(apple_1)"]

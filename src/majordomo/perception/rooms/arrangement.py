@@ -27,6 +27,7 @@ Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
 _RUN = 4  # stations
+_CORNERS = 4  # gates
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -217,10 +218,20 @@ def _blocked_share(
 ) -> Array:
     """(len(lines), len(crossing) - 1) share of a stretch of a line that is wall, of what was seen of it.
 
-    ``lines`` are offsets along ``axis``; ``crossing`` cuts them into stretches.
+    ``lines`` are offsets along ``axis``; ``crossing`` cuts them into stretches. Rays that end in their corners
+    tell nothing about a stretch that is longer than these.
     """
+    vague, sure = (_wall_share(views, lines, crossing, axis, settings, corners=corners) for corners in (True, False))
+    return np.where(np.diff(crossing) > _CORNERS * settings.gate_m, sure, vague)
+
+
+def _wall_share(
+    views: Sequence[View], lines: Array, crossing: Array, axis: int, settings: ArrangementSettings, *, corners: bool
+) -> Array:
+    """``_blocked_share``, from all rays or from those that do not end on a ``crossing`` line, in the ``corners``."""
     stations = _samples(crossing)
-    profile = LineProfile.of(views, lines, np.concatenate(stations), axis, settings.gate_m)
+    apart = None if corners else crossing
+    profile = LineProfile.of(views, lines, np.concatenate(stations), axis, settings.gate_m, apart)
     starts = np.cumsum([0] + [len(part) for part in stations[:-1]])
     wall = np.add.reduceat(profile.wall(settings.blocked).astype(np.float64), starts, axis=1)
     told = np.add.reduceat(profile.told.astype(np.float64), starts, axis=1)

@@ -35,8 +35,20 @@ class LineProfile:
     towards: Array
 
     @classmethod
-    def of(cls, views: Sequence[View], lines: Array, stations: Array, axis: int, gate_m: float) -> LineProfile:
-        """Ask all views about all stations."""
+    def of(
+        cls,
+        views: Sequence[View],
+        lines: Array,
+        stations: Array,
+        axis: int,
+        gate_m: float,
+        crossing: Array | None = None,
+    ) -> LineProfile:
+        """Ask all views about all stations.
+
+        ``crossing``: (C,) stations of lines across. A ray that ends rather on one of them met another wall just before
+        this one: it tells nothing.
+        """
         points = np.empty((len(lines), len(stations), 2))
         points[..., axis] = lines[:, None]
         points[..., 1 - axis] = stations[None, :]
@@ -44,6 +56,8 @@ class LineProfile:
         ending, passing, towards = (np.zeros(points.shape[:2]) for _ in range(3))
         for view in views:
             clearance, incidence = view.clearance(points.reshape(-1, 2), across, gate_m)
+            if crossing is not None:
+                clearance[_on_crossing(view, points.reshape(-1, 2), axis, crossing, gate_m)] = np.nan
             clearance = clearance.reshape(ending.shape)
             with np.errstate(invalid="ignore"):
                 ended = np.abs(clearance) <= gate_m
@@ -65,6 +79,16 @@ class LineProfile:
     def wall(self, blocked: float) -> Mask:
         """(L, S) where more than ``blocked`` of the rays end."""
         return np.asarray(self.told & (self.ending > blocked * (self.ending + self.passing)))
+
+
+def _on_crossing(view: View, points: Array, axis: int, crossing: Array, gate_m: float) -> Mask:
+    """Which rays towards (N, 2) points end near these, but on a line across or nearer to it than to their own."""
+    beyond, direction, _ = view.beyond(points)
+    with np.errstate(invalid="ignore"):
+        off_m = np.abs(beyond * direction[:, axis])
+        station = points[:, 1 - axis] + beyond * direction[:, 1 - axis]
+        across_m = np.abs(station[:, None] - crossing).min(axis=1)
+        return np.asarray((off_m <= gate_m) & (across_m < np.maximum(off_m, gate_m / 2.0)))
 
 
 def end_of_wall(on_line: Facets, about_m: float, *, wall_first: bool) -> float | None:

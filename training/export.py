@@ -22,7 +22,7 @@ _PREFIX = "network."
 MEAN, STD = (123.675, 116.28, 103.53), (58.395, 57.12, 57.375)
 
 
-THRESHOLDS: Mapping[str, float] = MappingProxyType({"something": 0.5, "relation": 0.1, "known": 0.3})
+THRESHOLDS: Mapping[str, float] = MappingProxyType({"something": 0.5, "relation": 0.1, "known": 0.2})
 
 
 class _Contract(nn.Module):

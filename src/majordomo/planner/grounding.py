@@ -10,7 +10,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from majordomo.planner.grammar.syntax import NounPhrase, Pronoun, Quantity, Reference, Restriction, Spot
-from majordomo.planner.matching import named
+from majordomo.planner.matching import Names
 from majordomo.planner.naming import name_of
 from majordomo.planner.narrowing import Narrowing
 from majordomo.planner.phrasing import alternatives, describe, phrase_text, which_question
@@ -70,6 +70,7 @@ class Grounding:
 
     def __init__(self, snapshot: Snapshot, state: PlanState) -> None:
         self.snapshot, self.state = snapshot, state
+        self.names = Names(snapshot)
         self._narrowing = Narrowing(snapshot, state, self)
 
     nowhere = Context()
@@ -117,7 +118,7 @@ class Grounding:
     def matches(
         self, phrase: NounPhrase, context: Context, *, widely: bool = True, fixed: bool = False
     ) -> tuple[str, ...]:
-        """Every node that fits the words of ``phrase``, whatever its quantity; options as in ``matching.named``."""
+        """Every node that fits the words of ``phrase``, whatever its quantity; options as in ``Names.named``."""
         return self._narrowing.narrow(self._named(phrase, context, widely=widely, fixed=fixed), phrase, context)
 
     def among(self, candidates: Sequence[str], phrase: NounPhrase) -> tuple[str, ...]:
@@ -154,6 +155,7 @@ class Grounding:
             return self._there(context) or NoReferent(reason="I do not know which place you mean by “there”.")
         if word == "him":
             people = [i for i in context.mentioned if isinstance(self.snapshot.get(i), PersonNode)]
+            people = [i for i in people if (i,) != self.speaker(context)]
             return tuple(people[:1]) or NoReferent(reason="I do not know whom you mean.")
         if word == "them" and not context.fresh and context.earlier:
             moved = tuple(
@@ -285,7 +287,7 @@ class Grounding:
         head = phrase.head
         if head in ("one", "ones"):
             head = context.noun or "thing"
-        found = named(head, phrase.number, self.snapshot, widely=widely, fixed=fixed)
+        found = self.names.named(head, phrase.number, widely=widely, fixed=fixed)
         if len(found) == 1 or len(head.split()) < 2:
             return found
         return self._named_in_room(phrase, widely=widely) or found or tuple(self._rooms_with(head))
@@ -299,7 +301,7 @@ class Grounding:
             rooms = [room.id for room in self.snapshot.of_type(RoomNode) if normal(room.label) in called]
             rooms = rooms or self._rooms_with(lead)
             if rooms:
-                rest = named(" ".join(words[split:]), phrase.number, self.snapshot, widely=widely)
+                rest = self.names.named(" ".join(words[split:]), phrase.number, widely=widely)
                 return tuple(i for i in rest if i not in rooms and any(self._narrowing.is_at(i, r) for r in rooms))
         return ()
 
@@ -308,7 +310,7 @@ class Grounding:
         thing, _, last = said.rpartition(" ")
         if last != "room" or not thing:
             return []
-        inside = named(thing, None, self.snapshot, widely=False, fixed=True)
+        inside = self.names.named(thing, None, widely=False, fixed=True)
         return list(dict.fromkeys(room for i in inside if (room := self.state.room_of(i)) is not None))
 
     def _suited(self, found: tuple[str, ...], *, carried: bool) -> tuple[str, ...]:

@@ -57,6 +57,7 @@ class Interpreter:
     def __init__(self, grammar: CommandGrammar, verifier: Verifier) -> None:
         self._grammar, self._verifier = grammar, verifier
         self._lexicon: tuple[Snapshot, Lexicon] | None = None
+        self._grounding: tuple[Snapshot, Grounding] | None = None
 
     def read(
         self,
@@ -115,8 +116,10 @@ class Interpreter:
         return self._ground(steps, snapshot, dialogue, choices)
 
     def grounding(self, snapshot: Snapshot) -> Grounding:
-        """References on ``snapshot``."""
-        return Grounding(snapshot, self._verifier.state(snapshot))
+        """References on ``snapshot``; those of the last graph asked for are kept."""
+        if self._grounding is None or self._grounding[0] is not snapshot:
+            self._grounding = (snapshot, Grounding(snapshot, self._verifier.state(snapshot)))
+        return self._grounding[1]
 
     def lexicon(self, snapshot: Snapshot) -> Lexicon:
         """Nouns and names of the graph; those of the last graph asked for are kept."""
@@ -185,7 +188,7 @@ class Interpreter:
         """What steps mean together, if the verifier finds no flaw; what was not said as a request is asked about."""
         found = self._checked(meanings, snapshot)
         if meanings and all(meant.told for meant in meanings):
-            said = listed([name_of(i, snapshot) for meant in meanings for i in meant.things])
+            said = listed([name_of(i, snapshot) for meant in meanings for i in meant.things or meant.places])
             return _reading(Kind.CLARIFY, f"What shall I do with {said}?")
         doubtful = found.kind is Kind.PLAN or found.lessons
         if doubtful and any(meant.doubt for meant in meanings) and DOUBT not in choices:

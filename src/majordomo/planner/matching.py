@@ -47,23 +47,49 @@ def nouns_of(snapshot: Snapshot) -> frozenset[str]:
     return frozenset(places | {word for label, name, categories in said for word in (label, name, *categories)})
 
 
-def named(head: str, number: int | None, snapshot: Snapshot, *, widely: bool, fixed: bool = False) -> tuple[str, ...]:
-    """Identifiers of the nodes that ``head`` (*remote control*) may name.
+class Names:
+    """What may be spoken of on one graph, grouped by what reads alike, so that each group is looked at once."""
 
-    ``widely``: every way of naming counts, as in *how many cups*; else the closest way that names anything decides, so
-    that *mug* prefers what is labeled mug to what is labeled cup. ``fixed``: *things* and *objects* may be any, not
-    only those that can be carried.
-    """
-    if head in snapshot:
-        return (head,)
-    ranks = _Ranks(head, fixed=fixed)
-    ranked = [(rank, node) for node in nodes_of(snapshot) if (rank := ranks.of(node)) is not None]
-    if number is not None:
-        ranked = [(rank, node) for rank, node in ranked if node.id.rpartition("_")[2] == str(number)]
-    closest = min((rank for rank, _ in ranked), default=0)
-    kept = [node.id for rank, node in ranked if widely or rank == closest]
-    kept += [region.id for region in snapshot.of_type(RegionNode) if region.label and normal(region.label) == head]
-    return tuple(sorted(kept, key=natural_key))
+    def __init__(self, snapshot: Snapshot) -> None:
+        self._snapshot = snapshot
+        self._groups: dict[Hashable, list[Place]] = {}
+        for node in nodes_of(snapshot):
+            self._groups.setdefault(_reads(node), []).append(node)
+        self._found: dict[tuple[str, bool], list[tuple[int, str]]] = {}
+
+    def named(self, head: str, number: int | None, *, widely: bool, fixed: bool = False) -> tuple[str, ...]:
+        """Identifiers of the nodes that ``head`` (*remote control*) may name.
+
+        ``widely``: every way of naming counts, as in *how many cups*; else the closest way that names anything decides,
+        so that *mug* prefers what is labeled mug to what is labeled cup. ``fixed``: *things* and *objects* may be any,
+        not only those that can be carried.
+        """
+        if head in self._snapshot:
+            return (head,)
+        ranked = self._ranked(head, fixed=fixed)
+        if number is not None:
+            ranked = [(rank, i) for rank, i in ranked if i.rpartition("_")[2] == str(number)]
+        closest = min((rank for rank, _ in ranked), default=0)
+        kept = [i for rank, i in ranked if widely or rank == closest]
+        regions = self._snapshot.of_type(RegionNode)
+        kept += [region.id for region in regions if region.label and normal(region.label) == head]
+        return tuple(sorted(kept, key=natural_key))
+
+    def _ranked(self, head: str, *, fixed: bool) -> list[tuple[int, str]]:
+        key = (head, fixed)
+        if key not in self._found:
+            ranks = ((_rank(head, nodes[0], fixed=fixed), nodes) for nodes in self._groups.values())
+            self._found[key] = [(rank, node.id) for rank, nodes in ranks if rank is not None for node in nodes]
+        return self._found[key]
+
+
+def _reads(node: Place) -> Hashable:
+    """Nodes with the same value here are named by the same words."""
+    if isinstance(node, ObjectNode):
+        return (node.label, node.name, node.categories, node.graspable, node.support)
+    if isinstance(node, RoomNode):
+        return (RoomNode, node.label)
+    return DoorNode if isinstance(node, DoorNode) else node.id
 
 
 def similar(head: str, snapshot: Snapshot) -> tuple[str, ...]:
@@ -74,22 +100,6 @@ def similar(head: str, snapshot: Snapshot) -> tuple[str, ...]:
 
 def _names(snapshot: Snapshot) -> set[str]:
     return {normal(node.name) for node in nodes_of(snapshot) if isinstance(node, ObjectNode | PersonNode) and node.name}
-
-
-class _Ranks:
-    """How closely one noun names nodes; what reads alike is looked at once."""
-
-    def __init__(self, head: str, *, fixed: bool) -> None:
-        self._head, self._fixed = head, fixed
-        self._known: dict[Hashable, int | None] = {}
-
-    def of(self, node: Place) -> int | None:
-        if not isinstance(node, ObjectNode):
-            return _rank(self._head, node, fixed=self._fixed)
-        alike = (node.label, node.name, node.categories, node.graspable, node.support)
-        if alike not in self._known:
-            self._known[alike] = _rank(self._head, node, fixed=self._fixed)
-        return self._known[alike]
 
 
 def _rank(head: str, node: Place, *, fixed: bool) -> int | None:

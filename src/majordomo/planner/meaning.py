@@ -163,7 +163,11 @@ class Meaning:
         found = self._grounding.things(thing, context)
         if not isinstance(found, tuple):
             return found
-        return Meant(things=found, noun=noun_of((thing,), context), told=True)
+        if all(isinstance(self._snapshot.get(i), PersonNode) for i in found):
+            return Meant(places=found, told=True)
+        who = self._grounding.place(step.who, context) if step.who is not None else ()
+        people = who if isinstance(who, tuple) else ()
+        return Meant(things=found, places=people, noun=noun_of((thing,), context), told=True)
 
     def _carry(self, step: Carry, context: Context) -> Outcome:
         if step.destination is not None and step.destination.relation not in ("to", "in", "on", "near"):
@@ -182,7 +186,7 @@ class Meaning:
             return Ambiguous(question=f"Where should I {step.verb} {names}?", phrase="destination", candidates=())
         place = self._destination(step.destination, step.things, self._with_said(step.things, context))
         if not isinstance(place, str):
-            unmet = self._gathering.to_carry(step.things, context)
+            unmet = self._gathering.to_carry(step.things, context) if isinstance(place, Ambiguous) else None
             return unmet if isinstance(unmet, NoReferent) else place
         predicate = self.predicate(step.destination.relation, place)
         room = self._state.room_of(place)

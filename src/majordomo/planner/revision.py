@@ -10,7 +10,6 @@ from majordomo.planner.goals import PLACING, Goal, Predicate
 from majordomo.planner.grammar.syntax import Carry, NounPhrase, Pronoun, Step
 from majordomo.planner.grammar.words import NUMBERS
 from majordomo.planner.grounding import Context, Grounding
-from majordomo.planner.matching import named
 from majordomo.planner.meaning import Meaning, Outcome
 from majordomo.planner.meant import Meant
 from majordomo.planner.plan import Exchange
@@ -201,7 +200,7 @@ class Reviser:
 
     def _alike(self, phrase: NounPhrase, old: str) -> bool:
         """Whether a phrase could stand in the place of ``old``: a thing for a thing, a room for a room or table."""
-        fitting = named(phrase.head, phrase.number, self._snapshot, widely=True)
+        fitting = self._grounding.names.named(phrase.head, phrase.number, widely=True)
         return any(self._sort(i) == self._sort(old) for i in fitting)
 
     def _sort(self, node_id: str) -> str:

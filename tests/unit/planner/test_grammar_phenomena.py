@@ -12,6 +12,15 @@ from majordomo.planner.verifier import Verifier
 from majordomo.skills.registry import load_registry
 
 PLANS = [
+    ("Anna is hungry, bring her the apple", "given(apple_1, person_1)"),
+    ("I would rather have the remote", "given(remote_1, person_2)"),
+    ("go to Anna's", "robot_at(room_3)"),
+    ("the key... no the apple goes to the office", "in(apple_1, room_4)"),
+    ("could Anna get the apple", "given(apple_1, person_1)"),
+    ("Anna needs the remote", "given(remote_1, person_1)"),
+    ("Anna lost the key, take it to her", "given(key_1, person_1)"),
+    ("Anna forgot the pen, bring it to her unless she is in the office", "given(pen_1, person_1)"),
+    ("Anna needs the laptop, no wait, she needs the key", "given(key_1, person_1)"),
     ("the office please", "robot_at(room_4)"),
     ("the apple, please", "given(apple_1, person_2)"),
     ("apple to the desk", "on(apple_1, desk_1)"),
@@ -126,6 +135,8 @@ PLANS = [
 ]
 
 ASKED = [
+    ("put the apple away", "Where should I put"),
+    ("Anna is hungry", "What shall I do"),
     ("bring me the cup that isn't the red one", "green cup"),
     ("the apple on the counter", "Did you mean"),
     ("there is an apple on the counter", "What shall I do with the red apple?"),
@@ -135,6 +146,7 @@ ASKED = [
 ]
 
 REFUSED = [
+    ("if she is in the living room, bring me the apple", "whom you mean"),
     ("there is a banana on the couch, bring it to Anna", "banana"),
     ("open the door", "cannot open"),
     ("open the door to the bathroom, please", "cannot open"),
@@ -144,6 +156,7 @@ REFUSED = [
 ]
 
 ANSWERS = [
+    ("could you check whether the bathroom is open and tell me", "No"),
     ("who knows where the remote is", "couch"),
     ("where are the books kept", "shelf"),
     ("where's the key gone", "table"),

@@ -27,41 +27,42 @@ def _by_letters() -> dict[tuple[str, str], tuple[str, ...]]:
 
 
 _SWAPPED = _by_letters()
+_UNDERSTOOD = KNOWN_WORDS | PHRASE_WORDS
 
 
 @dataclass(frozen=True)
 class Lexicon:
-    """Names of the live graph as tuples of words: nouns (labels, taught names, rooms) and persons."""
+    """Names of the live graph as tuples of words: nouns (labels, taught names, rooms) and persons.
+
+    ``parts``: the words of all of them. ``last``: the last words of nouns of several.
+    """
 
     nouns: frozenset[tuple[str, ...]] = frozenset()
     persons: frozenset[tuple[str, ...]] = frozenset()
     longest: int = field(default=4)
+    parts: frozenset[str] = frozenset()
+    last: frozenset[str] = frozenset()
 
     @classmethod
     def of(cls, nouns: Iterable[str], persons: Iterable[str] = ()) -> Lexicon:
         """From labels and names as they stand in the graph."""
         split = frozenset(tuple(normal(noun).split()) for noun in nouns if normal(noun))
         people = frozenset(tuple(normal(person).split()) for person in persons if normal(person))
-        return cls(split, people, max((len(words) for words in split | people | KNOWN), default=1))
+        longest = max((len(words) for words in split | people | KNOWN), default=1)
+        parts = frozenset(part for words in split | people for part in words)
+        return cls(split, people, longest, parts, frozenset(noun[-1] for noun in split if len(noun) > 1))
 
     def meant(self, word: str) -> str:
         """``word``, or the one name of the graph that it is a slip of."""
-        if (word,) in PHRASES or self.is_noun((word,)) or word in KNOWN_WORDS | PHRASE_WORDS:
+        if word in _UNDERSTOOD or self.is_noun((word,)) or word in self.parts or singular(word) in self.parts:
             return word
         swapped = _SWAPPED.get((word[:1], "".join(sorted(word))), ()) if len(word) > 2 else ()
-        if len(swapped) == 1 and not self.is_person(word):
-            return swapped[0]
-        parts = {part for words in self.nouns | self.persons for part in words}
-        return word if word in parts or singular(word) in parts else closest(word, parts) or word
-
-    def is_person(self, word: str) -> bool:
-        """Whether a word is part of somebody's name."""
-        return any(word in person for person in self.persons)
+        return swapped[0] if len(swapped) == 1 else closest(word, self.parts) or word
 
     def can_own(self, words: tuple[str, ...]) -> bool:
         """Whether *'s* may follow: the name of a person, of a thing or room, or the last word of a room's name."""
-        last = {noun[-1] for noun in self.nouns if len(noun) > 1} if len(words) == 1 else ()
-        return words in self.persons or self.is_noun(words) or (words[0] in last) or words[1:] == ("room",)
+        last = len(words) == 1 and words[0] in self.last
+        return last or words in self.persons or self.is_noun(words) or words[1:] == ("room",)
 
     def is_noun(self, words: tuple[str, ...]) -> bool:
         """Whether ``words`` name something here or in the vocabulary, in the singular or plural."""

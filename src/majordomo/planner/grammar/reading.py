@@ -235,7 +235,17 @@ class Reader(QuestionReader):
         colors = [str(token) for token in tokens_of(children) if token.type in ("COLOR", "ORANGE")]
         if where:
             thing = replace(thing, restrictions=(*thing.restrictions, *where))
-        return Mention(thing=replace(thing, colors=(*thing.colors, *colors)), lost=bool(states))
+        whose = [self.recipient([token]) for token in tokens_of(children) if token.type in ("NAME", "PERSON")]
+        who = whose[0] if whose else None
+        return Mention(thing=replace(thing, colors=(*thing.colors, *colors)), who=who, lost=bool(states))
+
+    def narrated_person(self, children: Children) -> Mention:
+        """*Ben is hungry*: what follows is about him."""
+        return Mention(thing=self.recipient([children[0]]))
+
+    def go_home(self, children: Children) -> Go:
+        """*Go to Ben's*: to his room."""
+        return Go(target=replace(NounPhrase(words=("room",)), **self.owned([children[-1]])))
 
     def referred(self, children: Children) -> Reference:
         reference: Reference = values_of(children)[0]
@@ -245,7 +255,7 @@ class Reader(QuestionReader):
         return Pronoun(word="start")
 
     def speaking(self, children: Children) -> Pronoun:
-        return Pronoun(word="you" if children[0].type == "YOU" else "me")
+        return Pronoun(word={"YOU": "you", "I": "me"}.get(children[0].type, "him"))
 
     def teach_np(self, children: Children) -> Teach:
         return replace(_teach(children), target=values_of(children)[0])

@@ -102,6 +102,9 @@ class Structure:
             return [Unclear(tokens=tuple(sentence))]
         if self._asks(sentence):
             return self._steps(sentence)
+        told = self._told_first(sentence)
+        if told:
+            return [Clause(tokens=tuple(sentence[:told])), *self._of(trimmed(sentence[told:]))]
         again = _second_if(sentence)
         if again is not None:
             return [*self._of(trimmed(sentence[:again])), *self._of(sentence[again:])]
@@ -111,6 +114,12 @@ class Structure:
             if token.type in ("BEFORE", "AFTER") or (token.type == "WHEN" and _is_done(sentence, index)):
                 return self._ordered(sentence, index)
         return self._steps(sentence)
+
+    def _told_first(self, sentence: Tokens) -> int:
+        """How long what is only told is, that comes before a request with a condition; 0 if there is none."""
+        first = clauses(sentence)[0]
+        conditional = any(token.type in _IF for token in sentence[len(first) :])
+        return len(first) if conditional and sentence[0].type not in _IF and self.parses("narrated", first) else 0
 
     def _asks(self, sentence: Tokens) -> bool:
         return sentence[0].type != "WHETHER" and asks(sentence) and self.parses("question", sentence)

@@ -189,9 +189,10 @@ class Ask:
 
 @dataclass(frozen=True, kw_only=True)
 class Mention:
-    """*There is a mug on the desk*: what the next step is about. ``lost``: *my phone is gone*."""
+    """*There is a mug on the desk*: what the next step is about. ``lost``: *my phone is gone*. ``who``: who lost it."""
 
     thing: Reference
+    who: Reference | None = None
     lost: bool = False
 
 

@@ -131,7 +131,7 @@ CLOSED: dict[str, tuple[str, ...]] = {
     "BUT_FIRST": ("but first", "but before that", "before that", "but first of all", "but beforehand"),
     "NEXT": ("next",),
     "SHOULD": ("should", "must", "has to", "have to", "needs to", "need to", "ought to", "is to", "are to",
-               "is supposed to", "are supposed to", "is meant to", "needs"),
+               "is supposed to", "are supposed to", "is meant to"),
     "BELONG": ("belong", "belongs"),
     "WANTS": ("wants", "needs", "would like", "asked for", "is asking for", "would love", "could use", "asks for",
               "is after", "gets", "is waiting for", "has asked for", "keeps asking for", "wanted", "needed",

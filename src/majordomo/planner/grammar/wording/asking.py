@@ -5,6 +5,14 @@ from __future__ import annotations
 ASKING: tuple[tuple[str, str], ...] = (
     (
         (
+            r"^((?:could you |can you |please )*(?:go and )?(?:check|see|look|find out)"
+            r" (?:if|whether|where|what|who) .+?)"
+            r",? and (?:then )?(?:tell me|let me know)(?=[.!?]*$)"
+        ),
+        r"\1",
+    ),
+    (
+        (
             "^(?:please )?(?:locate|find) (.+?)(?: for (?:me|us))?,? (?:and )?(?:just |only "
             "|simply )?(?:tell me|let me know|say)(?: where)?(?=[.!]*$)"
         ),

@@ -3,6 +3,14 @@
 from __future__ import annotations
 
 BRINGING: tuple[tuple[str, str], ...] = (
+    (r"\b(?:put|tidy|clear|pack|stow) (\w+|(?:the|my|all|every|these|those) [\w ]+?) away(?=$|[.!?])", r"put \1"),
+    (
+        (
+            r"^(?:can|could|may|might) (?!i\b|you\b|we\b|it\b|the\b|this\b|that\b|someone\b|somebody\b)(\w+)"
+            r" (?:please )?(?:have|get|borrow|use) (?=(?:the|a|an|my|some|one|two|any|that)\b)"
+        ),
+        r"bring \1 ",
+    ),
     (
         (
             r"^(?:i|we) do not (?:want|need|like) the (\w+) (\w+)[,.;]+ (?:but |so "

@@ -111,7 +111,7 @@ class Operators:
             if state.holding is not None and (goal.predicate is Predicate.FOUND or state.holding in self._needed):
                 yield from self._put_away(state, state.holding, goal, later)
             if goal.predicate is Predicate.FOUND and state.holding is None:
-                yield from (Step(skill=PICK, args=(x,)) for x in (goal.args[0], *_stacked(state, goal.args[0])))
+                yield from self._take(goal.args[0], state)
         elif state.holding == goal.args[0]:
             yield from self._put(state, goal.args[0], self.places(goal, state))
         elif state.holding is not None:
@@ -120,6 +120,14 @@ class Operators:
             for object_id in (goal.args[0], *_stacked(state, goal.args[0])):
                 yield from self._goto(state, object_id)
                 yield Step(skill=PICK, args=(object_id,))
+
+    def _take(self, object_id: str, state: PlanState) -> Iterator[Step]:
+        """To have found something by picking it up: what stands on it first; going to it would end the search there."""
+        stacked = _stacked(state, object_id)
+        below = [link for link in list(state.chain(object_id))[1:] if not _is_room(link, state)]
+        for other in (*below, *stacked):
+            yield from self._goto(state, other)
+        yield from (Step(skill=PICK, args=(x,)) for x in (object_id, *stacked))
 
     def places(self, goal: Goal, state: PlanState) -> tuple[str, ...]:
         """Where ``goal``'s object can be put so that the goal holds. PLACE itself finds a free spot there."""

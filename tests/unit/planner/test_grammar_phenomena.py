@@ -12,6 +12,8 @@ from majordomo.planner.verifier import Verifier
 from majordomo.skills.registry import load_registry
 
 PLANS = [
+    ("the books from the bedroom go to the office", "in(book_2, room_4) in(book_3, room_4)"),
+    ("the apple for Anna", "given(apple_1, person_1)"),
     ("Anna is hungry, bring her the apple", "given(apple_1, person_1)"),
     ("I would rather have the remote", "given(remote_1, person_2)"),
     ("go to Anna's", "robot_at(room_3)"),

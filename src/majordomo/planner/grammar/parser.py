@@ -12,10 +12,10 @@ from lark import Lark, Token, Tree, UnexpectedInput
 from lark.lexer import Lexer
 from lark.visitors import CollapseAmbiguities
 
+from majordomo.planner.grammar.agreement import is_sensible
 from majordomo.planner.grammar.lexer import asks, clauses, sentences, typed
 from majordomo.planner.grammar.lexicon import Lexicon
 from majordomo.planner.grammar.lookahead import LookaheadParser
-from majordomo.planner.grammar.phrases import is_sensible
 from majordomo.planner.grammar.reading import Reader
 from majordomo.planner.grammar.sentences import Clause, Forbidden, Fork, Part, Structure, Unclear
 from majordomo.planner.grammar.syntax import Ask, Carry, NounPhrase, Step

@@ -7,8 +7,9 @@ from typing import Any
 
 from lark import Token, Transformer
 
+from majordomo.planner.grammar.agreement import apposed, may_except, may_follow
 from majordomo.planner.grammar.syntax import NounPhrase, Pronoun, Quantity, Reference, Restriction, Spot
-from majordomo.planner.vocabulary import is_plural, singular
+from majordomo.planner.vocabulary import is_plural
 
 Children = list[Any]
 _SIZE = {"BIG": "big", "SMALL": "small"}
@@ -51,7 +52,7 @@ class PhraseReader(Transformer[Token, Any]):
             phrase = replace(phrase, **_merged(phrase, part))
         if any(isinstance(child, Token) and child.type in ("OF", "ONE") for child in children):
             phrase = replace(phrase, quantity=Quantity.THE, count=None, **_of_several(phrase))
-        return phrase if _may_except(phrase) else replace(phrase, words=())
+        return phrase if may_except(phrase) else replace(phrase, words=())
 
     def door_to(self, children: Children) -> NounPhrase:
         phrase = NounPhrase(words=("door",))
@@ -277,7 +278,7 @@ class PhraseReader(Transformer[Token, Any]):
         if kinds[:1] == ["BOTH"] and isinstance(values[0], NounPhrase) and is_plural(values[0].head):
             return (NounPhrase(words=()),)
         if kinds == ["COMMA"] and len(values) == 2:
-            return apposed(*values) if _may_follow(*values) else (NounPhrase(words=()),)
+            return apposed(*values) if may_follow(*values) else (NounPhrase(words=()),)
         return tuple(values)
 
     def recipient(self, children: Children) -> Reference:
@@ -288,48 +289,6 @@ class PhraseReader(Transformer[Token, Any]):
 
     def stranger(self, children: Children) -> NounPhrase:
         return NounPhrase(words=(str(children[0]),), quantity=Quantity.THE, person=True)
-
-
-_MASSES = frozenset(
-    {"fruit", "food", "cutlery", "laundry", "medicine", "stationery", "crockery", "silverware", "clothing"}
-)
-
-
-def generic(reference: Reference) -> Reference:
-    """*Cups go in the sink*, *medicine belongs in the cabinet*: said of the kind, it is meant for all of it."""
-    if not isinstance(reference, NounPhrase) or not reference.words or reference.number is not None:
-        return reference
-    mass = reference.words[-1] in _MASSES and reference.quantity is Quantity.THE
-    bare = reference.quantity is Quantity.BARE and (is_plural(reference.head) or reference.words[-1] in _MASSES)
-    return replace(reference, quantity=Quantity.ALL) if mass or bare else reference
-
-
-def _may_follow(first: Reference, second: Reference) -> bool:
-    """Whether *X, Y* without *and* may be a list: not *the nearest ball, any ball*, nor *cups in the sink, plates*."""
-    if not isinstance(first, NounPhrase) or not isinstance(second, NounPhrase) or second.words in _ONE:
-        return True
-    return not first.restrictions and singular(first.head) != singular(second.head)
-
-
-_ONE = (("one",), ("ones",))
-
-
-def _may_except(phrase: NounPhrase) -> bool:
-    """Whether something can be left out of it: of *all cups* or *any cup*, not of *the box*."""
-    several = phrase.quantity not in (Quantity.THE, Quantity.THIS, Quantity.BARE)
-    return not phrase.exceptions or several or is_plural(phrase.words[-1])
-
-
-def apposed(first: Reference, second: Reference) -> tuple[Reference, ...]:
-    """*The cup, the red one*: one thing, said twice."""
-    if not isinstance(first, NounPhrase) or not isinstance(second, NounPhrase) or second.words not in _ONE:
-        return (first, second)
-    if (is_plural(first.words[-1]) if first.words else False) and second.words == ("one",):
-        return (first, second)
-    superlative, rank = second.superlative or first.superlative, second.rank or first.rank
-    colors, sizes = (*first.colors, *second.colors), (*first.sizes, *second.sizes)
-    restrictions = (*first.restrictions, *second.restrictions)
-    return (replace(first, colors=colors, sizes=sizes, restrictions=restrictions, superlative=superlative, rank=rank),)
 
 
 def _has(children: Children, kind: str) -> bool:
@@ -357,14 +316,3 @@ def _merged(phrase: NounPhrase, part: Any) -> dict[str, Any]:
 
 def _number(children: Children) -> int:
     return next(int(token) for token in tokens_of(children) if token.type == "NUMBER")
-
-
-def is_sensible(phrase: NounPhrase) -> bool:
-    """Whether number and noun agree: *both the cup* is not English, so such a reading is dropped."""
-    if not phrase.words:
-        return False
-    if phrase.other and phrase.rank is not None:
-        return False
-    if phrase.quantity in (Quantity.BOTH, Quantity.EXACTLY) and (phrase.count or 0) > 1:
-        return is_plural(phrase.words[-1]) or phrase.words[-1] in ("ones", "people")
-    return True

@@ -5,8 +5,9 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
+from majordomo.planner.grammar.agreement import apposed, generic
 from majordomo.planner.grammar.asking import QuestionReader
-from majordomo.planner.grammar.phrases import Children, apposed, generic, tokens_of, values_of
+from majordomo.planner.grammar.phrases import Children, tokens_of, values_of
 from majordomo.planner.grammar.syntax import (
     Carry,
     Destination,

@@ -202,7 +202,9 @@ def _extent(coarse: Tensor) -> tuple[Tensor, Tensor]:
 
 def _sampled(features: Tensor, grid: Tensor) -> Tensor:
     """(B, D, N, K) features at places (B, N, K, 2) between -1 and 1, x before y."""
-    return functional.grid_sample(features.float(), grid.float(), mode="bilinear", padding_mode="zeros", align_corners=False)
+    return functional.grid_sample(
+        features.float(), grid.float(), mode="bilinear", padding_mode="zeros", align_corners=False
+    )
 
 
 class Network(nn.Module):

@@ -52,7 +52,7 @@ async def test_a_question_is_put_to_the_keyboard_until_there_is_an_answer(target
     terminal = Terminal("", "  ", "the white one")
     assert await ask_service(target, "bring the cup to the bench", terminal)
     assert len(terminal.prompts) == 3
-    assert "cup_1" in terminal.prompts[0]
+    assert "the red cup on the gray counter" in terminal.prompts[0]
     assert "white cup" in terminal.text
 
 

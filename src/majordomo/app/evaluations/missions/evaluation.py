@@ -133,22 +133,23 @@ def _invented(houses: Sequence[str], requests: int, disturb: Sequence[str]) -> l
 
 
 def _table(title: str, rows: Sequence[Row], key: str) -> Table:
-    table = Table(title=title)
+    table = Table(
+        title=title,
+        caption="why, other: what became impossible, with the right reason or another; s: simulated seconds",
+    )
     columns: Mapping[str, Callable[[Sequence[Row]], str]] = {
-        "missions": lambda group: str(len(group)),
-        "success": lambda group: shown(share(sum(map(_done, group)), len(group)), 2),
-        "impossible, right reason": lambda group: str(_count(group, Verdict.RIGHTLY_IMPOSSIBLE)),
-        "other reason": lambda group: str(_count(group, Verdict.OTHER_REASON)),
+        "n": lambda group: str(len(group)),
+        "done": lambda group: shown(share(sum(map(_done, group)), len(group)), 2),
+        "why": lambda group: str(_count(group, Verdict.RIGHTLY_IMPOSSIBLE)),
+        "other": lambda group: str(_count(group, Verdict.OTHER_REASON)),
         "phantom": lambda group: str(_count(group, Verdict.PHANTOM)),
-        "wrong answer": lambda group: str(_count(group, Verdict.WRONG_ANSWER)),
-        "honest failure": lambda group: str(_count(group, Verdict.HONEST_FAILURE)),
+        "wrong": lambda group: str(_count(group, Verdict.WRONG_ANSWER)),
+        "failed": lambda group: str(_count(group, Verdict.HONEST_FAILURE)),
         "asked": lambda group: str(_count(group, Verdict.ASKED)),
-        "replans": lambda group: str(sum(row["replans"] for row in group)),
-        "collisions": lambda group: str(sum(row["collisions"] for row in group)),
-        "sim s": lambda group: f"{sum(row['seconds'] for row in group) / len(group):.0f}",
-        "wall s": lambda group: f"{sum(row['wall_seconds'] for row in group) / len(group):.0f}",
+        "hits": lambda group: str(sum(row["collisions"] for row in group)),
+        "s": lambda group: f"{sum(row['seconds'] for row in group) / len(group):.0f}",
     }
-    table.add_column(key)
+    table.add_column(key, no_wrap=True)
     for column in columns:
         table.add_column(column, justify="right")
     groups: dict[str, list[Row]] = defaultdict(list)

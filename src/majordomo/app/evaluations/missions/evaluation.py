@@ -134,10 +134,8 @@ def _invented(houses: Sequence[str], requests: int, disturb: Sequence[str]) -> l
 
 
 def _table(title: str, rows: Sequence[Row], key: str) -> Table:
-    table = Table(
-        title=title,
-        caption="why, other: what became impossible, with the right reason or another; s: simulated seconds",
-    )
+    caption = "why, other: of what became impossible, for the right reason or another"
+    table = Table(title=title, caption=caption, box=SIMPLE_HEAD)
     columns: Mapping[str, Callable[[Sequence[Row]], str]] = {
         "n": lambda group: str(len(group)),
         "done": lambda group: shown(share(sum(map(_done, group)), len(group)), 2),

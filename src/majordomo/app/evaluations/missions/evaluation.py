@@ -135,7 +135,7 @@ def _invented(houses: Sequence[str], requests: int, disturb: Sequence[str]) -> l
 
 def _table(title: str, rows: Sequence[Row], key: str) -> Table:
     caption = "why, other: of what became impossible, for the right reason or another"
-    table = Table(title=title, caption=caption, box=SIMPLE_HEAD)
+    table = Table(title=title, caption=caption, box=SIMPLE_HEAD, padding=(0, 1, 0, 0))
     columns: Mapping[str, Callable[[Sequence[Row]], str]] = {
         "n": lambda group: str(len(group)),
         "done": lambda group: shown(share(sum(map(_done, group)), len(group)), 2),

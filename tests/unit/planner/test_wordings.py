@@ -309,6 +309,8 @@ SAME = [
         "put the yellow folder and nothing else on the chair... i mean on the shelf in the office",
         "put the yellow folder on the chair, i mean on the shelf in the office",
     ),
+    ("put the books on the desk, all but the blue", "put the books on the desk except the blue"),
+    ("bring the cups to the bedroom, but not the red one", "bring the cups to the bedroom except the red one"),
 ]
 
 UNCHANGED = [

@@ -3,6 +3,20 @@
 from __future__ import annotations
 
 BRINGING: tuple[tuple[str, str], ...] = (
+    (
+        (
+            r"^(?=.* (?:in|on|to|into|onto|at|near|for) )(.+?),? (?:anything|everything|all)(?: of them)? but "
+            r"(?:the |an? )?(\w+(?: ones?)?)(?=[.!?]*$)"
+        ),
+        r"\1 except the \2",
+    ),
+    (
+        (
+            r"^(?=.* (?:in|on|to|into|onto|at|near|for) )([^,]+?),(?: and| but| just| only)* not (?:the|an?|any) "
+            r"(\w+(?: ones?)?)(?=[.!?]*$)"
+        ),
+        r"\1 except the \2",
+    ),
     (r"\b(?:put|tidy|clear|pack|stow) (\w+|(?:the|my|all|every|these|those) [\w ]+?) away(?=$|[.!?])", r"put \1"),
     (
         (

@@ -65,6 +65,9 @@ class Meaning:
         """
         parallel = tuple(reading for reading in readings if isinstance(reading, Several))
         others = tuple(reading for reading in readings if reading not in parallel)
+        returned = [self._put_back(reading, context) for reading in others if isinstance(reading, PutBack)]
+        if len(returned) == 1 and isinstance(returned[0], Meant):
+            return returned[0]
         outcomes = [self._step(reading, context) for reading in parallel]
         if all(isinstance(outcome, NoReferent) for outcome in outcomes):
             outcomes += [self._step(reading, context) for reading in others]

@@ -58,6 +58,17 @@ _LEFT_OUT = re.compile(
     r"|apart from|rather than)"
     r" (?P<what>[^,;.]+)[\s.!]*$"
 )
+_ANY_WILL_DO = re.compile(
+    r"^(?:(?:(?:any|either|whichever|whatever)(?: one)?(?: of (?:them|those|these|the two))?"
+    r"(?: (?:(?:is|are|would be|will be) (?:fine|ok|okay|good|all right|alright)|(?:will|would) do))?"
+    r"|(?:it |that )?(?:really )?does not (?:really )?matter(?: which(?: one)?)?"
+    r"|i (?:really )?do not (?:really )?(?:mind|care)(?: which(?: one)?)?)(?: |$))+$"
+)
+_REASON = re.compile(
+    r"^(?P<which>[^,;.]+)[,;.]+ (?:because |since |as )?(?:he|she|it|they|i|we) "
+    r"(?:is|are|am|was|likes?|loves?|wants?|needs?|prefers?)\b[^,;.]*[.!]*$"
+)
+"""*The pink one, she likes these*: which one, and why."""
 _EITHER_OF = re.compile(r"\b(?:n?or|and)\b")
 
 
@@ -93,13 +104,15 @@ def select(
         out = [select(part, candidates, snapshot, interpreter, grammar) for part in negated]
         rest = tuple(i for i in candidates if not any(i in some for some in out))
         return rest if len(rest) == 1 and all(out) else ()
+    reasoned = _REASON.match(answer.casefold())
+    answer = reasoned["which"] if reasoned else answer
     words = [word.text for word in words_of(answer) if word.kind == "word"]
     said = " ".join(words)
     if said in candidates:
         return (said,)
     if said in _ALL:
         return tuple(candidates)
-    if said in _ANY:
+    if said in _ANY or _ANY_WILL_DO.match(said):
         return tuple(candidates[:1])
     short = [word for word in words if word not in _DROPPED]
     if len(short) == 1 and short[0] in _ORDINALS and _ORDINALS[short[0]] < len(candidates):

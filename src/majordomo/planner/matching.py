@@ -122,6 +122,8 @@ def _rank(head: str, node: Place, *, fixed: bool) -> int | None:
         return 2
     if label.rpartition(" ")[2] in forms and (isinstance(node, ObjectNode) or _is_own_name(label) or _is_sort(label)):
         return 3
+    if isinstance(node, RoomNode) and _sort_of_own_name(label) in forms:
+        return 3
     return 4 if isinstance(node, ObjectNode) and _is_kind(forms, node, fixed=fixed) else None
 
 
@@ -129,6 +131,12 @@ def _is_own_name(room_label: str) -> bool:
     """Whether a room of two words or more ends in a name of its own, as *meeting room Oslo* does."""
     last = room_label.rpartition(" ")[2]
     return " " in room_label and not is_known(last) and not last.isdecimal()
+
+
+def _sort_of_own_name(room_label: str) -> str:
+    """*Meeting room* of *meeting room Oslo*, *classroom* of *classroom 12*; empty of others."""
+    sort, _, last = room_label.rpartition(" ")
+    return sort if last.isdecimal() or _is_own_name(room_label) else ""
 
 
 def _is_sort(room_label: str) -> bool:

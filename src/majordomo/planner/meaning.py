@@ -65,6 +65,9 @@ class Meaning:
         """
         parallel = tuple(reading for reading in readings if isinstance(reading, Several))
         others = tuple(reading for reading in readings if reading not in parallel)
+        returned = [self._put_back(reading, context) for reading in others if isinstance(reading, PutBack)]
+        if len(returned) == 1 and isinstance(returned[0], Meant):
+            return returned[0]
         outcomes = [self._step(reading, context) for reading in parallel]
         if all(isinstance(outcome, NoReferent) for outcome in outcomes):
             outcomes += [self._step(reading, context) for reading in others]
@@ -229,7 +232,9 @@ class Meaning:
         return Meant(goals=goals, things=things, places=places, noun=context.noun, origins=origins, doubt=doubt)
 
     def _put_back(self, step: PutBack, context: Context) -> Outcome:
-        things = self._moved_before(self._gathering.to_carry(step.things, context), context)
+        things = _moved_last(step.things, context) or self._moved_before(
+            self._gathering.to_carry(step.things, context), context
+        )
         if not isinstance(things, tuple):
             return things
         unknown = next((i for i in things if i not in context.origins), None)
@@ -346,6 +351,15 @@ class Meaning:
 
     def _is_object(self, node_id: str) -> bool:
         return isinstance(self._snapshot.get(node_id), ObjectNode)
+
+
+def _moved_last(references: tuple[Reference, ...], context: Context) -> tuple[str, ...]:
+    """*Put it back*: everything that the request before moved, if that was several things."""
+    if context.fresh or not context.earlier or not all(isinstance(r, Pronoun) for r in references):
+        return ()
+    goals = context.earlier[0].goals
+    moved = tuple(dict.fromkeys(i for goal in goals if (i := goal.object_id) is not None and i in context.origins))
+    return moved if len(moved) > 1 else ()
 
 
 def _clearest(troubles: list[Trouble]) -> Trouble:

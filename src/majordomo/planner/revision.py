@@ -19,6 +19,7 @@ from majordomo.scene_graph.nodes import ObjectNode, PersonNode, RoomNode
 _COURTESY = r"(?:(?:sorry|oops|wait|hm+|um|ah|oh|hang on|hold on|excuse me|please|ok|okay|well|stop)\b[\s,.!]*)*"
 _TRAILING = re.compile(r"[\s,]+(?:instead|please|rather|i mean|i meant)[\s.!]*$")
 _LED = re.compile(rf"^{_COURTESY}")
+_SAID = re.compile(r"^(?:i|we) (?:meant|mean|said)(?: to say)?[\s,:]+")
 _NO = re.compile(
     rf"^{_COURTESY}(?:no+|nope|not (?:that|this)(?: one)?"
     r"|not (?:to|on|in|into|onto|at) [\w ]+?(?=[,;.])|not \w+(?: ones?)?(?=[,;.] )"
@@ -92,7 +93,7 @@ def revision(text: str) -> Revision | None:
     for pattern in (_INSTEAD, _NO, _MEANT, _SORRY, _NOT):
         found = pattern.match(said)
         if found and found["rest"].strip(" .!?"):
-            rest = _NOT_THAT.sub("", _TRAILING.sub("", _LED.sub("", found["rest"])))
+            rest = _NOT_THAT.sub("", _TRAILING.sub("", _SAID.sub("", _LED.sub("", found["rest"]))))
             return Revision(how="correct", rest=rest.strip(" .!?"))
     found = _TOO.match(said)
     if found:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 
 from majordomo.planner.grammar.parser import CommandGrammar
@@ -51,6 +52,24 @@ _NO = {"no", "nope", "neither", "none", "none of them", "nothing", "no thanks", 
        "cancel",
        "none of these", "no one", "nothing thanks"}  # fmt: skip
 NOTHING_THEN = "All right, I do nothing."
+_LEFT_OUT = re.compile(
+    r"^(?:(?:no|just|but|please|well|oh|any(?:thing)?|any one|all|whichever|the one)\b[\s,]*)*"
+    r"(?:(?:that |which )?(?:is |it is |are )?(?:not|neither)(?! that)|isn't|it isn't|but|except(?: for)?|other than"
+    r"|apart from|rather than)"
+    r" (?P<what>[^,;.]+)[\s.!]*$"
+)
+_ANY_WILL_DO = re.compile(
+    r"^(?:(?:(?:any|either|whichever|whatever)(?: one)?(?: of (?:them|those|these|the two))?"
+    r"(?: (?:(?:is|are|would be|will be) (?:fine|ok|okay|good|all right|alright)|(?:will|would) do))?"
+    r"|(?:it |that )?(?:really )?does not (?:really )?matter(?: which(?: one)?)?"
+    r"|i (?:really )?do not (?:really )?(?:mind|care)(?: which(?: one)?)?)(?: |$))+$"
+)
+_REASON = re.compile(
+    r"^(?P<which>[^,;.]+)[,;.]+ (?:because |since |as )?(?:he|she|it|they|i|we) "
+    r"(?:is|are|am|was|likes?|loves?|wants?|needs?|prefers?)\b[^,;.]*[.!]*$"
+)
+"""*The pink one, she likes these*: which one, and why."""
+_EITHER_OF = re.compile(r"\b(?:n?or|and)\b")
 
 
 def agrees(answer: str) -> bool:
@@ -63,6 +82,12 @@ def declines(answer: str) -> bool:
     return _said(answer) in _NO
 
 
+def left_out(answer: str) -> tuple[str, ...]:
+    """What an answer says it is not: *not the one in the box*, *neither the red nor the blue*; empty of others."""
+    found = _LEFT_OUT.match(" ".join(answer.casefold().replace("’", "'").split()))
+    return tuple(part for each in _EITHER_OF.split(found["what"]) if (part := each.strip())) if found else ()
+
+
 def _said(answer: str) -> str:
     return " ".join(word.text for word in words_of(answer) if word.kind == "word" and word.text != "please")
 
@@ -70,14 +95,24 @@ def _said(answer: str) -> str:
 def select(
     answer: str, candidates: Sequence[str], snapshot: Snapshot, interpreter: Interpreter, grammar: CommandGrammar
 ) -> tuple[str, ...]:
-    """The candidates that ``answer`` chooses: by identifier, number, *both*, *any*, description; empty when unclear."""
+    """The candidates that ``answer`` chooses: by identifier, number, *both*, *any*, description; empty when unclear.
+
+    What an answer leaves out is never chosen: one candidate must be left.
+    """
+    negated = left_out(answer)
+    if negated:
+        out = [select(part, candidates, snapshot, interpreter, grammar) for part in negated]
+        rest = tuple(i for i in candidates if not any(i in some for some in out))
+        return rest if len(rest) == 1 and all(out) else ()
+    reasoned = _REASON.match(answer.casefold())
+    answer = reasoned["which"] if reasoned else answer
     words = [word.text for word in words_of(answer) if word.kind == "word"]
     said = " ".join(words)
     if said in candidates:
         return (said,)
     if said in _ALL:
         return tuple(candidates)
-    if said in _ANY:
+    if said in _ANY or _ANY_WILL_DO.match(said):
         return tuple(candidates[:1])
     short = [word for word in words if word not in _DROPPED]
     if len(short) == 1 and short[0] in _ORDINALS and _ORDINALS[short[0]] < len(candidates):

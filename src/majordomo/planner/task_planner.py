@@ -19,7 +19,7 @@ from majordomo.planner.model_rounds import ModelRounds
 from majordomo.planner.models.protocol import CORRECTABLE, FailureKind, LanguageModel, ModelFailure
 from majordomo.planner.plan import Dialogue, Interpretation, Kind
 from majordomo.planner.revision import revision
-from majordomo.planner.selection import NOTHING_THEN, agrees, declines, select
+from majordomo.planner.selection import NOTHING_THEN, agrees, declines, left_out, select
 from majordomo.planner.verifier import Verifier
 from majordomo.scene_graph.snapshot import Snapshot
 
@@ -92,6 +92,9 @@ class TaskPlanner:
         if reading.asked == DOUBT and agrees(answer):
             return text, {**choices, DOUBT: (DOUBT,)}
         candidates = reading.interpretation.candidates
+        if candidates and left_out(answer):
+            chosen = select(answer, candidates, snapshot, self._interpreter, self._grammar)
+            return text, {**choices, reading.asked: chosen} if chosen else choices
         about = revision(answer)
         if about is not None and about.how == "correct":
             answer = about.rest

@@ -12,6 +12,16 @@ from majordomo.planner.verifier import Verifier
 from majordomo.skills.registry import load_registry
 
 PLANS = [
+    ("clear the desk, everything can go on the couch", "on(bottle_2, couch_1) on(pen_1, couch_1)"),
+    ("could you tidy up a bit: books on the desk please", "on(book_1, desk_1) on(book_2, desk_1) on(book_3, desk_1)"),
+    ("tidy the bed: the blue book to the office, everything else on the desk", "in(book_2, room_4) on(book_3, desk_1)"),
+    ("do not put the apple on the desk, put it on the couch", "on(apple_1, couch_1)"),
+    ("could the key go on the desk", "on(key_1, desk_1)"),
+    ("of the two bottles bring me the one that is not red", "given(bottle_1, person_2)"),
+    ("roll on out to the bedroom and stay put there", "robot_at(room_5)"),
+    ("bring me the key, it is getting late", "given(key_1, person_2)"),
+    ("put the apple on the desk, then do the same with the key", "on(apple_1, desk_1) on(key_1, desk_1)"),
+    ("drop the apple on the desk, would you see to that?", "on(apple_1, desk_1)"),
     ("the books from the bedroom go to the office", "in(book_2, room_4) in(book_3, room_4)"),
     ("the apple for Anna", "given(apple_1, person_1)"),
     ("Anna is hungry, bring her the apple", "given(apple_1, person_1)"),

@@ -33,7 +33,8 @@ _PHRASES: dict[Control, tuple[str, ...]] = {
                      "cancel the request", "cancel the mission", "cancel my request",
                      "cancel everything", "cancel all", "cancel my last request", "abort the mission",
                      "abort mission",
-                     "scratch that", "call it off", "leave it be", "cancel this", "forget about it", "drop it"),
+                     "scratch that", "call it off", "leave it be", "cancel this", "forget about it", "drop it",
+                     "drop the whole thing", "forget the whole thing", "cancel the whole thing"),
 }  # fmt: skip
 _COURTESY = frozenset(
     {

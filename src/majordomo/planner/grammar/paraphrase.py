@@ -32,5 +32,6 @@ def paraphrased(text: str) -> str:
     for pattern, said in _COMPILED:
         text = pattern.sub(said, text)
     text = BACK.sub(r"\1 back where it was", text)
+    text = re.sub(r"\b(?:leave|set|place|drop) ([^,.;]+? back where it was)", r"put \1", text)
     text = text.replace(" away back where it was", " back where it was")
     return " ".join(text.split()) if "\n" not in text else text

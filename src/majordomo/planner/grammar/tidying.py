@@ -7,10 +7,11 @@ import re
 from majordomo.planner.vocabulary import singular
 
 _HEADING = re.compile(
-    r"^(?:please |can you |could you |let us )*(?:(?:tidy|clean|clear|sort|organi[sz]e|straighten|arrange)(?: (?:up"
-    r"|out|off|away))?|(?:get|put|bring|set)(?= [\w' ]+? in(?:to)? (?:order|shape)\b))"
+    r"^(?:please |can you |could you |let us )*(?:(?:tidy|clean|clear|sort|organi[sz]e|straighten|arrange|empty"
+    r"|unload)(?: (?:up|out|off|away))?(?: (?:a (?:little )?bit|a little|please))?"
+    r"|(?:get|put|bring|set)(?= [\w' ]+? in(?:to)? (?:order|shape)\b))"
     r" ?(?P<what>[\w' ]*?)(?: in(?:to)? (?:order|shape)| by (?:colou?r|size|kind|type))?\s*"
-    r"(?::|,| -|;|\.| by putting| and put)\s+(?P<rest>.+)$"
+    r"(?::|,| -|;|\.|\?| by putting| and put)\s+(?P<rest>.+)$"
 )
 _PART = re.compile(
     r"^(?:and |then |please )*(?:put |move |bring |take )?(?P<things>.+?)(?: should| must| can| may)?"
@@ -26,7 +27,8 @@ _ONES = re.compile(r"\bones?$")
 _STAYS = re.compile(
     r" (?:can |may |should )?(?:stays?|remains?|(?:is|are) fine)(?: (?:there|here|put|as (?:it|they) (?:is|are)))?$"
 )
-_OPENING = ("everything", "whatever", "anything", "it", "them")
+_OPENING = ("everything", "whatever", "anything", "it", "them", "it all", "all of it", "the lot", "lot", "all")
+_ELSE = ("everything else", "all else", "rest", "others", "anything else")
 
 
 def spelled_out(text: str) -> str:
@@ -36,6 +38,7 @@ def spelled_out(text: str) -> str:
         return text
     what = re.sub(r"^(?:the|my|our|all|all the|this|that|up)\b ?", "", found["what"].strip())
     parts: list[str] = []
+    named: list[str] = []
     open_part = ""
     for part in _COMMAS.split(found["rest"].rstrip(" .!")):
         if _STAYS.search(part) and not open_part:
@@ -43,7 +46,14 @@ def spelled_out(text: str) -> str:
         said = f"{open_part} and {part}" if open_part else part
         matched = _PART.match(said)
         open_part = "" if matched else said
-        if matched:
+        if matched and _EVERY.sub("", matched["things"]) in _ELSE:
+            if not (what and named):
+                return text
+            parts.append(
+                f"put everything from {_the(what)} {matched['way']} {matched['place']} except {' and '.join(named)}"
+            )
+        elif matched:
+            named.append(matched["things"] if matched["things"].startswith("the ") else f"the {matched['things']}")
             parts.append(f"put {_things(matched['things'], what)} {matched['way']} {matched['place']}")
     return ", then ".join(parts) if parts and not open_part.strip() else text
 
@@ -51,10 +61,15 @@ def spelled_out(text: str) -> str:
 def _things(said: str, what: str) -> str:
     bare = _EVERY.sub("", said)
     if bare in _OPENING:
-        return f"everything from the {what}" if what else said
+        return f"everything from {_the(what)}" if what else said
     if _ONES.search(bare) and what:
         one = singular(what) if bare.endswith("one") else what
         return f"{'the' if one != what else 'all the'} {_ONES.sub(one, bare)}"
     several = bare.endswith("s") or bare != said.removeprefix("the ")
-    from_there = f" from the {what}" if what and " from " not in bare and " in " not in bare else ""
+    from_there = f" from {_the(what)}" if what and " from " not in bare and " in " not in bare else ""
     return f"{'all the' if several else 'the'} {bare}{from_there}"
+
+
+def _the(what: str) -> str:
+    """*The desk*, but *Anna's desk*."""
+    return what if what.split(maxsplit=1)[0].endswith("'s") else f"the {what}"

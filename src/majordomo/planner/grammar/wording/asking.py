@@ -3,6 +3,23 @@
 from __future__ import annotations
 
 ASKING: tuple[tuple[str, str], ...] = (
+    (r"^((?:how (?:do|can|would|could|should) i|what is the) .+?) from here(?=[?.]*$)", r"\1"),
+    (r"^(how many [^?]+?)(?: are there)? (?:in total|in all|altogether|overall|all in all)(?=[?.]*$)", r"\1 are there"),
+    (r"^in (?:which|what) room (?:would|might|could|should) (.+?) be(?=$|[?.!])", r"where is \1"),
+    (r"\bdo you happen to know\b", "do you know"),
+    (r"^(?:what|which) (\w+) have (?:we|you|i) got (?=(?:in|on|at|here)\b)", r"which \1 are there "),
+    (r"^(how many [\w ]+?) (?:stand|lie|sit|rest|hang) (?=(?:on|in|at|under|next)\b)", r"\1 are "),
+    (r"^(?:is|are) there (?!any\b|some\b|a\b)(?:still )?(\w+) left(?=[?.]*$)", r"is there any \1"),
+    (r"^what is there to eat\b", "which food is there"),
+    (r"^what is there to drink\b", "which drinks are there"),
+    (
+        (
+            r"^what (?:things |objects )?(?:is around you|do you see around you|can you see from (?:where you are|here"
+            r"|there))(?=[?.]*$)"
+        ),
+        "what can you see",
+    ),
+    (r"^(?:and |but )?why (?:is|was) that(?=[?.]*$)", "why did it fail"),
     (
         (
             r"^((?:could you |can you |please )*(?:go and )?(?:check|see|look|find out)"
@@ -220,7 +237,7 @@ ASKING: tuple[tuple[str, str], ...] = (
         (
             "^(?:what are you (?:able|capable)(?: to do| of doing| of)|what are your (?:abilities|skills"
             "|capabilities|functions)|how can you help(?: me)?|what do you do|what are you good (?:at|for)"
-            "|how do you work|what can i ask you(?: to do)?)(?=$|[.!?])"
+            "|how do you work|what can i ask you(?: to do)?)(?: for (?:me|us))?(?=$|[.!?])"
         ),
         "what can you do",
     ),

@@ -3,6 +3,54 @@
 from __future__ import annotations
 
 BRINGING: tuple[tuple[str, str], ...] = (
+    (
+        (
+            r"^do not (?:put|take|bring|move|carry|leave) ((?:the|my|his|her|that|those|these) [^,.;]+?) (?:in|on|to"
+            r"|into|onto|at|next to) [^,.;]+[,.;]+ (?:but |just |instead |please |rather )*(?:put|take|bring|move"
+            r"|carry|leave) (?:it|them) (?=(?:in|on|to|into|onto|at|next)\b)"
+        ),
+        r"put \1 ",
+    ),
+    (r"^(?:can|could|may|might) (the [\w ]+?) go (?=(?:on|in|to|into|onto|at|next)\b)", r"put \1 "),
+    (r"\b(?:shove|stick|chuck|plonk|plop|slide|tuck) (.+?) (in|into|onto|on) (?=(?:the|a|my)\b)", r"put \1 \2 "),
+    (
+        (
+            r"\b(?:walk|run|wheel|rush|whisk|drive) (it|them|that|the [\w ]+?) (?:over |across |up |down |along )*"
+            r"(?=to )"
+        ),
+        r"take \1 ",
+    ),
+    (
+        (
+            r"\b(put|take|bring|move|carry) (\w+|the [\w ]+?) ((?:on|in|to|into|onto|at) [^,.;]+?),? (?:and |then |,)*"
+            r"do the same (?:with|for|to) ([^,.;]+)(?=[.!]*$)"
+        ),
+        r"\1 \2 \3, then \1 \4 \3",
+    ),
+    (
+        (
+            r"^(?:please )?(?:gather|round|collect)(?: up)? ([^,.;]+?),? and (?:set|leave|place|drop|lay|move|store"
+            r"|stack|pile|stow) (?=(?:it|them|those|these|everything)\b)"
+        ),
+        r"pick up \1 and put ",
+    ),
+    (r",? but (?:no|none of the) (\w+),? (?=(?:for|to|in|into|on|onto) )", r" except the \1 "),
+    (r"\b(the [\w ]+?) (?:sitting|standing|lying|resting) (?=(?:on|in|at|next to|by|near) )", r"\1 "),
+    (r"(?:^|(?<=[.;!] ))(?:(?:step|number) )?(?:one|two|three|four|five|six)[,:] (?=\w)", ""),
+    (
+        (
+            r"^(?=.* (?:in|on|to|into|onto|at|near|for) )(.+?),? (?:anything|everything|all)(?: of them)? but "
+            r"(?:the |an? )?(\w+(?: ones?)?)(?=[.!?]*$)"
+        ),
+        r"\1 except the \2",
+    ),
+    (
+        (
+            r"^(?=.* (?:in|on|to|into|onto|at|near|for) )([^,]+?),(?: and| but| just| only)* not (?:the|an?|any) "
+            r"(\w+(?: ones?)?)(?=[.!?]*$)"
+        ),
+        r"\1 except the \2",
+    ),
     (r"\b(?:put|tidy|clear|pack|stow) (\w+|(?:the|my|all|every|these|those) [\w ]+?) away(?=$|[.!?])", r"put \1"),
     (
         (
@@ -25,8 +73,8 @@ BRINGING: tuple[tuple[str, str], ...] = (
     ("^(put |take |move |bring |carry |)(?:the )?(.+?),? all of (?:it|them)(?=[.!]*$)", r"\1all the \2"),
     (
         (
-            "^(?:please )?(?:clear|empty|unload|tip|shift)(?: out| off| up)? (the (?:(?!, (?:put|and|then|move"
-            r"|take)\b).)+?),? (onto|into|on to|in to|on|in) (?=(?:the|my) )"
+            "^(?:please )?(?:clear|empty|unload|tip)(?: out| off| up)? (the (?:(?![,:;.] )"
+            r".)+?),? (onto|into|on to|in to|on|in) (?=(?:the|my) [^,;:.]+[.!]*$)"
         ),
         r"put everything from \1 \2 ",
     ),

@@ -5,6 +5,30 @@ from __future__ import annotations
 CHOOSING: tuple[tuple[str, str], ...] = (
     (
         (
+            r"\b((?:an?|any|one|some) [\w ]+?), (?:(?:any|either|whichever)(?: one)?(?: of (?:them|those|the two))?"
+            r"(?: (?:will|would) do| (?:is|are) (?:fine|ok|okay|good|all right|alright))?"
+            r"|(?:i do not (?:care|mind)|(?:it )?does not matter) which(?: one)?)(?=$|[.!?,]),?"
+        ),
+        r"\1",
+    ),
+    (r"\b(one|two|three|any|some|either|each) of the (?:two|three|four|five|six|\d+) (?=\w)", r"\1 of the "),
+    (r"\b(?:further|farther)(?: away)? from\b", "farthest from"),
+    (r"\b(the \w+est [\w ]+?) (?:that )?there is\b", r"\1"),
+    (r"\bneither (\w+) nor (\w+),? nor (\w+)\b", r"neither \1 nor \2 and is not \3"),
+    (
+        (
+            r"^(?:out )?of (?:the|all the|both|those|these) (?:two |three |four |five )?(\w+?)s,? ([^,]+?) the one "
+            r"(?=(?:that|which|in|on|at|next|by|near|nearest|closest)\b)"
+        ),
+        r"\2 the \1 ",
+    ),
+    (
+        r"\b(every|all(?: the)?|each) ([\w ]+?) (?:that )?you (?:can )?(?:find|see) and (?=(?:put|bring|take)\b)",
+        r"\1 \2 and ",
+    ),
+    (r"\b(with (?:the|an?|my|some) [\w ]+?) (?:in|on|inside) it\b", r"\1"),
+    (
+        (
             r"\b(every|all(?: the| of the| my| our)?|any|each|the|both) ([\w ]+?) (?:that |which )?(?:we|i"
             "|you) (?:own|possess|have got|have|can find|can see|know of)(?=$|[,.!]| (?:go|goes|should|to|in"
             r"|on|into|onto|belong|belongs)\b)"

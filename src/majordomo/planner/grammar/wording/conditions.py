@@ -60,7 +60,7 @@ CONDITIONS: tuple[tuple[str, str], ...] = (
         ),
         r"unless \1, ",
     ),
-    (r"\bif there (?:is|are) (?:still |some |any |at least one )+", "if there is a "),
+    (r"\bif there (?:is|are) (?:still |some |any |at least one )(?:still |some |any |an? )*", "if there is a "),
     (r"\bif (?:nobody|no one|no person|noone) is (?=(?:in|at)\b)", "if there is no person "),
     (r"\bif (?:anyone|anybody|someone|somebody) is (?=(?:in|at)\b)", "if there is a person "),
     (r"\bif not[,:]? then\b", "otherwise"),

@@ -3,6 +3,11 @@
 from __future__ import annotations
 
 SLIPS: tuple[tuple[str, str], ...] = (
+    (r"\b(the|an?|to|in|on|my|of|and)(?: (?:uh+|um+|er+),?)?(?: \1\b)+", r"\1"),
+    (r"(?<=\w)\.\.(?=\w)", " "),
+    (r"\b(the|a|that|my) read (?=\w)", r"\1 red "),
+    (r"\biz\b", "is"),
+    (r"\b(?:some ?bod(?:y|ie)|sombody|sumbody|someon)\b", "somebody"),
     (r"\b(put|take|bring|get|give|move|in|on|to|from|of|for|and|with|into)the\b", r"\1 the"),
     (r"\b(\w*)(?:lite)\b(?<!\bsatellite)", r"\1light"),
     (r"\b(?:nite)(?=\b|s?tand)", "night"),
@@ -35,6 +40,58 @@ SLIPS: tuple[tuple[str, str], ...] = (
 """Words that are no English, and what was meant."""
 
 COURTESY: tuple[tuple[str, str], ...] = (
+    (
+        (
+            r"\bbe an? (?:\w+ )?(?:dear|darling|love|pal|sweetheart|angel|lad|boy|girl|sport|robot|star|friend|gem"
+            r"|treasure|hero)(?:,| and)+ "
+        ),
+        "",
+    ),
+    (
+        (
+            r"\b(would be) (?:most|very|so|really|ever so|extremely|truly|incredibly|awfully) (?=(?:grateful|happy"
+            r"|glad|pleased|obliged|thankful|delighted|nice|kind|great|good|helpful|lovely)\b)"
+        ),
+        r"\1 ",
+    ),
+    (
+        (
+            r"(?<=\w)[,.;]+ (?:(?:would|could|can|will) you )?(?:please )?(?:see to|take care of|handle|sort out"
+            r"|attend to|arrange) (?:that|it|this)(?: for me| for us)?(?=[.!?]*$)"
+        ),
+        "",
+    ),
+    (
+        (
+            r"(?<=\w)[,;!]+ it is (?:raining|snowing|pouring|freezing|cold|hot|warm|dark|late|sunny|windy|wet|urgent"
+            r"|important|getting \w+)(?: outside| out there| in here| today)?(?=[.!?]*$)"
+        ),
+        "",
+    ),
+    (r"^(?:can|could|would|will) (?:some(?:one|body)|anyone|anybody) (?:please )?(?=\w)", "can you "),
+    (
+        (
+            r"^(?:so |basically |well |ok |okay |,)*(?:what|all|the (?:only )?thing) (?:that )?(?:i|we) (?:really )?"
+            r"(?:want|need)(?: now| right now| from you)? is (?=(?:the|an?|my|some|one)\b)"
+        ),
+        "i want ",
+    ),
+    (
+        (
+            r"^(?:(?:(?:i|we|they) have|(?:he|she|it) (?:has|is)|they are) )?(?:all )?(?:just |now )?(?:done|finished"
+            r"|through|not \w+ after all|(?<=have )taken|(?<=has )taken)\b[^,.;!?]*[,.;!]+ (?:so |and |now )*(?="
+            r"(?:please |you can |you may |kindly )*(?:put|return|take|bring|carry|it can|they can|it should|back)\b)"
+        ),
+        "",
+    ),
+    (
+        (
+            r"^(?:you should know|be aware|bear in mind|keep in mind)(?: that)?"
+            r",? (?=\w)"
+        ),
+        "",
+    ),
+    (r"\bfrom (?:today|this day|this moment|here) on(?:ward|wards)?\b", "from now on"),
     (r"\s*(?:\.{2,}|…)\s*(?=\w)", ", "),
     (r"(?<=\w),? +[-–—]+ +(?=\w)", ", "),
     (
@@ -131,6 +188,13 @@ COURTESY: tuple[tuple[str, str], ...] = (
 """Openings, moods and reasons; they change nothing in what is asked."""
 
 UNDOING: tuple[tuple[str, str], ...] = (
+    (
+        (
+            r"^(?:ok(?:ay)? |now |and |then |please |,)*back (?=(?:to|in|into|on|onto|at) (?:(?:where|wherever) (?:you"
+            r"|it|they|we|i)|(?:its|their) (?:\w+ )?(?:place|spot|position|home))\b)"
+        ),
+        "put it back ",
+    ),
     (
         (
             "^(?:please )?(?:undo|reverse|revert|take back|roll back) (?:what you (?:have )?(?:just )?did"

@@ -3,6 +3,14 @@
 from __future__ import annotations
 
 FINDING: tuple[tuple[str, str], ...] = (
+    (r"^(?:i|we) (?:need|have|want|ought|got) to (?=(?:find|locate|look for|search)\b)", ""),
+    (
+        (
+            r"^((?:the|my|our|his|her) [\w ]+?) (?:has|have) (?:gone missing|disappeared|vanished|got lost|gone astray)"
+            r"[,.;]+ (?:so |please |can you |could you )*(?:go )?(?:and )?(?:look|search) for (?:it|them)(?=[.!?]*$)"
+        ),
+        r"find \1",
+    ),
     ("^(?:go )?(?:and )?see if (?:you can|you are able to) (?:find|locate|spot) ", "find "),
     (
         ("^(?:find out|see|check|figure out|work out|look up|tell me) where (.+?) (?:is|are)(?: at| now)?(?=$|[.!?])"),
@@ -21,6 +29,27 @@ FINDING: tuple[tuple[str, str], ...] = (
 """In the order in which they are tried."""
 
 GOING: tuple[tuple[str, str], ...] = (
+    (
+        (
+            r"^(?:please )?(?:roll|wander|stroll|trundle|zoom|wheel|mosey|scoot|trot|be)(?: on| off| over| out| down"
+            r"| up| along| across)+ (?=(?:to|into) )"
+        ),
+        "go ",
+    ),
+    (
+        r"^(?:they|he|she|everyone|everybody|(?!i\b|we\b)\w+) (?:wants?|needs?) you (?=(?:in|at|by|near|next to)\b)",
+        "go ",
+    ),
+    (
+        (
+            r"(?<=\w),? and (?:then )?(?:stop|stay|wait|remain|stand)(?: put| still)?(?: right)?(?: there)?"
+            r"(?: for me)?(?=[.!?]*$)"
+        ),
+        "",
+    ),
+    (r"\bcome(?: and)? see me\b", "come to me"),
+    (r"\bturn (?:a)?round and (?=(?:come|go|drive|head)\b)", ""),
+    (r"(?:,| and|, and) then home to (?=the\b)", ", then go to "),
     (
         (
             "^(?:please )?(?:make |take |do )?(?:a |one )?(?:quick |short |little |brief )?(?:trip|tour|visit"

@@ -1,0 +1,61 @@
+"""What answers leave out, and what is put back after several things were moved, on the home of ``grammar_home``."""
+
+from __future__ import annotations
+
+import pytest
+
+from grammar_home import home
+from majordomo.planner.goals import Goal, Predicate
+from majordomo.planner.grammar.parser import CommandGrammar
+from majordomo.planner.plan import Dialogue, Exchange, Kind
+from majordomo.planner.task_planner import TaskPlanner
+from majordomo.planner.verifier import Verifier
+from majordomo.skills.registry import load_registry
+
+SNAPSHOT = home().snapshot(robot_in="room_2", at=(4.2, 0.0))
+PLANNER = TaskPlanner(CommandGrammar(), Verifier(load_registry([])))
+
+LEFT_OUT = [
+    ("bring me the bottle", "not the {0} one", 1),
+    ("bring me the bottle", "not {0}", 1),
+    ("bring me the bottle", "anything but the {0} one", 1),
+    ("bring me the bottle", "the one that isn't {0}", 1),
+    ("bring me the bottle", "no, not the {1} one", 0),
+]
+"""A request that asks which, an answer with colors of the candidates, and which candidate it leaves."""
+
+
+def heard(text, snapshot, dialogue):
+    return PLANNER.read(text, snapshot, dialogue)[1].interpretation
+
+
+def colors(candidates):
+    return [SNAPSHOT.node(i).color for i in candidates]
+
+
+@pytest.mark.parametrize(("text", "answer", "left"), LEFT_OUT)
+def test_an_answer_that_says_which_one_not_leaves_the_other(text, answer, left):
+    asked = heard(text, SNAPSHOT, Dialogue())
+    assert len(asked.candidates) == 2
+    said = answer.format(*colors(asked.candidates))
+    found = heard(text, SNAPSHOT, Dialogue(answers=(("Which one?", said),)))
+    assert [goal.args[0] for goal in found.goals] == [asked.candidates[left]]
+
+
+def test_an_answer_that_leaves_several_decides_nothing():
+    text = "bring me the book"
+    asked = heard(text, SNAPSHOT, Dialogue())
+    found = heard(text, SNAPSHOT, Dialogue(answers=(("Which?", "not the blue one"),)))
+    assert len(asked.candidates) == 3
+    assert found.kind is Kind.CLARIFY
+
+
+@pytest.mark.parametrize("text", ["undo that", "put it back", "take them back", "put that back where it was"])
+def test_all_that_was_moved_together_goes_back(text):
+    moved = {"cup_1": "table_1", "apple_1": "counter_1"}
+    goals = tuple(Goal(predicate=Predicate.IN, args=(i, "room_4")) for i in moved)
+    earlier = Exchange(request="", goals=goals, status="succeeded", explanation="")
+    dialogue = Dialogue(earlier=(earlier,), mentioned=("apple_1", "cup_1"), origins=moved)
+    there = home().snapshot(robot_in="room_4", at=(4.2, 4.2))
+    found = heard(text, there, dialogue)
+    assert {goal.args for goal in found.goals} == set(moved.items())

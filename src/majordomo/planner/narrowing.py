@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Iterable
 from dataclasses import replace
 from math import hypot, inf, prod
@@ -19,7 +20,6 @@ from majordomo.scene_graph.nodes import (
     ObjectNode,
     ObjectState,
     PersonNode,
-    RegionNode,
     RoomNode,
 )
 from majordomo.scene_graph.snapshot import Snapshot
@@ -107,14 +107,14 @@ class Narrowing:
             others = self.targets(Restriction(relation="at", reference=restriction.other), context)
             return [i for i in candidates if any(self._is_between(i, a, b) for a in targets for b in others)]
         if relation == "with":
-            return [i for i in candidates if any(self.is_at(target, i) for target in targets if target != i)]
+            return self._holding(candidates, targets)
         if relation == "same room":
             rooms = {self._state.room_of(target) for target in targets}
             return [i for i in candidates if self._state.room_of(i) in rooms and i not in targets]
         if relation in ("on", "in", "from", "at", "to", "into", "out of"):
             if restriction.other is not None:
                 targets += self.targets(replace(restriction, reference=restriction.other, other=None), context)
-            return [i for i in candidates if any(self.is_at(i, target) for target in targets if target != i)]
+            return self._at_any(candidates, targets)
         return [i for i in candidates if any(is_related(i, relation, target, self._snapshot) for target in targets)]
 
     def _of_themselves(self, candidates: list[str], restriction: Restriction, context: Context) -> list[str] | None:
@@ -171,8 +171,8 @@ class Narrowing:
         people = tuple(i for i in targets if isinstance(self._snapshot.get(i), PersonNode))
         if people:
             return self._owned(candidates, people)
-        there = [i for i in candidates if any(self.is_at(i, target) for target in targets if target != i)]
-        return there or [i for i in candidates if any(self.is_at(target, i) for target in targets if target != i)]
+        there = self._at_any(candidates, targets)
+        return there or self._holding(candidates, targets)
 
     def _owned(self, found: list[str], owners: tuple[str, ...]) -> list[str]:
         """*Anna's mug*: the only one there is, else what is where Anna is; her room is the one she is in."""
@@ -239,16 +239,29 @@ class Narrowing:
 
     def is_at(self, node_id: str, place: str) -> bool:
         """Whether a node is in a room or region, or on or in a thing, perhaps with others in between."""
+        return place in self._places_of(node_id)
+
+    def _at_any(self, found: Iterable[str], places: Iterable[str]) -> list[str]:
+        """Those that are at one of the places."""
+        wanted = frozenset(places)
+        return [i for i in found if not wanted.isdisjoint(self._places_of(i))]
+
+    def _holding(self, places: Iterable[str], things: Iterable[str]) -> list[str]:
+        """Those places at which one of the things is."""
+        taken = {place for thing in things for place in self._places_of(thing)}
+        return [place for place in places if place in taken]
+
+    def _places_of(self, node_id: str) -> frozenset[str]:
+        """Everything that a node is in, on, or on something that is; of a door both rooms."""
         node = self._snapshot.get(node_id)
         if isinstance(node, DoorNode):
-            return place in node.rooms
-        if isinstance(self._snapshot.get(place), RegionNode):
-            room = self._state.room_of(node_id)
-            return room is not None and room in self._snapshot.rooms_in(place)
-        if isinstance(self._snapshot.get(place), RoomNode):
-            here = self._state.robot_room if node_id == ROBOT_ID else self._state.room_of(node_id)
-            return node_id != place and here == place
-        return place in list(self._chain(node_id))[1:]
+            return frozenset(room for room in node.rooms if room is not None)
+        room = self._state.room_of(node_id)
+        here = self._state.robot_room if node_id == ROBOT_ID else room
+        region = self._snapshot.region_of(room) if room is not None else None
+        around = [i for i in (here, region) if i is not None and i != node_id]
+        carriers = [i for i in list(self._chain(node_id))[1:] if not isinstance(self._snapshot.get(i), RoomNode)]
+        return frozenset((*around, *carriers))
 
     def _chain(self, node_id: str) -> Iterable[str]:
         seen: list[str] = []
@@ -259,20 +272,20 @@ class Narrowing:
         return seen
 
     def _beside(self, found: list[str], targets: tuple[str, ...]) -> list[str]:
-        gaps = {
-            i: min((gap_m(self._snapshot, i, target) for target in targets if self._together(i, target)), default=inf)
-            for i in found
-        }
+        """Those next to a target: in its room, and neither carries the other."""
+        carriers = {target: frozenset(self._chain(target)) for target in targets}
+        in_room: dict[str | None, list[str]] = defaultdict(list)
+        for target in targets:
+            in_room[self._state.room_of(target)].append(target)
+        gaps = dict.fromkeys(found, inf)
+        for i in found:
+            if isinstance(self._snapshot.get(i), RoomNode):
+                continue
+            own = frozenset(self._chain(i))
+            others = [t for t in in_room[self._state.room_of(i)] if t not in own and i not in carriers[t]]
+            gaps[i] = min((gap_m(self._snapshot, i, other) for other in others), default=inf)
         close = [i for i in found if gaps[i] <= BESIDE_M]
         return close or [i for i in found if gaps[i] <= LOOSELY_BESIDE_M]
-
-    def _together(self, node_id: str, target: str) -> bool:
-        """Whether *next to* may be said of them: in one room, and neither carries the other."""
-        if isinstance(self._snapshot.get(node_id), RoomNode):
-            return False
-        if target in list(self._chain(node_id)) or node_id in list(self._chain(target)):
-            return False
-        return node_id != target and self._state.room_of(node_id) == self._state.room_of(target)
 
     def _closest(self, found: list[str], targets: tuple[str, ...], *, farthest: bool = False) -> list[str]:
         others = [(min((self._distance_m(i, t) for t in targets if t != i), default=inf), i) for i in found]

@@ -93,7 +93,8 @@ def inside_polygon(polygon: Sequence[Point2], points: Points) -> NDArray[np.bool
         if y0 == y1:
             continue
         crosses = (y0 > y) != (y1 > y)
-        inside ^= crosses & (x < x0 + (y - y0) * (x1 - x0) / (y1 - y0))
+        with np.errstate(over="ignore", invalid="ignore"):  # beside sides of almost no height, which do not count
+            inside ^= crosses & (x < x0 + (y - y0) * (x1 - x0) / (y1 - y0))
     return inside
 
 

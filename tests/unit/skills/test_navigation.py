@@ -8,7 +8,7 @@ from math import cos, hypot, pi, sin
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
 from majordomo.scene_graph.nodes import RoomStatus
@@ -85,6 +85,7 @@ def test_a_robot_too_close_to_a_table_finds_its_way_off_without_getting_closer()
     assert min(gap_m(table, sampled(a, b)) for a, b in pairwise(path)) >= 0.22
 
 
+@example(corners=[(0.0, 1.0), (1.0, 0.0), (-1.0, 2.2250738585072014e-308)], point=(0.0, 2.0))
 @given(st.lists(points, min_size=3, max_size=6), points)
 def test_inside_agrees_with_the_winding_of_a_convex_polygon(corners, point):
     from scipy.spatial import ConvexHull, QhullError

@@ -68,13 +68,13 @@ class Context:
 class Grounding:
     """Resolves references on one snapshot."""
 
+    nowhere = Context()
+    """Nothing that references may lean on."""
+
     def __init__(self, snapshot: Snapshot, state: PlanState) -> None:
         self.snapshot, self.state = snapshot, state
         self.names = Names(snapshot)
         self._narrowing = Narrowing(snapshot, state, self)
-
-    nowhere = Context()
-    """Nothing that references may lean on."""
 
     def things(self, reference: Reference, context: Context, *, avoid: frozenset[str] = frozenset()) -> Grounded:
         """What is to be carried, found or asked about. ``avoid``: not these, when any one will do."""

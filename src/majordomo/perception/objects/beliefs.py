@@ -13,6 +13,7 @@ LabelDistribution = tuple[tuple[str, float], ...]
 
 _FRAMES = 12.0
 """So many of the newest frames of a view make its mean."""
+_FIRST = 0.6
 
 
 class _Look:
@@ -34,8 +35,8 @@ class _Look:
         self.weight = keep * self.weight + weight
 
     def evidence(self, most: float) -> float:
-        """As how many independent frames they count: half of the first, all of them together ``most``."""
-        return most * float(-np.expm1(-0.6 * self.weight / most))
+        """As how many independent frames they count: the first as ``_FIRST``, all of them together as ``most``."""
+        return most * float(-np.expm1(-_FIRST * self.weight / most))
 
 
 class LabelBelief:

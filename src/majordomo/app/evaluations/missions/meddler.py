@@ -32,6 +32,7 @@ class Meddler:
         self._runtime, self._mission, self._rng = runtime, mission, rng
         self._disturbance: Disturbance | None = DISTURBANCES.get(mission.disturbance)
         self._undoing: list[Event] = []
+        self._ways: tuple[object, Ways] | None = None
         self.made_s: float | None = None
         self.possible = True
 
@@ -54,8 +55,9 @@ class Meddler:
             if any(event["do"] == "walk" for event in self._undoing) and self._runtime.now_s > self.made_s + _STROLL_S:
                 await self.tidy_up()
             return
-        ways = Ways(scene)
-        moment = Moment(scene=scene, mission=self._mission, task=task, ways=ways, since_s=since_s, rng=self._rng)
+        moment = Moment(
+            scene=scene, mission=self._mission, task=task, ways=self._ways_in(scene), since_s=since_s, rng=self._rng
+        )
         if not self._disturbance.due(moment):
             return
         for events in self._disturbance.deeds(moment):
@@ -70,6 +72,13 @@ class Meddler:
         """Take back what would stand in the way of the next mission."""
         await self._do(self._undoing)
         self._undoing = []
+
+    def _ways_in(self, scene: Scene) -> Ways:
+        """Those of the house as it is; drawn anew when a door has opened or closed."""
+        doors = scene.truth["doors"]
+        if self._ways is None or self._ways[0] != doors:
+            self._ways = (doors, Ways(scene))
+        return self._ways[1]
 
     async def _do(self, events: Sequence[Event]) -> list[Event]:
         """Those that the house allows, up to the first that it does not."""

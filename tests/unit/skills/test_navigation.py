@@ -236,6 +236,19 @@ def test_a_wall_that_was_only_guessed_is_not_in_the_way(flat, status, free):
     assert bool(grid.clearance_at(np.array([beyond]))[0] > 0.15) is free
 
 
+def test_no_way_leads_back_through_a_room_that_was_left_to_a_place_behind_its_walls(flat):
+    snapshot = flat().memory.snapshot()
+    walls = Walls.of(snapshot, "room_1")
+    nothing = np.zeros((0, 2))
+    inside, in_the_gap, behind = (1.0, 1.0), (2.95, 0.0), (4.2, 2.0)
+    robot = (4.2, 0.0)
+    away = draw_map(snapshot, "room_1", nothing, [robot, behind, inside], walls=walls, stamp_s=0.0)
+    assert away.clearance_at(np.array([inside])) == 0.0
+    assert away.clearance_at(np.array([in_the_gap])) > 0.0
+    back = draw_map(snapshot, "room_1", nothing, [robot, inside, behind], walls=walls, stamp_s=0.0)
+    assert back.clearance_at(np.array([inside])) > 0.5
+
+
 def test_a_robot_sent_back_and_forth_between_two_ways_is_astray_though_each_time_it_comes_further():
     advance, stamp_s = Advance(stamp_s=0.0), 0.0
     for _ in range(5):

@@ -267,3 +267,12 @@ def test_a_long_way_around_and_the_detours_on_it_lead_nobody_astray():
             advance.note(float(remaining_m), stamp_s, turning=False)
             assert not advance.astray
     assert stamp_s - advance.stamp_s < 0.2
+
+
+def test_what_lies_where_the_lidar_looks_over_it_is_remembered_longer():
+    around = Surroundings(frame="room_1")
+    around.observe(ring_points(0.6, 0.0, 0.3), SE3.identity(), 0.0)
+    around.observe(np.zeros((0, 3)), SE3.identity(), 60.0)
+    np.testing.assert_allclose(around.points().mean(axis=0), [0.6, 0.0], atol=0.04)
+    around.observe(np.zeros((1, 3)), SE3.from_xyz_yaw(-1.0, 0.0, 0.0, 0.0), 61.0)
+    assert len(around.points()) == 0

@@ -26,14 +26,20 @@ Cells = NDArray[np.void]
 
 @dataclass(frozen=True, kw_only=True)
 class SurroundingsConfig:
-    """Heights of what can be hit, how far to look, how long to remember, and over how many scans hits are averaged."""
+    """Heights of what can be hit, how far to look, how long to remember, and over how many scans hits are averaged.
+
+    ``blind_m``: nearer than this the mast's LiDAR looks over the floor. What it saw there last is remembered for
+    ``fade_blind_s``, since it cannot be seen to be gone.
+    """
 
     min_height_m: float = 0.04
     max_height_m: float = 1.80
     tall_m: float = 0.95
     max_range_m: float = 6.0
     body_radius_m: float = 0.20
+    blind_m: float = 0.95
     fade_low_s: float = 20.0
+    fade_blind_s: float = 120.0
     fade_tall_s: float = 0.7
     min_hits: int = 2
     averaged: int = 5
@@ -65,7 +71,9 @@ class Surroundings:
         if points_base is not self._last_scan:
             self._last_scan = points_base
             self._merge(self._seen(points_base, T_frame_base, stamp_s, arm_reach_m))
-        fade_s = np.where(self._cells["tall"], self.config.fade_tall_s, self.config.fade_low_s)
+        away_m = np.hypot(*(self._cells["at_m"] - T_frame_base.translation_m[:2]).T)
+        low_s = np.where(away_m < self.config.blind_m, self.config.fade_blind_s, self.config.fade_low_s)
+        fade_s = np.where(self._cells["tall"], self.config.fade_tall_s, low_s)
         self._cells = self._cells[stamp_s - self._cells["seen_s"] <= fade_s]
 
     def move_to(self, frame: str, T_new_old: SE3 | None) -> None:

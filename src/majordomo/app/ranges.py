@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from majordomo.perception.range_noise import calmed
 from majordomo.perception.sensing import SensorBuffer, scan_points_between
 
-USUAL_NOISE_M = 0.026
+USUAL_NOISE_M = 0.015
 """Noise of the ranges up to which they are taken as they are; more would fill doorways and floors with obstacles."""
 FLOOR_M = 0.06
 """Returns below this height are floor: three standard deviations of range noise at a steep ring."""

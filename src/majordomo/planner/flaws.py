@@ -12,6 +12,7 @@ from majordomo.planner.surfaces import surfaces_near
 from majordomo.scene_graph.identifiers import natural_key
 from majordomo.scene_graph.nodes import ROBOT_ID, ROOT_ID, RoomNode
 from majordomo.scene_graph.snapshot import Snapshot
+from majordomo.skills.failures import FailureCode
 from majordomo.skills.state import PlanState, Thing
 
 
@@ -111,9 +112,8 @@ def _no_way(arg: str, room: str, snapshot: Snapshot, state: PlanState) -> Flaw:
         return Flaw(message=f"I know of no way to {name}.", nodes=(arg,))
     doors = listed([name_of(door, snapshot) for door in closed])
     verb = "is" if len(closed) == 1 else "are"
-    return Flaw(
-        message=f"There is no way to {name}: {doors} {verb} closed, and I cannot open doors.", nodes=(arg, *closed)
-    )
+    message = f"There is no way to {name}: {doors} {verb} closed, and I cannot open doors."
+    return Flaw(message=message, nodes=(arg, *closed), code=FailureCode.DOOR_CLOSED)
 
 
 def _contradictions(goals: Sequence[Goal], snapshot: Snapshot) -> Iterator[Flaw]:

@@ -57,4 +57,4 @@ class Lookout:
             return None
         message = f"My plan no longer fits what I see: {flaws[0].message}"
         evidence = Evidence(nodes=flaws[0].nodes, revision=snapshot.revision, observation=f"{len(flaws)} flaws")
-        return Failure(code=FailureCode.NOT_CONFIRMED, message=message, evidence=evidence)
+        return Failure(code=flaws[0].code or FailureCode.NOT_CONFIRMED, message=message, evidence=evidence)

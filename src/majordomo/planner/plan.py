@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 
 from majordomo.planner.goals import Goal
+from majordomo.skills.failures import FailureCode
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -58,10 +59,14 @@ class Impossible:
 
 @dataclass(frozen=True, kw_only=True)
 class Flaw:
-    """What is wrong with a goal or plan: one sentence naming the fix, and the nodes it is about."""
+    """What is wrong with a goal or plan: one sentence naming the fix, and the nodes it is about.
+
+    ``code``: what has happened, when a plan has it that was sound before.
+    """
 
     message: str
     nodes: tuple[str, ...] = ()
+    code: FailureCode | None = None
 
 
 class Kind(StrEnum):

@@ -110,7 +110,7 @@ class Verifier:
         for step in plan.steps:
             unmet = self._skills[step.skill].conditions(state, step.args)
             if unmet:
-                return [Flaw(message=condition.message, nodes=condition.nodes or step.args) for condition in unmet]
+                return [Flaw(message=each.message, nodes=each.nodes or step.args, code=each.code) for each in unmet]
             state = self._skills[step.skill].effects(state, step.args)
         if plan.seeking is not None:
             return []

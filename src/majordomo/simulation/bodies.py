@@ -91,6 +91,16 @@ def place_body(client: int, body: int, bottom: Size3, yaw_rad: float, height_m: 
     p.resetBaseVelocity(body, [0, 0, 0], [0, 0, 0], physicsClientId=client)
 
 
+def carry_along(client: int, body: int, before: Size3, after: Size3) -> None:
+    """Move a body, at rest, as something moved that it is fixed to. Poses: x, y (m), yaw (rad)."""
+    turn = yaw_quaternion(after[2] - before[2])
+    away, attitude = p.getBasePositionAndOrientation(body, physicsClientId=client)
+    from_it = (away[0] - before[0], away[1] - before[1], away[2])
+    (x, y, z), turned = p.multiplyTransforms((after[0], after[1], 0.0), turn, from_it, attitude)
+    p.resetBasePositionAndOrientation(body, (x, y, z), turned, physicsClientId=client)
+    p.resetBaseVelocity(body, [0, 0, 0], [0, 0, 0], physicsClientId=client)
+
+
 def wake_bodies(client: int, bodies: Iterable[int]) -> None:
     """Let sleeping bodies fall, after what they stood on may have gone."""
     for body in bodies:

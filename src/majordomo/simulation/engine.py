@@ -10,6 +10,7 @@ import pybullet as p
 
 from majordomo.perception.ports import JointState, LidarScan, Odometry, RgbdFrame
 from majordomo.scene_graph.se3 import SE3
+from majordomo.simulation.bodies import carry_along
 from majordomo.simulation.camera import INTRINSICS, T_base_camera, render
 from majordomo.simulation.child import STEP_S
 from majordomo.simulation.house import House, parse_disturbance
@@ -176,7 +177,11 @@ class Engine:
         )
 
     def _carry(self, pose: tuple[float, float, float]) -> None:
+        """Put the robot elsewhere, with what it holds."""
+        before, held = self._robot.pose, self._gripped()
         self._robot.set_pose(pose)
+        for body in held:
+            carry_along(self._client, body, before, pose)
         self._odometry.jump(pose)
 
     def _finger_contacts(self) -> tuple[bool, bool]:

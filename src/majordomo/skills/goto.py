@@ -102,7 +102,7 @@ def _way_closed(state: PlanState, target: str, room: str) -> list[Unmet]:
     closed = state.world.closed_doors(here, room)
     if closed:
         message = f"the way to {target} is closed: open {', '.join(closed)} or choose something on this side."
-        return [Unmet(message=message, nodes=closed, final=True)]
+        return [Unmet(message=message, nodes=closed, final=True, code=FailureCode.DOOR_CLOSED)]
     return [
         Unmet(message=f"no known way leads from {here} to {target}: explore first.", nodes=(here, room), final=True)
     ]

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from math import hypot
 
-from majordomo.scene_graph.nodes import ROBOT_ID, DoorNode, ObjectNode, ObjectState, PersonNode, RoomNode
+from majordomo.scene_graph.nodes import ROBOT_ID, DoorNode, Node, ObjectNode, ObjectState, PersonNode, RoomNode
 from majordomo.scene_graph.snapshot import Snapshot
 
 OBJECT_M = 0.85
-"""From the base's axis to a thing's extent: the arm's span and a step."""
+"""From the base's axis to the extent of a piece of furniture."""
+GRASPABLE_M = 1.05
+"""To that of a thing to be grasped: the arm's span."""
 PERSON_M = 1.50
 DOOR_M = 1.50
 
@@ -24,10 +26,9 @@ def excess_m(snapshot: Snapshot, node_id: str) -> float | None:
     if isinstance(node, RoomNode):
         return 0.0
     if isinstance(node, ObjectNode):
-        return None if node.state is ObjectState.MISSING else extent_distance_m(snapshot, node) - OBJECT_M
+        return None if node.state is ObjectState.MISSING else extent_distance_m(snapshot, node) - _reach_m(node)
     x_m, y_m, _ = snapshot.transform(node_id, ROBOT_ID).translation_m
-    reach_m = {PersonNode: PERSON_M, DoorNode: DOOR_M}.get(type(node), OBJECT_M)
-    return hypot(x_m, y_m) - reach_m
+    return hypot(x_m, y_m) - _reach_m(node)
 
 
 def is_at(snapshot: Snapshot, node_id: str) -> bool:
@@ -35,11 +36,16 @@ def is_at(snapshot: Snapshot, node_id: str) -> bool:
     where they are.
     """
     gap_m, node = excess_m(snapshot, node_id), snapshot.get(node_id)
-    reach_m = PERSON_M if isinstance(node, PersonNode) else OBJECT_M
-    return gap_m is not None and -reach_m < gap_m <= 0.0
+    return gap_m is not None and node is not None and -_reach_m(node) < gap_m <= 0.0
 
 
 def extent_distance_m(snapshot: Snapshot, node: ObjectNode) -> float:
     """Horizontal distance from the base's axis to the extent of a thing; 0 over it."""
     x_m, y_m, _ = snapshot.transform(node.id, ROBOT_ID).translation_m
     return hypot(max(abs(x_m) - node.size_m[0] / 2, 0.0), max(abs(y_m) - node.size_m[1] / 2, 0.0))
+
+
+def _reach_m(node: Node) -> float:
+    if isinstance(node, ObjectNode) and node.graspable:
+        return GRASPABLE_M
+    return {PersonNode: PERSON_M, DoorNode: DOOR_M}.get(type(node), OBJECT_M)

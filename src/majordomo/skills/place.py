@@ -62,7 +62,7 @@ class Place:
             return [Unmet(message=f"{target} is not where it was last seen: look for it first.", nodes=(target,))]
         if not state.has_room_for(held, target):
             message = f"{target} is full, {held} does not fit there: choose another place, or have it cleared first."
-            return [Unmet(message=message, nodes=(target, held), final=True)]
+            return [Unmet(message=message, nodes=(target, held), final=True, code=FailureCode.SUPPORT_FULL)]
         if not _is_there(state, target):
             return [Unmet(message=f"the robot is not at {target}: GOTO {target} first.", nodes=(target,))]
         return []

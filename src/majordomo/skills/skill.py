@@ -9,7 +9,7 @@ from typing import Any, Protocol
 from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.skills.action import Action, RobotContext
 from majordomo.skills.errors import WrongArguments
-from majordomo.skills.failures import Failure
+from majordomo.skills.failures import Failure, FailureCode
 from majordomo.skills.state import PlanState, Thing
 
 
@@ -34,12 +34,14 @@ class Parameter:
 class Unmet:
     """A condition that does not hold: one sentence naming the fix, and the nodes it is about.
 
-    ``final``: no step can make it hold, so that it is a reason why there is no plan.
+    ``final``: no step can make it hold, so that it is a reason why there is no plan. ``code``: what has happened when
+    it held while the plan was made.
     """
 
     message: str
     nodes: tuple[str, ...] = ()
     final: bool = False
+    code: FailureCode | None = None
 
 
 class Skill(Protocol):

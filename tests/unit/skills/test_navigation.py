@@ -15,7 +15,7 @@ from majordomo.scene_graph.nodes import RoomStatus
 from majordomo.scene_graph.se3 import SE3
 from majordomo.skills.geometry import Box2, Pose2, inside_polygon
 from majordomo.skills.navigation.advance import Advance
-from majordomo.skills.navigation.grid import Canvas
+from majordomo.skills.navigation.grid import CELL_M, EXACT_M, Canvas
 from majordomo.skills.navigation.local_map import draw_map
 from majordomo.skills.navigation.pursuit import point_ahead
 from majordomo.skills.navigation.route import find_routes, path_length_m, sampled
@@ -76,6 +76,39 @@ def test_there_is_no_way_through_a_wall_and_one_through_a_gap():
     assert find_routes(drawn(wall), (-1.0, 0.0), RADIUS_M).path_to((1.0, 0.0)) == ()
     gap = [Box2(Pose2(0.0, 1.75), 0.1, 2.5), Box2(Pose2(0.0, -1.75), 0.1, 2.5)]
     assert find_routes(drawn(gap), (-1.0, 0.0), RADIUS_M).path_to((1.0, 0.0)) != ()
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.lists(points, min_size=1, max_size=30), points)
+def test_clearance_is_the_distance_to_the_nearest_point_and_not_to_its_cell(some, at):
+    canvas = Canvas.covering((-2.5, -2.5), (2.5, 2.5))
+    cells = {tuple(np.rint((np.array(point) + 2.5) / CELL_M)): point for point in some}  # one a cell is kept
+    canvas.block_points(np.array(list(cells.values())))
+    grid = canvas.finish()
+    i, j = grid.cells(np.array([at]))[0]
+    center = np.array(grid.center((int(i), int(j))))
+    true_m = min(hypot(*(center - point)) for point in cells.values())
+    if 2 * CELL_M < true_m < EXACT_M - CELL_M:
+        assert grid.clearance_m[i, j] == pytest.approx(true_m, abs=1e-3)
+
+
+def blurred_side(rng, x_m, count=60):
+    """Returns off a surface along y, with the noise that is left of usual ranges once neighbors are averaged."""
+    return np.column_stack([x_m + rng.normal(0.0, 0.009, count), rng.uniform(-0.3, 0.3, count), np.full(count, 0.4)])
+
+
+@pytest.mark.parametrize("shift_m", np.arange(0.0, 0.04, 0.007).tolist())
+@pytest.mark.parametrize(("width_m", "passes"), [(0.66, True), (0.54, False)])
+def test_a_gap_is_passed_or_not_wherever_it_lies_on_the_grid_and_however_often_it_was_seen(width_m, passes, shift_m):
+    rng, around = np.random.default_rng(1), Surroundings(frame="room_1")
+    for scan in range(100):
+        sides = [blurred_side(rng, shift_m + side * width_m / 2) for side in (-1.0, 1.0)]
+        around.observe(np.concatenate(sides), SE3.from_xyz_yaw(0.0, 0.0, 0.0, 0.0), 0.1 * scan)
+    canvas = Canvas.covering((-2.0, -2.0), (2.0, 2.0))
+    canvas.block_box(Box2(Pose2(-1.3 - width_m / 2 + shift_m, 0.0), 2.6 - 0.1, 0.3))
+    canvas.block_box(Box2(Pose2(1.3 + width_m / 2 + shift_m, 0.0), 2.6 - 0.1, 0.3))
+    canvas.block_points(around.points())
+    assert bool(find_routes(canvas.finish(), (0.0, -1.2), RADIUS_M).path_to((0.0, 1.2))) is passes
 
 
 def test_a_robot_too_close_to_a_table_finds_its_way_off_without_getting_closer():
@@ -203,6 +236,19 @@ def test_a_wall_that_was_only_guessed_is_not_in_the_way(flat, status, free):
     assert bool(grid.clearance_at(np.array([beyond]))[0] > 0.15) is free
 
 
+def test_no_way_leads_back_through_a_room_that_was_left_to_a_place_behind_its_walls(flat):
+    snapshot = flat().memory.snapshot()
+    walls = Walls.of(snapshot, "room_1")
+    nothing = np.zeros((0, 2))
+    inside, in_the_gap, behind = (1.0, 1.0), (2.95, 0.0), (4.2, 2.0)
+    robot = (4.2, 0.0)
+    away = draw_map(snapshot, "room_1", nothing, [robot, behind, inside], walls=walls, stamp_s=0.0)
+    assert away.clearance_at(np.array([inside])) == 0.0
+    assert away.clearance_at(np.array([in_the_gap])) > 0.0
+    back = draw_map(snapshot, "room_1", nothing, [robot, inside, behind], walls=walls, stamp_s=0.0)
+    assert back.clearance_at(np.array([inside])) > 0.5
+
+
 def test_a_robot_sent_back_and_forth_between_two_ways_is_astray_though_each_time_it_comes_further():
     advance, stamp_s = Advance(stamp_s=0.0), 0.0
     for _ in range(5):
@@ -221,3 +267,12 @@ def test_a_long_way_around_and_the_detours_on_it_lead_nobody_astray():
             advance.note(float(remaining_m), stamp_s, turning=False)
             assert not advance.astray
     assert stamp_s - advance.stamp_s < 0.2
+
+
+def test_what_lies_where_the_lidar_looks_over_it_is_remembered_longer():
+    around = Surroundings(frame="room_1")
+    around.observe(ring_points(0.6, 0.0, 0.3), SE3.identity(), 0.0)
+    around.observe(np.zeros((0, 3)), SE3.identity(), 60.0)
+    np.testing.assert_allclose(around.points().mean(axis=0), [0.6, 0.0], atol=0.04)
+    around.observe(np.zeros((1, 3)), SE3.from_xyz_yaw(-1.0, 0.0, 0.0, 0.0), 61.0)
+    assert len(around.points()) == 0

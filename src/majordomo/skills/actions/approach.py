@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import pi
+from math import cos, pi
 
 import numpy as np
 from py_trees.common import Status
@@ -15,14 +15,19 @@ from majordomo.skills.actions.driving import DriveTo
 from majordomo.skills.anchor import AnchorSource, resolved
 from majordomo.skills.failures import FailureCode
 from majordomo.skills.geometry import Point2, Points
-from majordomo.skills.grasping import HOVER_M, underside_m
+from majordomo.skills.grasping import DOWN_RAD, HOVER_M, is_tall, underside_m
 from majordomo.skills.navigation.driver import DriverConfig
 from majordomo.skills.navigation.plan import Goal
 from majordomo.skills.navigation.pose import robot_frame
 from majordomo.skills.navigation.route import Routes
 
-RADII_M = (0.40, 0.45, 0.50, 0.55, 0.60, 0.65, 0.70)
+NEAREST_M = 0.40
+RADIUS_STEP_M = 0.05
+SPARE_M = 0.05
 BEST_RADIUS_M = 0.52
+EASY_RADIUS_M = 0.70
+STRETCH_COST_M = 2.0
+"""Farther than ``EASY_RADIUS_M`` the arm is stretched only where no place is nearer."""
 ANGLES = 36
 RADIUS_WEIGHT = 1.5
 CLEARANCE_WEIGHT = 1.0
@@ -67,17 +72,19 @@ class ApproachForReach(DriveTo):
             return super().blocked(obstacle, no_way=no_way)
         x_m, y_m, _ = resolved(self._where).position(self.context.snapshot, robot_frame(self.context.snapshot))
         message = f"there is no free place from which the arm reaches {self.target}."
-        where = f"point ({x_m:.2f}, {y_m:.2f}) m, {len(RADII_M) * ANGLES} places tried"
+        tried = len(self._reaches_m()) * ANGLES
+        where = f"point ({x_m:.2f}, {y_m:.2f}) m, {tried} places tried"
         return self.fail(FailureCode.UNREACHABLE, message, (self.target,), where)
 
     def _goals_around(self, routes: Routes | None) -> list[Goal]:
         snapshot = self.context.snapshot
         frame = robot_frame(snapshot)
         target = resolved(self._where).position(snapshot, frame)
-        points, radii = ring(target[:2])
+        points, radii = ring(target[:2], self._reaches_m())
         if routes is None:
             return [Goal(point=(float(target[0]), float(target[1])))]
         costs = RADIUS_WEIGHT * np.abs(radii - BEST_RADIUS_M)
+        costs += np.where(radii > EASY_RADIUS_M + 1e-6, STRETCH_COST_M, 0.0)
         costs += CLEARANCE_WEIGHT * np.clip(0.6 - routes.grid.clearance_at(points), 0.0, None)
         low_m = self._underside_m(float(target[2]))
         costs += IN_THE_WAY_COST_M * _arm_passes_over(snapshot, frame, target, low_m, points, self._spared())
@@ -95,7 +102,17 @@ class ApproachForReach(DriveTo):
         if anchor.node_id not in self.context.snapshot:
             return False
         x_m, y_m, _ = anchor.in_base(self.context)
-        return RADII_M[0] < float(np.hypot(x_m, y_m)) < RADII_M[-2]
+        nearest_m, *_, farthest_m, _ = self._reaches_m()
+        return nearest_m < float(np.hypot(x_m, y_m)) < farthest_m
+
+    def _reaches_m(self) -> tuple[float, ...]:
+        """Level with what the hand holds and with what it will grasp around its middle, else from above."""
+        context = self.context
+        node = context.snapshot.get(resolved(self._where).node_id)
+        if context.grip is not None:
+            return reaches_m(context, context.body.arm.wrist_pitch_rad)
+        level = isinstance(node, ObjectNode) and node.graspable and is_tall(node.size_m)
+        return reaches_m(context, 0.0 if level else DOWN_RAD)
 
     def _underside_m(self, z_m: float) -> float:
         """Height over which the arm passes on its way to the target."""
@@ -113,7 +130,15 @@ class ApproachForReach(DriveTo):
         return spared | {node for node in (support, robot.holding if robot is not None else None) if node is not None}
 
 
-def ring(center: Points, radii_m: Sequence[float] = RADII_M, angles: int = ANGLES) -> tuple[Points, Points]:
+def reaches_m(context: RobotContext, pitch_rad: float) -> tuple[float, ...]:
+    """How far before the base a hand with that pitch can be, in steps and with a little to spare."""
+    hand_m = context.geometry.hand_length_m * cos(pitch_rad)
+    farthest_m = context.geometry.wrist_x_m + context.limits.extension_m[1] + hand_m - SPARE_M
+    steps = int((farthest_m - NEAREST_M) / RADIUS_STEP_M + 1e-6)
+    return tuple(NEAREST_M + RADIUS_STEP_M * i for i in range(steps + 1))
+
+
+def ring(center: Points, radii_m: Sequence[float], angles: int = ANGLES) -> tuple[Points, Points]:
     """Points (N, 2) on rings around ``center`` (2,), and their radii (N,)."""
     radius, angle = np.meshgrid(np.array(radii_m), np.arange(angles) * 2 * pi / angles, indexing="ij")
     offsets = np.stack([radius.ravel() * np.cos(angle.ravel()), radius.ravel() * np.sin(angle.ravel())], axis=1)
@@ -125,12 +150,13 @@ def _arm_passes_over(
 ) -> Points:
     """For each place, how many things that reach up to ``low_m`` lie under the straight line to the target, (N,)."""
     count = np.zeros(len(points))
+    farthest_m = float(np.hypot(*(points - target[:2]).T).max())
     for node in snapshot.of_type(ObjectNode):
         if node.id in spared or node.state is not ObjectState.PRESENT or snapshot.room_of(node.id) != frame:
             continue
         x_m, y_m, z_m = snapshot.position(node.id, frame)
         reach_m = float(np.hypot(x_m - target[0], y_m - target[1]))
-        if z_m + node.size_m[2] / 2 < low_m or reach_m > max(RADII_M) + max(node.size_m[:2]):
+        if z_m + node.size_m[2] / 2 < low_m or reach_m > farthest_m + max(node.size_m[:2]):
             continue
         radius_m = min(node.size_m[:2]) / 2 + ARM_HALF_WIDTH_M
         count += _distance_to_lines_m(np.array([x_m, y_m]), target[:2], points) < radius_m

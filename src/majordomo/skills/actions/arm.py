@@ -43,11 +43,13 @@ class ArmAction(Action):
         self._targets: list[ArmTarget] = []
         self._last: ArmTarget | None = None
         self._moved_s = 0.0
+        self._moves = False
         self._lost_s: float | None = None
 
     def follow(self, targets: Sequence[ArmTarget]) -> None:
         """Start through ``targets``."""
         self._targets, self._last, self._moved_s = list(targets), None, self.context.stamp_s
+        self._moves = False
 
     def move_arm(self) -> ArmProgress:
         """Command the next target; THERE once the last is reached, STALLED when the arm stopped short of one."""
@@ -58,9 +60,10 @@ class ArmAction(Action):
         arm = self.context.body.arm
         if _reached(arm, self._targets[0]):
             self._targets.pop(0)
-            self._moved_s = self.context.stamp_s
+            self._moved_s, self._moves = self.context.stamp_s, True
             return ArmProgress.MOVING if self._targets else ArmProgress.THERE
         if self._last is None or _moved(arm, self._last):
+            self._moves = self._last is not None
             self._last, self._moved_s = arm, self.context.stamp_s
         stalled = self.context.stamp_s - self._moved_s > STALL_S
         return ArmProgress.STALLED if stalled else ArmProgress.MOVING
@@ -74,7 +77,7 @@ class ArmAction(Action):
         return self._lost_s is not None and self.context.stamp_s - self._lost_s > SLIP_S
 
     def stalled(self, what: str) -> Status:
-        """Fail because the arm stopped short."""
+        """Fail because the arm stopped short; with TIMEOUT when it has not moved at all."""
         arm = self.context.body.arm
         wanted = self._targets[0] if self._targets else arm
         lift, extension = (
@@ -82,6 +85,8 @@ class ArmAction(Action):
             f"{arm.extension_m:.3f} of {wanted.extension_m:.3f}",
         )
         seen = f"lift {lift} m, extension {extension} m"
+        if not self._moves:
+            return self.fail(FailureCode.TIMEOUT, "the arm does not do what it is told.", (), seen)
         return self.fail(FailureCode.UNREACHABLE, f"the arm was stopped on its way to {what}.", (), seen)
 
 

@@ -35,6 +35,8 @@ THRESHOLDS_M = (0.3, 0.15)
 BEYOND_M = 0.9
 WALL_M = 0.2
 PANEL_BIN_M = 0.05
+PANEL_HEIGHTS = (0.5, 0.95)
+"""Between these shares of a door's height a panel shows, but no crate, and no lintel."""
 LANE_STEP_M = 0.03
 LANE_SPARE_M = 0.03
 LANE_ERROR_M = 0.10
@@ -202,9 +204,11 @@ class CrossDoor(Action):
         return footprint_radius_m(self.context) - SAFETY_MARGIN_M
 
     def _panel_share(self) -> float:
-        """Share of the gap's width that obstacle points fill within the wall."""
+        """Share of the gap's width that the newest scan's high points fill within the wall."""
         door = self.context.snapshot.door(self.door_id)
-        on_axis = self._base_on_axis().apply(self._points_base())
+        points, (low, high) = self.context.obstacles_base, PANEL_HEIGHTS
+        tall = (points[:, 2] > low * door.height_m) & (points[:, 2] < high * door.height_m)
+        on_axis = self._base_on_axis().apply(points[tall, :2])
         within = on_axis[(on_axis[:, 0] > -0.10) & (on_axis[:, 0] < WALL_M + 0.10)]
         half_m = door.width_m / 2 - PANEL_BIN_M
         edges = np.arange(-half_m, half_m + 1e-9, PANEL_BIN_M)

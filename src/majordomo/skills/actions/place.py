@@ -11,7 +11,7 @@ from py_trees.common import Status
 
 from majordomo.scene_graph.nodes import ObjectNode
 from majordomo.skills.action import Action, RobotContext
-from majordomo.skills.actions.approach import RADII_M, ring
+from majordomo.skills.actions.approach import reaches_m, ring
 from majordomo.skills.actions.arm import ArmAction, ArmProgress
 from majordomo.skills.anchor import Anchor
 from majordomo.skills.errors import Unreachable
@@ -91,7 +91,8 @@ class ChooseSpot(Action):
         around = self.context.surroundings.points()
         grid = draw_map(snapshot, frame, around, points, walls=Walls.of(snapshot, frame), stamp_s=self.context.stamp_s)
         routes = find_routes(grid, pose.point, footprint_radius_m(self.context))
-        best = np.array([routes.cost_at(ring(center, RADII_M[:-1])[0]).min() for center in centers])
+        radii_m = reaches_m(self.context, self.context.body.arm.wrist_pitch_rad)[:-1]
+        best = np.array([routes.cost_at(ring(center, radii_m)[0]).min() for center in centers])
         best = np.where([self._is_low_enough(spot) for spot in spots], best, np.inf)
         tight = np.array([0.0 if spot.inside else max(TIGHT_M - spot.room_m, 0.0) for spot in spots])
         return np.asarray(best + TIGHT_WEIGHT * tight)
@@ -130,7 +131,8 @@ class CheckSpot(Action):
 
     def _within_reach(self, spot: Spot) -> bool:
         x_m, y_m, _ = spot.anchor.in_base(self.context)
-        return RADII_M[0] - 0.06 < hypot(x_m, y_m) < RADII_M[-1] + 0.06 and spot.room_m >= GAP_M
+        nearest_m, *_, farthest_m = reaches_m(self.context, self.context.body.arm.wrist_pitch_rad)
+        return nearest_m - 0.06 < hypot(x_m, y_m) < farthest_m + 0.06 and spot.room_m >= GAP_M
 
     @staticmethod
     def _offset_m(spot: Spot, chosen: Spot) -> float:

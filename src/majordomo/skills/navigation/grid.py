@@ -15,6 +15,9 @@ CELL_M = 0.04
 GROW_M = 0.71 * CELL_M
 """Obstacles grow by half a cell's diagonal before they are drawn, so that none slips between cell centers."""
 
+EXACT_M = 0.8
+"""Distances up to this are exact; no robot is so wide, nor keeps so far from things, that more would matter."""
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Grid:
@@ -49,22 +52,24 @@ class Grid:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Canvas:
-    """A grid being drawn: mark what is blocked, then ``finish``."""
+    """A grid being drawn: mark what is blocked, then ``finish``.
+
+    ``at_m``: (nx, ny, 2), where in each cell it would be blocked: its center unless a point is known.
+    """
 
     origin: Point2
     blocked: NDArray[np.bool_]
+    at_m: NDArray[np.float64]
 
     @classmethod
     def covering(cls, low: Point2, high: Point2) -> Canvas:
         """An empty canvas over a rectangle."""
         shape = tuple(max(ceil((b - a) / CELL_M) + 1, 2) for a, b in zip(low, high, strict=True))
-        return cls(origin=low, blocked=np.zeros(shape, dtype=bool))
+        return cls(origin=low, blocked=np.zeros(shape, dtype=bool), at_m=_centers(low, shape))
 
     def centers(self) -> Points:
         """Centers of all cells, (nx * ny, 2), row by row."""
-        nx, ny = self.blocked.shape
-        x, y = np.meshgrid(np.arange(nx), np.arange(ny), indexing="ij")
-        return np.asarray(np.stack([x.ravel(), y.ravel()], axis=1) * CELL_M + self.origin, dtype=np.float64)
+        return _centers(self.origin, self.blocked.shape).reshape(-1, 2)
 
     def block(self, mask: NDArray[np.bool_]) -> None:
         """Block the cells where ``mask`` (nx * ny,) is true."""
@@ -79,14 +84,33 @@ class Canvas:
         self.block(np.hypot(*(self.centers() - center).T) <= radius_m + GROW_M)
 
     def block_points(self, points: Points) -> None:
-        """Block the cells that ``points`` (N, 2) lie in; points beyond the canvas are dropped."""
+        """Block the cells that ``points`` (N, 2) lie in, right at these points; those beyond the canvas are dropped."""
         cells = np.rint((points - self.origin) / CELL_M).astype(np.int64)
-        cells = cells[((cells >= 0) & (cells < self.blocked.shape)).all(axis=1)]
-        self.blocked[cells[:, 0], cells[:, 1]] = True
+        within = ((cells >= 0) & (cells < self.blocked.shape)).all(axis=1)
+        i, j = cells[within].T
+        self.blocked[i, j] = True
+        self.at_m[i, j] = points[within]
 
     def finish(self) -> Grid:
-        """The grid."""
+        """The grid. Near what is blocked, distances are exact to the points, not only to the cells that hold them."""
         if not self.blocked.any():
             return Grid(origin=self.origin, clearance_m=np.full(self.blocked.shape, 10.0))
-        clearance = distance_transform_edt(~self.blocked) * CELL_M
-        return Grid(origin=self.origin, clearance_m=np.asarray(clearance, dtype=np.float64))
+        cells, nearest = distance_transform_edt(~self.blocked, return_indices=True)
+        clearance_m = np.asarray(cells * CELL_M, dtype=np.float64)
+        near = ~self.blocked & (clearance_m < EXACT_M)
+        clearance_m[near] = self._distance_m(np.argwhere(near), nearest[:, near].T)
+        return Grid(origin=self.origin, clearance_m=clearance_m)
+
+    def _distance_m(self, cells: NDArray[np.int64], nearest: NDArray[np.int64]) -> Points:
+        """Distance (N,) from the centers of ``cells`` (N, 2) to what is blocked in or beside the ``nearest`` (N, 2)."""
+        at_m = np.full((self.blocked.shape[0] + 2, self.blocked.shape[1] + 2, 2), np.inf)
+        at_m[1:-1, 1:-1][self.blocked] = self.at_m[self.blocked]
+        centers = cells * CELL_M + self.origin
+        around = [(di, dj) for di in range(3) for dj in range(3)]
+        offsets = (at_m[nearest[:, 0] + di, nearest[:, 1] + dj] - centers for di, dj in around)
+        return np.asarray(np.min([np.hypot(*offset.T) for offset in offsets], axis=0))
+
+
+def _centers(origin: Point2, shape: tuple[int, ...]) -> NDArray[np.float64]:
+    """Centers of cells, (nx, ny, 2)."""
+    return np.asarray(np.moveaxis(np.indices(shape), 0, -1) * CELL_M + origin, dtype=np.float64)

@@ -34,7 +34,8 @@ def draw_map(
     """The grid in ``frame`` that holds all ``spots`` (the robot first, then goals).
 
     The walls of a room count when it was seen all around and all spots lie within it; else only ``obstacles``, (N, 2),
-    do. ``ignore``: nodes whose footprint is left out.
+    do. A room that was left, for a goal outside it, is no way there: its walls, no longer in view, would look open.
+    ``ignore``: nodes whose footprint is left out.
     """
     polygon = _walls_around(snapshot, frame, spots)
     outline = np.array(polygon or spots)
@@ -43,6 +44,8 @@ def draw_map(
     canvas = Canvas.covering((float(low[0]), float(low[1])), (float(high[0]), float(high[1])))
     if polygon:
         _draw_walls(canvas, snapshot, frame, polygon)
+    else:
+        _draw_room_left(canvas, snapshot, frame, spots)
     canvas.block_points(walls.explain(obstacles) if polygon else obstacles)
     if believe_furniture:
         for box in furniture(snapshot, frame, ignore):
@@ -89,6 +92,20 @@ def _draw_walls(canvas: Canvas, snapshot: Snapshot, frame: str, polygon: Sequenc
     for gap in door_gaps(snapshot, frame):
         free |= gap.contains(centers)
     canvas.block(~free)
+
+
+def _draw_room_left(canvas: Canvas, snapshot: Snapshot, frame: str, spots: Sequence[Point2]) -> None:
+    """Block the inside of a room that was seen all around, but for its door gaps, when neither the robot nor the first
+    of its goals is there.
+    """
+    room = whole_room(snapshot, frame)
+    if room is None or len(spots) < 2 or inside_polygon(room.polygon_m, np.array(spots[:2])).any():
+        return
+    centers = canvas.centers()
+    behind = inside_polygon(room.polygon_m, centers)
+    for gap in door_gaps(snapshot, frame):
+        behind &= ~gap.contains(centers)
+    canvas.block(behind)
 
 
 def _stands_in_way(snapshot: Snapshot, node: ObjectNode, frame: str) -> bool:

@@ -17,20 +17,32 @@ from majordomo.skills.geometry import Point2, Points
 CELL_M = 0.04
 PATCH_CELLS = 3
 _OFFSET = 1 << 20
+_CELL = np.dtype(
+    [("key", np.int64), ("at_m", np.float64, 2), ("scans", np.int64), ("seen_s", np.float64), ("tall", "?")]
+)
+"""A cell in which something was hit: where it lies, the mean of the hits, in how many scans, when last, how high."""
+Cells = NDArray[np.void]
 
 
 @dataclass(frozen=True, kw_only=True)
 class SurroundingsConfig:
-    """Heights of what can be hit, how far to look, and how long to remember."""
+    """Heights of what can be hit, how far to look, how long to remember, and over how many scans hits are averaged.
+
+    ``blind_m``: nearer than this the mast's LiDAR looks over the floor. What it saw there last is remembered for
+    ``fade_blind_s``, since it cannot be seen to be gone.
+    """
 
     min_height_m: float = 0.04
     max_height_m: float = 1.80
     tall_m: float = 0.95
     max_range_m: float = 6.0
     body_radius_m: float = 0.20
+    blind_m: float = 0.95
     fade_low_s: float = 20.0
+    fade_blind_s: float = 120.0
     fade_tall_s: float = 0.7
     min_hits: int = 2
+    averaged: int = 5
 
 
 @dataclass(kw_only=True)
@@ -42,14 +54,12 @@ class Surroundings:
 
     config: SurroundingsConfig = field(default_factory=SurroundingsConfig)
     frame: str = ""
-    _keys: NDArray[np.int64] = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
-    _seen_s: NDArray[np.float64] = field(default_factory=lambda: np.zeros(0))
-    _tall: NDArray[np.bool_] = field(default_factory=lambda: np.zeros(0, dtype=bool))
+    _cells: Cells = field(default_factory=lambda: np.zeros(0, dtype=_CELL))
     _last_scan: object = None
 
     def points(self) -> Points:
-        """Centers of occupied cells, (N, 2), in ``frame``."""
-        return _centers(self._keys)
+        """Where the occupied cells were hit, (N, 2), in ``frame``: the mean of the hits in each."""
+        return np.array(self._cells["at_m"])
 
     def points_near(self, point: Point2, reach_m: float) -> Points:
         """Those within ``reach_m`` of ``point``."""
@@ -60,28 +70,30 @@ class Surroundings:
         """Take in one scan, (N, 3) in the base frame. The same array twice counts once."""
         if points_base is not self._last_scan:
             self._last_scan = points_base
-            cells, tall = self._cells(points_base, T_frame_base, arm_reach_m)
-            self._merge(cells, np.full(len(cells), stamp_s), tall)
-        fade_s = np.where(self._tall, self.config.fade_tall_s, self.config.fade_low_s)
-        self._keep(stamp_s - self._seen_s <= fade_s)
+            self._merge(self._seen(points_base, T_frame_base, stamp_s, arm_reach_m))
+        away_m = np.hypot(*(self._cells["at_m"] - T_frame_base.translation_m[:2]).T)
+        low_s = np.where(away_m < self.config.blind_m, self.config.fade_blind_s, self.config.fade_low_s)
+        fade_s = np.where(self._cells["tall"], self.config.fade_tall_s, low_s)
+        self._cells = self._cells[stamp_s - self._cells["seen_s"] <= fade_s]
 
     def move_to(self, frame: str, T_new_old: SE3 | None) -> None:
         """Carry the memory into another frame, or drop it when the frames are not connected."""
-        old, seen_s, tall = self.points(), self._seen_s, self._tall
+        old = self._cells
         self.frame = frame
-        self._keep(np.zeros(len(self._keys), dtype=bool))
+        self.forget()
         if T_new_old is not None and len(old):
-            moved = T_new_old.apply(np.column_stack([old, np.zeros(len(old))]))[:, :2]
-            keys, first = np.unique(_keys(moved), return_index=True)
-            self._merge(keys, seen_s[first], tall[first])
+            moved = old.copy()
+            moved["at_m"] = T_new_old.apply(np.column_stack([old["at_m"], np.zeros(len(old))]))[:, :2]
+            keys, first = np.unique(_keys(moved["at_m"]), return_index=True)
+            self._cells = moved[first]
+            self._cells["key"] = keys
 
     def forget(self) -> None:
         """Drop everything, for instance after the robot was carried away."""
-        self._keep(np.zeros(len(self._keys), dtype=bool))
+        self._cells = self._cells[:0]
 
-    def _cells(
-        self, points: Points, T_frame_base: SE3, arm_reach_m: float
-    ) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
+    def _seen(self, points: Points, T_frame_base: SE3, stamp_s: float, arm_reach_m: float) -> Cells:
+        """What one scan hit, by key: cells with enough hits, and those known already."""
         config = self.config
         x, y, z = points.T
         range_m = np.hypot(x, y)
@@ -91,32 +103,34 @@ class Surroundings:
             keep &= ~((x > 0) & (x < arm_reach_m) & (np.abs(y) < 0.12))
         points = points[keep]
         if not len(points):
-            return np.zeros(0, dtype=np.int64), np.zeros(0, dtype=bool)
+            return np.zeros(0, dtype=_CELL)
         placed = points @ T_frame_base.rotation()[:2].T + T_frame_base.translation_m[:2]
-        cells = np.floor(placed / CELL_M).astype(np.int64)
-        corner = cells.min(axis=0)
-        columns, rows = cells.max(axis=0) - corner + 1
-        index = (cells[:, 0] - corner[0]) * rows + cells[:, 1] - corner[1]
-        counts = np.bincount(index, minlength=columns * rows)
-        hit = np.flatnonzero(counts)
+        raw = np.floor(placed / CELL_M).astype(np.int64)
+        corner = raw.min(axis=0)
+        columns, rows = raw.max(axis=0) - corner + 1
+        index = (raw[:, 0] - corner[0]) * rows + raw[:, 1] - corner[1]
+        count = np.bincount(index, minlength=columns * rows)
+        hit = np.flatnonzero(count)
         cells = np.stack([hit // rows, hit % rows], axis=1) + corner
         tall = np.bincount(index[points[:, 2] > config.tall_m], minlength=columns * rows)[hit] > 0
-        keys = _packed(cells)
-        solid = (counts[hit] >= config.min_hits) | _found(keys, self._keys)[1]
-        return keys[solid], _beside_tall(cells[solid], tall[solid])
+        seen = np.zeros(len(hit), dtype=_CELL)
+        seen["key"], seen["scans"], seen["seen_s"] = _packed(cells), 1, stamp_s
+        for axis in (0, 1):
+            seen["at_m"][:, axis] = np.bincount(index, placed[:, axis], minlength=columns * rows)[hit] / count[hit]
+        solid = (count[hit] >= config.min_hits) | _found(seen["key"], self._cells["key"])[1]
+        seen["tall"][solid] = _beside_tall(cells[solid], tall[solid])
+        return np.asarray(seen[solid])
 
-    def _merge(self, keys: NDArray[np.int64], seen_s: Points, tall: NDArray[np.bool_]) -> None:
-        """Take in what was seen of ``keys``, sorted and each once."""
-        place, known = _found(keys, self._keys)
-        self._seen_s[place[known]], self._tall[place[known]] = seen_s[known], tall[known]
-        at = place[~known]
-        self._keys = np.insert(self._keys, at, keys[~known])
-        self._seen_s = np.insert(self._seen_s, at, seen_s[~known])
-        self._tall = np.insert(self._tall, at, tall[~known])
-
-    def _keep(self, mask: NDArray[np.bool_]) -> None:
-        if not mask.all():
-            self._keys, self._seen_s, self._tall = self._keys[mask], self._seen_s[mask], self._tall[mask]
+    def _merge(self, seen: Cells) -> None:
+        """Take in what was seen, sorted by key and each once."""
+        place, known = _found(seen["key"], self._cells["key"])
+        at = place[known]
+        scans = np.minimum(self._cells["scans"][at] + 1, self.config.averaged)
+        before_m = self._cells["at_m"][at]
+        after_m = before_m + (seen["at_m"][known] - before_m) / scans[:, None]
+        self._cells[at] = seen[known]
+        self._cells["at_m"][at], self._cells["scans"][at] = after_m, scans
+        self._cells = np.insert(self._cells, place[~known], seen[~known])
 
 
 def _beside_tall(cells: NDArray[np.int64], tall: NDArray[np.bool_]) -> NDArray[np.bool_]:
@@ -145,11 +159,6 @@ def _found(keys: NDArray[np.int64], among: NDArray[np.int64]) -> tuple[NDArray[n
     known = place < len(among)
     known[known] = among[place[known]] == keys[known]
     return place, known
-
-
-def _centers(keys: NDArray[np.int64]) -> Points:
-    cells = np.stack([keys >> 21, keys & ((1 << 21) - 1)], axis=1) - _OFFSET
-    return np.asarray((cells + 0.5) * CELL_M)
 
 
 def _keys(points: Points) -> NDArray[np.int64]:

@@ -2,20 +2,25 @@
 
 from __future__ import annotations
 
+import io
 import math
+from dataclasses import replace
 
+import matplotlib.image
 import numpy as np
 import pytest
 
+from majordomo.app.evaluations.missions.attempts import Attempts
 from majordomo.app.evaluations.missions.disturbances import DISTURBANCES, Moment
 from majordomo.app.evaluations.missions.evaluation import met, summarize
+from majordomo.app.evaluations.missions.filmstrip import MOST, Still, draw_filmstrip
 from majordomo.app.evaluations.missions.inventing import invent
 from majordomo.app.evaluations.missions.mission import Mission
 from majordomo.app.evaluations.missions.mission_file import MissionFileError, load_missions
 from majordomo.app.evaluations.missions.outcome import HAND, Outcome, Placed, RobotIn, Scene, stirred
 from majordomo.app.evaluations.missions.playing import Verdict
 from majordomo.app.evaluations.missions.ways import Ways
-from majordomo.planner.tasks import Task, TaskStatus, TaskTimes
+from majordomo.planner.tasks import PlanReport, StepReport, StepStatus, Task, TaskStatus, TaskTimes
 from majordomo.simulation.house import load_house, parse_disturbance
 
 FLAT = load_house("flat")
@@ -167,10 +172,10 @@ def test_what_a_mission_file_may_not_say_is_named_with_its_line(tmp_path, text, 
         load_missions(file)
 
 
-def row(verdict, disturbance="", *, possible=True, collisions=0, driven_m=5.0, shortest_m=4.5):
+def row(verdict, disturbance="", *, possible=True, collisions=0, driven_m=5.0, shortest_m=4.5, attempts=()):
     return {
         "verdict": verdict, "disturbance": disturbance, "made": bool(disturbance), "possible": possible,
-        "collisions": collisions, "driven_m": driven_m, "shortest_m": shortest_m,
+        "collisions": collisions, "driven_m": driven_m, "shortest_m": shortest_m, "attempts": attempts,
     }  # fmt: skip
 
 
@@ -195,3 +200,58 @@ def test_what_was_impossible_counts_for_its_reason_and_not_as_a_failure():
 def test_the_way_is_compared_where_nobody_interfered():
     rows = [row(Verdict.DONE, driven_m=9.0), row(Verdict.DONE, "pushed", driven_m=90.0)]
     assert summarize(rows)["way_over_shortest"] == 2.0
+
+
+def plan_of(*steps):
+    reports = tuple(StepReport(skill=skill, args=("cup_1",), status=status) for skill, status in steps)
+    return PlanReport(source="grammar", revision=1, goals=(), steps=reports)
+
+
+def test_a_go_counts_once_it_has_begun_and_ended_and_a_failed_one_stays_failed_after_a_new_plan():
+    attempts = Attempts()
+    pending, running, failed, done = StepStatus.PENDING, StepStatus.RUNNING, StepStatus.FAILED, StepStatus.SUCCEEDED
+    for steps in (
+        (("GOTO", done), ("PICK", failed)),
+        (("GOTO", done), ("PICK", running)),
+        (("GOTO", done), ("PICK", failed)),
+        (("GOTO", running), ("PICK", pending)),
+        (("GOTO", done), ("PICK", running)),
+        (("GOTO", running), ("PICK", pending)),
+        (("GOTO", done), ("PICK", running)),
+        (("GOTO", done), ("PICK", done)),
+        (("GOTO", done), ("PICK", done)),
+    ):
+        attempts.follow(replace(task(TaskStatus.RUNNING), plan=plan_of(*steps)))
+    found = attempts.check(scene(CUP_ON_TABLE, holding="cup_1"), calm=True)
+    assert [(attempt.step, attempt.done) for attempt in found] == [("PICK(cup_1)", False), ("PICK(cup_1)", True)]
+    assert attempts.check(scene(CUP_ON_TABLE), calm=True) == []
+
+
+@pytest.mark.parametrize(("skill", "holding"), [("PICK", None), ("PLACE", "cup_1")])
+def test_a_go_that_the_robot_takes_for_done_and_the_truth_does_not_is_none(skill, holding):
+    attempts = Attempts()
+    for status in (StepStatus.RUNNING, StepStatus.SUCCEEDED):
+        attempts.follow(replace(task(TaskStatus.RUNNING), plan=plan_of((skill, status))))
+    (attempt,) = attempts.check(scene(CUP_ON_TABLE, holding=holding), calm=True)
+    assert not attempt.done
+
+
+def test_goes_count_until_somebody_interferes():
+    goes = [{"skill": "PICK", "done": True, "calm": True}, {"skill": "PICK", "done": False, "calm": False}]
+    summary = summarize([row(Verdict.DONE, "pushed", attempts=goes)])
+    assert (summary["picks"], summary["places"]) == (1.0, None)
+    bad = [{"skill": "PLACE", "done": False, "calm": True}]
+    assert not met(summarize([row(Verdict.DONE, attempts=bad)]))
+
+
+def test_a_filmstrip_shows_the_first_and_the_last_of_many_pictures(tmp_path):
+    jpeg = io.BytesIO()
+    matplotlib.image.imsave(jpeg, np.zeros((24, 32, 3), np.uint8), format="jpeg")
+    stills = [
+        Still(stamp_s=float(n), at=(1.0 + n / 10, 1.0), caption=f"picture {n}", jpeg=jpeg.getvalue() if n else None)
+        for n in range(MOST + 5)
+    ]
+    few, many = tmp_path / "few.png", tmp_path / "new" / "many.png"
+    draw_filmstrip(FLAT, [(1.0, 1.0), (2.0, 1.5)], stills[:3], "done: put the cup on the desk", few)
+    draw_filmstrip(FLAT, [], stills, "done: put the cup on the desk", many)
+    assert matplotlib.image.imread(many).shape[0] > matplotlib.image.imread(few).shape[0] > 0

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from enum import StrEnum
 from pathlib import Path
 from typing import Any
@@ -14,6 +14,8 @@ import numpy as np
 from numpy.random import Generator
 
 from majordomo.app.evaluations.exploration import pass_time, service_in_lockstep, until_explored
+from majordomo.app.evaluations.missions.attempts import Attempts
+from majordomo.app.evaluations.missions.filmstrip import Still, draw_filmstrip
 from majordomo.app.evaluations.missions.meddler import Meddler
 from majordomo.app.evaluations.missions.mission import Mission
 from majordomo.app.evaluations.missions.outcome import HAND, Scene, stirred
@@ -21,6 +23,7 @@ from majordomo.app.evaluations.missions.ways import Point, Ways
 from majordomo.app.evaluations.pool import tell
 from majordomo.app.runtime import Runtime
 from majordomo.planner.tasks import Task, TaskStatus
+from majordomo.scene_graph.identifiers import slug
 from majordomo.simulation.house import House
 
 LIMIT_S = 900.0
@@ -30,16 +33,25 @@ _SETTLE_S = 1.5
 _SITTING_STILL_M = 0.02
 
 
-async def play_all(name: str, house: House, missions: Sequence[Mission], *, seed: int, model: Path) -> dict[str, Any]:
-    """All missions of one house, in their order, and what came of each."""
+async def play_all(
+    name: str, house: House, missions: Sequence[Mission], *, seed: int, model: Path, pictures: Path | None = None
+) -> dict[str, Any]:
+    """All missions of one house, in their order, and what came of each.
+
+    ``pictures``: folder for a filmstrip of each.
+    """
     async with service_in_lockstep(house, seed, camera=True, model=model) as runtime:
         began = time.monotonic()
         explored = await until_explored(runtime, house)
         tell(f"{name}: {'explored' if explored else 'given up'} after {runtime.now_s:.0f} simulated seconds")
         rows = []
         for number, mission in enumerate(missions):
-            rows.append(await _Play(runtime, house, mission, np.random.default_rng((seed, number))).play())
-            tell(f"{name}: {rows[-1]['verdict']}: {mission.request} [{mission.disturbance or 'undisturbed'}]")
+            play = _Play(runtime, house, mission, np.random.default_rng((seed, number)), filming=pictures is not None)
+            rows.append(await play.play())
+            line = f"{name}: {rows[-1]['verdict']}: {mission.request} [{mission.disturbance or 'undisturbed'}]"
+            tell(line)
+            if pictures is not None:
+                draw_filmstrip(house, play.way, play.stills, line, pictures / f"{slug(name)}_{seed}_{number}.png")
         return {
             "house": name,
             "seed": seed,
@@ -83,12 +95,26 @@ class _Course:
 
 
 class _Play:
-    """One mission."""
+    """One mission.
 
-    def __init__(self, runtime: Runtime, house: House, mission: Mission, rng: Generator) -> None:
+    Attributes:
+        stills: what the camera saw at its key moments, if it is filmed.
+    """
+
+    def __init__(
+        self, runtime: Runtime, house: House, mission: Mission, rng: Generator, *, filming: bool = False
+    ) -> None:
         self._runtime, self._house, self._mission = runtime, house, mission
         self._meddler = Meddler(runtime, mission, rng)
         self._course = _Course()
+        self._attempts = Attempts()
+        self._filming, self._failures = filming, 0
+        self.stills: list[Still] = []
+
+    @property
+    def way(self) -> Sequence[Point]:
+        """Where the robot has been."""
+        return self._course.points
 
     async def play(self) -> dict[str, Any]:
         """Ask, watch, interfere, and judge."""
@@ -96,9 +122,12 @@ class _Play:
         before = await self._scene()
         shortest_m = self._shortest_m(before)
         task = self._runtime.submit(self._mission.request)
+        await self._film(before, self._mission.request)
         task = await self._watch(task)
+        await self._note(await self._scene(), task)
         await pass_time(self._runtime, _SETTLE_S)
         after = await self._scene()
+        await self._film(after, task.explanation or task.reply)
         row = self._judged(task, before, after)
         await self._meddler.tidy_up()
         return {
@@ -111,6 +140,7 @@ class _Play:
             "asked": self._course.asked,
             "status": task.status.value,
             "codes": [failure.code for failure in task.failures],
+            "attempts": [asdict(attempt) for attempt in self._attempts.checked],
             "explanation": task.explanation or task.reply,
             "replans": task.replans,
             "collisions": int(after.truth["collisions"]) - int(before.truth["collisions"]),
@@ -124,7 +154,9 @@ class _Play:
         """Follow the task to its end."""
         began_s = looked_s = self._runtime.now_s
         going_s: float | None = None
-        while not (task := self._runtime.queue.task(task.id)).status.ended:
+        task_id = task.id
+        self._runtime.queue.listen(lambda version: self._attempts.follow(version) if version.id == task_id else None)
+        while not (task := self._runtime.queue.task(task_id)).status.ended:
             now_s = self._runtime.now_s
             self._course.asked |= task.status is TaskStatus.AWAITING_ANSWER
             if task.status is TaskStatus.AWAITING_ANSWER or now_s > began_s + LIMIT_S:
@@ -133,10 +165,31 @@ class _Play:
                 looked_s = now_s
                 scene = await self._scene()
                 self._course.at(scene.robot_at)
+                await self._note(scene, task)
                 going_s = now_s if going_s is None and len(self._course.points) > 1 else going_s
-                await self._meddler.step(scene, task, 0.0 if going_s is None else now_s - going_s)
+                await self._interfere(scene, task, 0.0 if going_s is None else now_s - going_s)
             await self._runtime.wait_for_change()
         return task
+
+    async def _interfere(self, scene: Scene, task: Task, since_s: float) -> None:
+        calm = self._meddler.made_s is None
+        await self._meddler.step(scene, task, since_s)
+        if calm and self._meddler.made_s is not None:
+            await self._film(scene, f"disturbed: {self._mission.disturbance.replace('_', ' ')}")
+
+    async def _note(self, scene: Scene, task: Task) -> None:
+        """Take down what was tried, and what went wrong, since the last look."""
+        for attempt in self._attempts.check(scene, calm=self._meddler.made_s is None):
+            await self._film(scene, f"{attempt.step} {'done' if attempt.done else 'not done'}")
+        for failure in task.failures[self._failures :]:
+            await self._film(scene, f"{failure.code}: {failure.message}")
+        self._failures = len(task.failures)
+
+    async def _film(self, scene: Scene, caption: str) -> None:
+        if self._filming:
+            jpeg = await self._runtime.camera_jpeg()
+            stamp_s = float(scene.truth["stamp_s"])
+            self.stills.append(Still(stamp_s=stamp_s, at=scene.robot_at, caption=caption, jpeg=jpeg))
 
     def _judged(self, task: Task, before: Scene, after: Scene) -> dict[str, Any]:
         """Reported and true outcome, and whether both fit."""

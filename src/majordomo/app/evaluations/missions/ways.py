@@ -14,7 +14,7 @@ from scipy.sparse.csgraph import dijkstra
 
 from majordomo.app.evaluations.missions.outcome import Scene
 from majordomo.simulation.catalog import category_named
-from majordomo.simulation.house import OUTSIDE, Door
+from majordomo.simulation.house import OUTSIDE, Door, Furniture, House
 
 CELL_M = 0.05
 ROBOT_RADIUS_M = 0.25
@@ -45,10 +45,9 @@ class Ways:
         for room in house.rooms:
             free |= self._inside(np.array(room.polygon))
         for door in self._open:
-            free |= self._inside(self._gap(door))
+            free |= self._inside(gap(house, door))
         for item in house.furniture:
-            size = item.size or category_named(item.category, None, static=True).size_m
-            free &= ~self._inside(_rectangle((item.pose[0], item.pose[1]), size[:2], item.pose[2]))
+            free &= ~self._inside(outline(item))
         self.clearance_m: NDArray[np.float64] = np.asarray(distance_transform_edt(free)) * CELL_M
         self._number, self._graph = _grid_graph(self.clearance_m > ROBOT_RADIUS_M)
 
@@ -104,14 +103,6 @@ class Ways:
         x_m, y_m = self._places[np.unravel_index(np.argmax(clearance_m), clearance_m.shape)]
         return float(x_m), float(y_m)
 
-    def _gap(self, door: Door) -> NDArray[np.float64]:
-        """The floor of a doorway, from room to room: along the axis of the wall that is nearer."""
-        rooms = [room for room in self._house.rooms if room.id in door.rooms]
-        boundaries = [_direction_at(np.array(room.polygon), np.array(door.center)) for room in rooms]
-        along = boundaries[0] if boundaries else np.array((1.0, 0.0))
-        yaw_rad = math.atan2(along[1], along[0])
-        return _rectangle(door.center, (door.width, self._house.wall_thickness + 4 * CELL_M), yaw_rad)
-
     def _inside(self, polygon_m: NDArray[np.float64]) -> NDArray[np.bool_]:
         """(H, W) cells within a polygon."""
         flat: NDArray[np.bool_] = Outline(polygon_m).contains_points(self._places.reshape(-1, 2))
@@ -134,6 +125,21 @@ class Ways:
     def _nearest(self, point: Point) -> int | None:
         points = self._points(np.arange(int(self._number.max()) + 1))
         return int(np.argmin(np.linalg.norm(points - np.array(point), axis=1))) if len(points) else None
+
+
+def gap(house: House, door: Door) -> NDArray[np.float64]:
+    """The floor of a doorway, from room to room, as (4, 2) corners: along the side of a room that is nearest."""
+    rooms = [room for room in house.rooms if room.id in door.rooms]
+    sides = [_direction_at(np.array(room.polygon), np.array(door.center)) for room in rooms]
+    along = sides[0] if sides else np.array((1.0, 0.0))
+    yaw_rad = math.atan2(along[1], along[0])
+    return _rectangle(door.center, (door.width, house.wall_thickness + 4 * CELL_M), yaw_rad)
+
+
+def outline(item: Furniture) -> NDArray[np.float64]:
+    """What a piece of furniture covers of the floor, as (4, 2) corners."""
+    size = item.size or category_named(item.category, None, static=True).size_m
+    return _rectangle((item.pose[0], item.pose[1]), size[:2], item.pose[2])
 
 
 def _grid_graph(free: NDArray[np.bool_]) -> tuple[NDArray[np.int64], coo_matrix]:

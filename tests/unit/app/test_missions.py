@@ -10,6 +10,7 @@ import matplotlib.image
 import numpy as np
 import pytest
 
+from majordomo.app.evaluations.inventory import GraphContents, GraphThing
 from majordomo.app.evaluations.missions.attempts import Attempts
 from majordomo.app.evaluations.missions.disturbances import DISTURBANCES, Moment
 from majordomo.app.evaluations.missions.evaluation import met, summarize
@@ -19,6 +20,7 @@ from majordomo.app.evaluations.missions.mission import Mission
 from majordomo.app.evaluations.missions.mission_file import MissionFileError, load_missions
 from majordomo.app.evaluations.missions.outcome import HAND, Outcome, Placed, RobotIn, Scene, stirred
 from majordomo.app.evaluations.missions.playing import Verdict
+from majordomo.app.evaluations.missions.resident import meant
 from majordomo.app.evaluations.missions.ways import Ways
 from majordomo.planner.tasks import PlanReport, StepReport, StepStatus, Task, TaskStatus, TaskTimes
 from majordomo.simulation.house import load_house, parse_disturbance
@@ -103,6 +105,25 @@ def test_invented_requests_are_the_same_for_a_seed_and_ask_for_every_thing_once(
     assert len(asked) == len(set(asked)) >= 4
     for mission in missions:
         assert not any(outcome.met(scene(*FLAT_THINGS), task()) for outcome in mission.outcomes if outcome.things)
+
+
+def contents(rooms=None, **at):
+    things = tuple(
+        GraphThing(id=name, label="cup", position_m=np.array(place), size_m=(0.1, 0.1, 0.1))
+        for name, place in at.items()
+    )
+    return GraphContents(things=things, relations=(), rooms=rooms or {}, labels={})
+
+
+def test_who_is_asked_back_says_which_thing_or_room_is_meant_and_nothing_where_it_is_not_offered():
+    known = contents({"office": "room_3"}, cup_7=(3.0, 1.0, 0.8), cup_8=(1.1, 1.0, 0.8), cup_9=(1.3, 1.0, 0.8))
+    here = scene(CUP_ON_TABLE)
+    cup = Mission(
+        house="flat", kind="", request="", outcomes=(Outcome(states=(Placed(things=("cup_1",), places=("office",)),)),)
+    )
+    assert meant(("cup_7", "cup_9", "cup_8"), cup, here, known) == 2
+    assert meant(("cup_7",), cup, here, known) is None
+    assert meant(("room_1", "room_3"), cup, here, known) == 1
 
 
 FLAT_THINGS = [{**CUP_ON_TABLE, "id": thing.id, "on": thing.on} for thing in FLAT.objects]

@@ -219,13 +219,13 @@ KINDS: tuple[tuple[str, Callable[[_Inventor], _Made]], ...] = (
 
 def _uniquely_labelled(house: House) -> dict[str, Room]:
     """Rooms that their label tells from the others."""
-    counts = Counter(_label(room) for room in house.rooms)
-    return {
-        room.id: room.model_copy(update={"label": _label(room)}) for room in house.rooms if counts[_label(room)] == 1
-    }
+    named = [(room, room_name(room)) for room in house.rooms]
+    counts = Counter(name for _, name in named)
+    return {room.id: room.model_copy(update={"label": name}) for room, name in named if counts[name] == 1}
 
 
-def _label(room: Room) -> str:
+def room_name(room: Room) -> str:
+    """What people call it."""
     return (room.label or room.id).replace("_", " ")
 
 
@@ -284,7 +284,7 @@ def _room_of(house: House, entry: Object) -> Room | None:
     carrier = next((item for item in house.furniture if item.id in (entry.on, entry.in_)), None)
     pose = carrier.pose if carrier is not None else entry.pose
     room = room_at(house, pose[0], pose[1]) if pose is not None else None
-    return next((each.model_copy(update={"label": _label(each)}) for each in house.rooms if each.id == room), None)
+    return next((each.model_copy(update={"label": room_name(each)}) for each in house.rooms if each.id == room), None)
 
 
 def _plain(category: str) -> str:

@@ -19,6 +19,7 @@ from majordomo.app.evaluations.missions.filmstrip import Still, draw_filmstrip
 from majordomo.app.evaluations.missions.meddler import Meddler
 from majordomo.app.evaluations.missions.mission import Mission
 from majordomo.app.evaluations.missions.outcome import HAND, Scene, stirred
+from majordomo.app.evaluations.missions.resident import Resident
 from majordomo.app.evaluations.missions.ways import Point, Ways
 from majordomo.app.evaluations.pool import tell
 from majordomo.app.runtime import Runtime
@@ -44,6 +45,7 @@ async def play_all(
         began = time.monotonic()
         explored = await until_explored(runtime, house)
         tell(f"{name}: {'explored' if explored else 'given up'} after {runtime.now_s:.0f} simulated seconds")
+        Resident(runtime, house).introduce()
         rows = []
         for number, mission in enumerate(missions):
             play = _Play(runtime, house, mission, np.random.default_rng((seed, number)), filming=pictures is not None)
@@ -78,7 +80,7 @@ class Verdict(StrEnum):
 
 @dataclass(kw_only=True)
 class _Course:
-    """Where the robot has been, and whether it asked something back."""
+    """Where the robot has been, and whether it asked something that nobody could answer."""
 
     points: list[Point] = field(default_factory=list)
     asked: bool = False
@@ -106,6 +108,7 @@ class _Play:
     ) -> None:
         self._runtime, self._house, self._mission = runtime, house, mission
         self._meddler = Meddler(runtime, mission, rng)
+        self._resident = Resident(runtime, house)
         self._course = _Course()
         self._attempts = Attempts()
         self._filming, self._failures = filming, 0
@@ -137,7 +140,8 @@ class _Play:
             "made": self._meddler.made_s is not None,
             "possible": self._meddler.possible,
             **row,
-            "asked": self._course.asked,
+            "answers": self._resident.answers,
+            "dialogue": [question for question, _ in task.dialogue],
             "status": task.status.value,
             "codes": [failure.code for failure in task.failures],
             "attempts": [asdict(attempt) for attempt in self._attempts.checked],
@@ -158,8 +162,9 @@ class _Play:
         self._runtime.queue.listen(lambda version: self._attempts.follow(version) if version.id == task_id else None)
         while not (task := self._runtime.queue.task(task_id)).status.ended:
             now_s = self._runtime.now_s
-            self._course.asked |= task.status is TaskStatus.AWAITING_ANSWER
-            if task.status is TaskStatus.AWAITING_ANSWER or now_s > began_s + LIMIT_S:
+            if task.status is TaskStatus.AWAITING_ANSWER:
+                await self._answer(task)
+            elif now_s > began_s + LIMIT_S:
                 self._runtime.queue.cancel(task.id, stamp_s=now_s)
             elif now_s >= looked_s + _LOOK_S:
                 looked_s = now_s
@@ -170,6 +175,15 @@ class _Play:
                 await self._interfere(scene, task, 0.0 if going_s is None else now_s - going_s)
             await self._runtime.wait_for_change()
         return task
+
+    async def _answer(self, task: Task) -> None:
+        """Say which one is meant; where the right one is not offered, give the request up."""
+        text = self._resident.answer(task, self._mission, await self._scene())
+        if text is None:
+            self._course.asked = True
+            self._runtime.queue.cancel(task.id, stamp_s=self._runtime.now_s)
+        else:
+            self._runtime.queue.answer(task.id, text, stamp_s=self._runtime.now_s)
 
     async def _interfere(self, scene: Scene, task: Task, since_s: float) -> None:
         calm = self._meddler.made_s is None

@@ -140,6 +140,7 @@ class _Play:
             "made": self._meddler.made_s is not None,
             "possible": self._meddler.possible,
             **row,
+            "ended": {name: _whereabouts(after, name) for name in self._mission.things},
             "answers": self._resident.answers,
             "dialogue": [question for question, _ in task.dialogue],
             "status": task.status.value,
@@ -235,3 +236,11 @@ class _Play:
 
     async def _scene(self) -> Scene:
         return Scene(house=self._house, truth=await self._runtime.require_robot().truth())
+
+
+def _whereabouts(scene: Scene, thing: str) -> str:
+    """What carries a thing at last, or the room it is in."""
+    record = scene.thing(thing)
+    if record is None:
+        return "gone"
+    return HAND if scene.holding == thing else str(record["on"] or record["in"] or record["room"])

@@ -13,11 +13,13 @@ from majordomo.planner.goals import Goal
 from majordomo.planner.job import Job, Watch, actions_or_refusal
 from majordomo.planner.ledger import Ledger
 from majordomo.planner.lookout import Lookout
+from majordomo.planner.naming import humanize
 from majordomo.planner.plan import Impossible, Plan, Step
 from majordomo.planner.progress import Progress
 from majordomo.planner.recovery import Recoveries
 from majordomo.planner.replanner import Hunt, Replanner
 from majordomo.planner.tasks import TaskStatus
+from majordomo.planner.whereabouts import capital
 from majordomo.scene_graph.edges import TASK_AGENT
 from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.skills.action import Action, RobotContext
@@ -236,12 +238,23 @@ class Errand:
         self.close()
         plan = self._replanner.plan(self._ledger.remaining(), snapshot, self._stamp_s)
         if isinstance(plan, Impossible):
-            return self._chronicle.surrender(plan.reason, snapshot)
+            return self._despair(plan, snapshot)
         self._replans += 1
         self._progress.adopt(plan, snapshot, replans=self._replans)
         self._chronicle.replan(str(plan), why, self._stamp_s)
         self._enter(Phase.READY)
         return None
+
+    def _despair(self, why: Impossible, snapshot: Snapshot) -> Ending:
+        """There is no plan any more. What was looked for in vain is the last failure, not the last place on the way."""
+        if why.lost is not None:
+            carried = any(goal.object_id == why.lost for goal in self._ledger.goals)
+            code = FailureCode.OBJECT_GONE if carried else FailureCode.SUPPORT_GONE
+            evidence = Evidence(nodes=why.nodes, revision=snapshot.revision, observation="not found anywhere")
+            failure = Failure(code=code, message=f"{capital(humanize(why.reason, snapshot))}.", evidence=evidence)
+            step = Step(skill="SEARCH", args=(why.lost,))
+            self._chronicle.failure(failure, step, snapshot, self._stamp_s, hopeless=True)
+        return self._chronicle.surrender(why.reason, snapshot)
 
     def _start(self, name: str, actions: list[Action], timeout_s: float, watch: Watch | None = None) -> None:
         self._job = Job(name, actions, timeout_s=timeout_s, watch=watch, wanted=self._wanted)

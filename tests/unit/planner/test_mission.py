@@ -241,7 +241,9 @@ def test_a_place_that_cannot_be_reached_is_skipped_in_a_search_and_said_so():
     show.until_step("GOTO")
     show.stage.places["bottle_1"] = None
     show.run_until(lambda: show.task.status.ended, limit=20_000)
-    assert show.codes == ["object_gone", "way_blocked", "way_blocked"]
+    assert show.codes == ["object_gone", "way_blocked", "way_blocked", "object_gone"]
+    assert show.task.failures[-1].evidence.nodes == ("bottle_1",)
+    assert "I could not get to" in show.task.failures[-1].message
     assert "I could not get to" in show.task.explanation
 
 

@@ -153,6 +153,18 @@ def test_every_disturbance_has_its_time_and_deeds_that_the_simulator_understands
             parse_disturbance(event)
 
 
+def test_a_mission_gets_only_what_can_happen_to_it():
+    def fitting(*places):
+        placed = Placed(things=("cup_1",), places=places)
+        mission = Mission(house="flat", kind="", request="", outcomes=(Outcome(states=(placed,)),))
+        return {name for name, each in DISTURBANCES.items() if each.fits(mission, FLAT)}
+
+    assert fitting("desk_1") == {*DISTURBANCES}
+    assert fitting("office") == {*DISTURBANCES} - {"support_full", "support_gone"}
+    assert fitting(HAND) == {*DISTURBANCES} - {"support_full", "support_gone", "slipped"}
+    assert not any(each.fits(Mission(house="flat", kind="", request=""), FLAT) for each in DISTURBANCES.values())
+
+
 def test_nothing_is_moved_before_the_robot_is_under_way_and_nothing_slips_from_an_empty_hand():
     early = moment("moved_unseen")
     early = Moment(**{**vars(early), "since_s": 0.0})

@@ -7,7 +7,6 @@ import json
 from collections import defaultdict
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from itertools import cycle
 from pathlib import Path
 from statistics import median
 from typing import Any
@@ -135,12 +134,14 @@ def _done(row: Row) -> bool:
 
 
 def _invented(houses: Sequence[str], requests: int, disturb: Sequence[str]) -> list[Mission]:
-    """Requests for every house; each is disturbed by the next of what is to happen that can happen to it."""
+    """Requests for every house; each is disturbed by what has not happened for longest of what can happen to it."""
     missions = []
-    turn = cycle(disturb or ("",))
+    turn = list(disturb)
     for number, name in enumerate(houses):
-        for mission in invent(name, house_of(name), count=requests, seed=number):
-            disturbance = next(turn) if mission.things or not disturb else ""
+        house = house_of(name)
+        for mission in invent(name, house, count=requests, seed=number):
+            disturbance = next((each for each in turn if DISTURBANCES[each].fits(mission, house)), "")
+            turn = [*(each for each in turn if each != disturbance), *([disturbance] if disturbance else [])]
             missions.append(replace(mission, disturbance=disturbance))
     lasting = list(DISTURBANCES).index
     return sorted(missions, key=lambda m: (houses.index(m.house), lasting(m.disturbance) if m.disturbance else -1))

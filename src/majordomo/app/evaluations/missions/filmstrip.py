@@ -68,7 +68,8 @@ def _draw_plan(axis: Axes, house: House, way: Sequence[Point], stills: Sequence[
     for room in house.rooms:
         axis.add_patch(Polygon(room.polygon, facecolor="#f5f5f4", edgecolor="#44403c", linewidth=1.5))
         xs, ys = zip(*room.polygon, strict=True)
-        axis.text(min(xs) + 0.1, max(ys) - 0.1, room.label or room.id, fontsize=7, va="top", color="#78716c")
+        middle = (sum(xs) / len(xs), sum(ys) / len(ys))
+        axis.text(*middle, room.label or room.id, fontsize=8, ha="center", va="center", color="#78716c")
     for door in house.doors:
         if OUTSIDE not in door.rooms:
             axis.add_patch(Polygon(gap(house, door), facecolor="#f5f5f4", edgecolor="none"))

@@ -23,7 +23,7 @@ from majordomo.app.evaluations.missions.playing import Verdict
 from majordomo.app.evaluations.missions.resident import meant
 from majordomo.app.evaluations.missions.ways import Ways
 from majordomo.planner.tasks import PlanReport, StepReport, StepStatus, Task, TaskStatus, TaskTimes
-from majordomo.simulation.house import load_house, parse_disturbance
+from majordomo.simulation.house import Object, load_house, parse_disturbance
 
 FLAT = load_house("flat")
 CUP = {"id": "cup_1", "category": "cup", "color": "red", "position_m": [1.0, 1.0, 0.8], "room": "kitchen", "in": None}
@@ -124,6 +124,24 @@ def test_who_is_asked_back_says_which_thing_or_room_is_meant_and_nothing_where_i
     assert meant(("cup_7", "cup_9", "cup_8"), cup, here, known) == 2
     assert meant(("cup_7",), cup, here, known) is None
     assert meant(("room_1", "room_3"), cup, here, known) == 1
+
+
+def test_a_thing_is_called_by_its_kind_or_a_plain_color_or_its_place_never_by_words_that_fit_two():
+    bottle = {"category": "bottle", "on": "table_1"}
+    things = [
+        Object(id="bottle_1", color="blue", **bottle), Object(id="bottle_2", color="dark cream", **bottle),
+        Object(id="bottle_3", color="blue", category="bottle", on="desk_1"),
+        Object(id="cup_1", color="red", category="cup", on="table_1"),
+        Object(id="cup_2", color="white", category="cup", on="table_1"),
+        Object(id="book_1", color="light teal", category="book", on="table_1"),
+    ]  # fmt: skip
+    house = FLAT.model_copy(update={"objects": tuple(things)})
+    requests = [mission.request for seed in range(8) for mission in invent("flat", house, count=20, seed=seed)]
+    said = " | ".join(requests)
+    for words in ("the bottle from the desk in the office", "the red cup", "the white cup", "the book"):
+        assert words in said
+    for words in ("cream", "the blue bottle", "the bottle from the table"):
+        assert words not in said
 
 
 FLAT_THINGS = [{**CUP_ON_TABLE, "id": thing.id, "on": thing.on} for thing in FLAT.objects]

@@ -83,8 +83,8 @@ def _way(context: RobotContext, snapshot: Snapshot, here: str, room: str) -> Pat
     """The shortest open way from where the robot stands, around doors that were blocked just now if there is one."""
     topology, start = Topology.from_snapshot(snapshot), snapshot.position(ROBOT_ID, here)
     blocked = {door for door, since_s in context.blocked_doors.items() if context.stamp_s - since_s < BLOCKED_S}
-    ways = (topology.path(here, room, avoid, start_m=(start[0], start[1])) for avoid in (blocked, frozenset()))
-    return next((way for way in ways if way is not None), None)
+    detour = topology.path(here, room, blocked, start_m=(start[0], start[1]))
+    return detour if detour is not None else topology.path(here, room, start_m=(start[0], start[1]))
 
 
 def _drive(context: RobotContext, node_id: str, standoff_m: float) -> Action:

@@ -94,6 +94,8 @@ def test_the_shortest_way_is_no_shorter_than_the_line_and_a_shut_door_lengthens_
     assert Ways(scene(), shut=doors[:1]).length_m(start, goal) > length_m
     assert Ways(scene(shut=[door.id for door in FLAT.doors])).length_m(start, goal) == math.inf
     assert ways.is_free(start)
+    assert ways.comes_near(start)
+    assert not ways.comes_near((-50.0, 0.0))
     assert not ways.is_free((-50.0, 0.0))
 
 
@@ -244,6 +246,8 @@ def test_what_was_impossible_counts_for_its_reason_and_not_as_a_failure():
     summary = summarize(rows)
     assert (summary["success_disturbed"], summary["right_reason"], summary["impossible"]) == (1.0, 1.0, 1)
     assert met(summary)
+    rows.append(row(Verdict.RIGHTLY_IMPOSSIBLE, possible=False))
+    assert (summarize(rows)["success_undisturbed"], summarize(rows)["impossible"]) == (None, 2)
     rows.append(row(Verdict.OTHER_REASON, "removed", possible=False))
     assert not met(summarize(rows))
 

@@ -92,10 +92,10 @@ def run_once(
 
 def summarize(rows: Sequence[Row]) -> dict[str, Any]:
     """Figures over all missions."""
-    calm = [row for row in rows if not row["disturbance"]]
+    calm = [row for row in rows if not row["disturbance"] and row["possible"]]
     upset = [row for row in rows if row["disturbance"] and row["made"]]
     possible = [row for row in upset if row["possible"]]
-    impossible = [row for row in upset if not row["possible"]]
+    impossible = [row for row in rows if not row["possible"] and (row["made"] or not row["disturbance"])]
     picks, places = (_first_goes(rows, skill) for skill in ("PICK", "PLACE"))
     ways = [row["driven_m"] / row["shortest_m"] for row in calm if _done(row) and (row["shortest_m"] or 0.0) > 1.0]
     return {

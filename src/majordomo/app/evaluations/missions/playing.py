@@ -26,9 +26,12 @@ from majordomo.app.runtime import Runtime
 from majordomo.planner.tasks import Task, TaskStatus
 from majordomo.scene_graph.identifiers import slug
 from majordomo.simulation.house import House
+from majordomo.skills.failures import FailureCode
 
 LIMIT_S = 900.0
 """Simulated seconds after which a request is given up."""
+OUT_OF_REACH = frozenset({FailureCode.UNREACHABLE})
+"""What the robot may rightly say of a thing that no free floor is near enough to."""
 _LOOK_S = 0.4
 _SETTLE_S = 1.5
 _SITTING_STILL_M = 0.02
@@ -123,7 +126,9 @@ class _Play:
         """Ask, watch, interfere, and judge."""
         began = time.monotonic()
         before = await self._scene()
-        shortest_m = self._shortest_m(before)
+        ways = Ways(before)
+        shortest_m = self._shortest_m(before, ways)
+        within_reach = all(ways.comes_near(before.where(name)) for name in self._mission.things)
         task = self._runtime.submit(self._mission.request)
         await self._film(before, self._mission.request)
         task = await self._watch(task)
@@ -131,14 +136,13 @@ class _Play:
         await pass_time(self._runtime, _SETTLE_S)
         after = await self._scene()
         await self._film(after, task.explanation or task.reply)
-        row = self._judged(task, before, after)
+        row = self._judged(task, before, after, within_reach=within_reach)
         await self._meddler.tidy_up()
         return {
             "kind": self._mission.kind,
             "request": self._mission.request,
             "disturbance": self._mission.disturbance,
             "made": self._meddler.made_s is not None,
-            "possible": self._meddler.possible,
             **row,
             "ended": {name: _whereabouts(after, name) for name in self._mission.things},
             "answers": self._resident.answers,
@@ -206,30 +210,36 @@ class _Play:
             stamp_s = float(scene.truth["stamp_s"])
             self.stills.append(Still(stamp_s=stamp_s, at=scene.robot_at, caption=caption, jpeg=jpeg))
 
-    def _judged(self, task: Task, before: Scene, after: Scene) -> dict[str, Any]:
-        """Reported and true outcome, and whether both fit."""
+    def _judged(self, task: Task, before: Scene, after: Scene, *, within_reach: bool) -> dict[str, Any]:
+        """Reported and true outcome, and whether both fit; ``within_reach``: of all that is to be moved."""
         reported = task.status is TaskStatus.SUCCEEDED
         outcomes = self._mission.outcomes
         met = any(outcome.met(after, task) and (reported or outcome.refused) for outcome in outcomes)
         question = all(outcome.words and not outcome.states for outcome in outcomes)
-        right_reason = bool(task.failures) and task.failures[-1].code in self._meddler.reasons
+        possible = self._meddler.possible and within_reach
+        reasons = self._meddler.reasons if within_reach else OUT_OF_REACH
+        right_reason = bool(task.failures) and task.failures[-1].code in reasons
         if met:
             verdict = Verdict.DONE
         elif reported:
             verdict = Verdict.UNJUDGED if not outcomes else Verdict.WRONG_ANSWER if question else Verdict.PHANTOM
-        elif not self._meddler.possible:
+        elif not possible:
             verdict = Verdict.RIGHTLY_IMPOSSIBLE if right_reason else Verdict.OTHER_REASON
         else:
             verdict = Verdict.ASKED if self._course.asked else Verdict.HONEST_FAILURE
         spared = frozenset(self._mission.things) | self._meddler.touched
-        return {"verdict": verdict, "reported": reported, "stirred": list(stirred(before, after, spared))}
+        return {
+            "verdict": verdict,
+            "possible": possible,
+            "reported": reported,
+            "stirred": list(stirred(before, after, spared)),
+        }
 
-    def _shortest_m(self, scene: Scene) -> float | None:
+    def _shortest_m(self, scene: Scene, ways: Ways) -> float | None:
         """The shortest way that does what is asked for; None where nothing moves, or in more orders than one."""
         things, places = self._mission.things, self._mission.places
         if len(things) != 1 or len(places) != 1:
             return None
-        ways = Ways(scene)
         stops = [scene.where(name) or ways.middle_of(name) for name in (*things, *places) if name != HAND]
         length_m = ways.length_m(scene.robot_at, *[stop for stop in stops if stop is not None])
         return length_m if math.isfinite(length_m) else None

@@ -88,6 +88,10 @@ class Ways:
                 met[door.id] = (int(near[0]), door)
         return [door for _, door in sorted(met.values(), key=lambda pair: pair[0])]
 
+    def comes_near(self, point: Point | None) -> bool:
+        """Whether there is floor from which the robot reaches a point; of what is nowhere, yes."""
+        return point is None or len(self._within(point)) > 0
+
     def is_free(self, point: Point) -> bool:
         """Whether the robot could stand there."""
         row, column = self._cell(point)

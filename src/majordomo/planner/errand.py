@@ -18,6 +18,7 @@ from majordomo.planner.plan import Impossible, Plan, Step
 from majordomo.planner.progress import Progress
 from majordomo.planner.recovery import Recoveries
 from majordomo.planner.replanner import Hunt, Replanner
+from majordomo.planner.taken_for import TakenFor
 from majordomo.planner.tasks import TaskStatus
 from majordomo.planner.whereabouts import capital
 from majordomo.scene_graph.edges import TASK_AGENT
@@ -63,6 +64,7 @@ class Errand:
         self._progress = Progress(task_id, goals, plan, crew.queue, crew.memory.building())
         self._lookout = Lookout(crew, self._progress, replanner)
         self._chronicle = Chronicle(task_id, self._ledger, crew)
+        self._taken_for = TakenFor(crew.queue.task(task_id).request, goals, crew.memory.building())
         self._job: Job | None = None
         self._phase, self._phase_s, self._wait_s = Phase.READY, 0.0, 0.0
         self._looked, self._after_look = False, Phase.READY
@@ -80,6 +82,9 @@ class Errand:
         snapshot = context.building
         if self._hunt is not None and self._hunt.found(snapshot) and self._phase is not Phase.WAITING:
             return self._replan(snapshot, "found")
+        mistake = self._taken_for.mistake(snapshot)
+        if mistake is not None:
+            return self._admit(mistake, snapshot)
         ending = self._handlers[self._phase](context, snapshot)
         self._progress.follow(self._job)
         return ending
@@ -244,6 +249,13 @@ class Errand:
         self._chronicle.replan(str(plan), why, self._stamp_s)
         self._enter(Phase.READY)
         return None
+
+    def _admit(self, mistake: Failure, snapshot: Snapshot) -> Ending:
+        """A thing is not what the request was about: nothing that could be done with it would be what was asked."""
+        self.close()
+        self._progress.fail()
+        self._chronicle.failure(mistake, self._progress.step or VERIFY, snapshot, self._stamp_s, hopeless=True)
+        return self._chronicle.surrender(mistake.message, snapshot)
 
     def _despair(self, why: Impossible, snapshot: Snapshot) -> Ending:
         """There is no plan any more. What was looked for in vain is the last failure, not the last place on the way."""

@@ -235,6 +235,30 @@ def test_an_object_that_is_gone_is_looked_for_everywhere_and_then_reported_hones
     assert not any(verified.confirmed for verified in task.verified)
 
 
+@pytest.mark.parametrize(
+    ("request_", "label", "chance", "status"),
+    [
+        (BRING, "vase", 0.95, TaskStatus.FAILED),
+        (BRING, "vase", 0.6, TaskStatus.SUCCEEDED),
+        (BRING, "flask", 0.95, TaskStatus.SUCCEEDED),
+        ("tidy up", "vase", 0.95, TaskStatus.SUCCEEDED),
+    ],
+)
+def test_what_turns_out_to_be_something_else_than_the_request_called_it_is_no_success(request_, label, chance, status):
+    show = Show()
+    show.ask(request_)
+    show.until_step("GOTO", StepStatus.RUNNING)
+    bottle = show.memory.snapshot().object("bottle_1")
+    rest = (("bottle", 0.99 - chance),)
+    bottle = replace(bottle, label=label, label_distribution=((label, chance), *(rest if chance < 0.9 else ())))
+    show.memory.commit([PutNode(bottle)], agent="objects", stamp_s=show.stamp_s)
+    show.run_until(lambda: show.task.status.ended)
+    assert show.task.status is status
+    if status is TaskStatus.FAILED:
+        assert show.task.failures[-1].message == "Seen from near, what I took for a bottle is a vase."
+        assert "seen from near, what I took for a bottle is a vase" in show.task.explanation
+
+
 def test_a_place_that_cannot_be_reached_is_skipped_in_a_search_and_said_so():
     show = Show(Script(outcomes={"LOOK": [FailureCode.WAY_BLOCKED] * 2}))
     show.ask()

@@ -192,6 +192,9 @@ class Errand:
         self._ledger.note(snapshot)
         open_goals = self._ledger.open(snapshot)
         if not open_goals:
+            mistake = self._taken_for.mistake(snapshot, at_last=True)
+            if mistake is not None:
+                return self._admit(mistake, snapshot)
             return self._chronicle.success(snapshot, self._stamp_s)
         if self._phase_s < self._crew.settings.confirm_s:
             return None

@@ -12,7 +12,7 @@ from majordomo.scene_graph.nodes import ObjectNode
 from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.skills.failures import Evidence, Failure, FailureCode
 
-SURE, RULED_OUT = 0.8, 0.05
+SURE, RULED_OUT = 0.8, 0.1
 """Probability of the new label, and of the old one, at which the robot was mistaken; less is flicker."""
 
 
@@ -34,18 +34,27 @@ class TakenFor:
             if isinstance(node, ObjectNode) and spoken & {part for name in _names(node.label) for part in name.split()}
         }
 
-    def mistake(self, snapshot: Snapshot) -> Failure | None:
-        """The first thing that surely is of another kind than the request called it."""
+    def mistake(self, snapshot: Snapshot, *, at_last: bool = False) -> Failure | None:
+        """The first thing that surely is of another kind than the request called it; ``at_last``, when everything is to
+        be said to be done: that is more likely of another kind.
+        """
         for object_id, called in self._labels.items():
             node = snapshot.get(object_id)
             if not isinstance(node, ObjectNode) or normal(node.label) in _names(called):
                 continue
             chances = {normal(label): probability for label, probability in node.label_distribution}
-            if chances.get(called, 0.0) < RULED_OUT and chances.get(normal(node.label), 0.0) > SURE:
-                message = f"Seen from near, what I took for {article(called)} is {article(normal(node.label))}."
-                saw = f"{node.label}: {chances[normal(node.label)]:.2f}, {called}: {chances.get(called, 0.0):.2f}"
-                evidence = Evidence(nodes=(object_id,), revision=snapshot.revision, observation=saw)
-                return Failure(code=FailureCode.OBJECT_GONE, message=message, evidence=evidence)
+            old, new = chances.get(called, 0.0), chances.get(normal(node.label), 0.0)
+            sure = old < RULED_OUT and new > SURE
+            if sure or at_last:
+                seen = "Seen from near," if sure else "I cannot tell for sure, but"
+                message = f"{seen} what I took for {article(called)} is {article(normal(node.label))}."
+                evidence = Evidence(
+                    nodes=(object_id,),
+                    revision=snapshot.revision,
+                    observation=f"{node.label}: {new:.2f}, {called}: {old:.2f}",
+                )
+                code = FailureCode.OBJECT_GONE if sure else FailureCode.NOT_CONFIRMED
+                return Failure(code=code, message=message, evidence=evidence)
         return None
 
 

@@ -239,7 +239,7 @@ def test_an_object_that_is_gone_is_looked_for_everywhere_and_then_reported_hones
     ("request_", "label", "chance", "status"),
     [
         (BRING, "vase", 0.95, TaskStatus.FAILED),
-        (BRING, "vase", 0.6, TaskStatus.SUCCEEDED),
+        (BRING, "vase", 0.6, TaskStatus.FAILED),
         (BRING, "flask", 0.95, TaskStatus.SUCCEEDED),
         ("tidy up", "vase", 0.95, TaskStatus.SUCCEEDED),
     ],
@@ -255,8 +255,8 @@ def test_what_turns_out_to_be_something_else_than_the_request_called_it_is_no_su
     show.run_until(lambda: show.task.status.ended)
     assert show.task.status is status
     if status is TaskStatus.FAILED:
-        assert show.task.failures[-1].message == "Seen from near, what I took for a bottle is a vase."
-        assert "seen from near, what I took for a bottle is a vase" in show.task.explanation
+        assert "what I took for a bottle is a vase" in show.task.explanation
+        assert (show.stage.places["bottle_1"] == "desk_1") is (chance == 0.6)  # in doubt it is carried out, not claimed
 
 
 def test_a_place_that_cannot_be_reached_is_skipped_in_a_search_and_said_so():

@@ -157,8 +157,8 @@ def _to_person(inventor: _Inventor) -> _Made:
 
 
 def _two_things(inventor: _Inventor) -> _Made:
-    first = inventor.take()
-    second = inventor.take() if first is not None else None
+    first = inventor.take(without_place=True)  # two places more in one sentence, and nobody knows what belongs to what
+    second = inventor.take(without_place=True) if first is not None else None
     if first is None or second is None:
         return None
     spot = inventor.spot(beside=[first, second])

@@ -23,7 +23,7 @@ from majordomo.app.evaluations.missions.playing import Verdict
 from majordomo.app.evaluations.missions.resident import meant
 from majordomo.app.evaluations.missions.ways import Ways
 from majordomo.planner.tasks import PlanReport, StepReport, StepStatus, Task, TaskStatus, TaskTimes
-from majordomo.simulation.house import Object, load_house, parse_disturbance
+from majordomo.simulation.house import Door, Object, Room, load_house, parse_disturbance
 
 FLAT = load_house("flat")
 CUP = {"id": "cup_1", "category": "cup", "color": "red", "position_m": [1.0, 1.0, 0.8], "room": "kitchen", "in": None}
@@ -97,6 +97,20 @@ def test_the_shortest_way_is_no_shorter_than_the_line_and_a_shut_door_lengthens_
     assert ways.comes_near(start)
     assert not ways.comes_near((-50.0, 0.0))
     assert not ways.is_free((-50.0, 0.0))
+
+
+def test_nobody_reaches_through_a_wall():
+    rooms = [
+        Room(id=name, polygon=((x_m, 0.0), (x_m + 4.0, 0.0), (x_m + 4.0, 3.0), (x_m, 3.0)))
+        for name, x_m in (("west", 0.0), ("east", 4.2))
+    ]
+    door = Door(id="door_1", rooms=("west", "east"), center=(4.1, 2.0), width=0.9)
+    house = FLAT.model_copy(update={"rooms": tuple(rooms), "doors": (door,), "furniture": (), "objects": ()})
+    ways = Ways(Scene(house=house, truth={"doors": [{"id": "door_1", "state": "open"}]}))
+    west, by_the_wall = (3.6, 0.5), (4.3, 0.5)
+    assert math.dist(west, by_the_wall) < 0.8
+    assert [each.id for each in ways.doors_between(west, by_the_wall)] == ["door_1"]
+    assert ways.length_m(west, by_the_wall) > 2.0
 
 
 def test_invented_requests_are_the_same_for_a_seed_and_ask_for_every_thing_once():

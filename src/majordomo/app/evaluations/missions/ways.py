@@ -14,7 +14,7 @@ from scipy.sparse.csgraph import dijkstra
 
 from majordomo.app.evaluations.missions.outcome import Scene
 from majordomo.simulation.catalog import category_named
-from majordomo.simulation.house import OUTSIDE, Door, Furniture, House
+from majordomo.simulation.house import OUTSIDE, Door, Furniture, House, room_at
 
 CELL_M = 0.05
 ROBOT_RADIUS_M = 0.25
@@ -42,8 +42,9 @@ class Ways:
         rows, columns = np.indices((height, width))
         self._places = self._low + (np.stack((columns, rows), axis=-1) + 0.5) * CELL_M
         free = np.zeros((height, width), np.bool_)
-        for room in house.rooms:
-            free |= self._inside(np.array(room.polygon))
+        self._floors = {room.id: self._inside(np.array(room.polygon)) for room in house.rooms}
+        for floor in self._floors.values():
+            free |= floor
         for door in self._open:
             free |= self._inside(gap(house, door))
         for item in house.furniture:
@@ -103,7 +104,7 @@ class Ways:
         room = next((room for room in self._house.rooms if room.id == room_id), None)
         if room is None:
             return None
-        clearance_m = self.clearance_m * self._inside(np.array(room.polygon))
+        clearance_m = self.clearance_m * self._floors[room.id]
         x_m, y_m = self._places[np.unravel_index(np.argmax(clearance_m), clearance_m.shape)]
         return float(x_m), float(y_m)
 
@@ -122,9 +123,11 @@ class Ways:
         return points
 
     def _within(self, point: Point) -> NDArray[np.int64]:
-        """Numbers of the cells within reach of a point."""
+        """Numbers of the cells within reach of a point, on the same side of the walls."""
         points = self._points(np.arange(int(self._number.max()) + 1))
-        return np.flatnonzero(np.linalg.norm(points - np.array(point), axis=1) < REACH_M)
+        near = np.linalg.norm(points - np.array(point), axis=1) < REACH_M
+        floor = self._floors.get(room_at(self._house, *point) or "")
+        return np.flatnonzero(near if floor is None else near & floor[self._number >= 0])
 
     def _nearest(self, point: Point) -> int | None:
         points = self._points(np.arange(int(self._number.max()) + 1))

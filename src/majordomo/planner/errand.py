@@ -13,11 +13,14 @@ from majordomo.planner.goals import Goal
 from majordomo.planner.job import Job, Watch, actions_or_refusal
 from majordomo.planner.ledger import Ledger
 from majordomo.planner.lookout import Lookout
+from majordomo.planner.naming import humanize
 from majordomo.planner.plan import Impossible, Plan, Step
 from majordomo.planner.progress import Progress
 from majordomo.planner.recovery import Recoveries
 from majordomo.planner.replanner import Hunt, Replanner
+from majordomo.planner.taken_for import TakenFor
 from majordomo.planner.tasks import TaskStatus
+from majordomo.planner.whereabouts import capital
 from majordomo.scene_graph.edges import TASK_AGENT
 from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.skills.action import Action, RobotContext
@@ -61,6 +64,7 @@ class Errand:
         self._progress = Progress(task_id, goals, plan, crew.queue, crew.memory.building())
         self._lookout = Lookout(crew, self._progress, replanner)
         self._chronicle = Chronicle(task_id, self._ledger, crew)
+        self._taken_for = TakenFor(crew.queue.task(task_id).request, goals, crew.memory.building())
         self._job: Job | None = None
         self._phase, self._phase_s, self._wait_s = Phase.READY, 0.0, 0.0
         self._looked, self._after_look = False, Phase.READY
@@ -78,6 +82,9 @@ class Errand:
         snapshot = context.building
         if self._hunt is not None and self._hunt.found(snapshot) and self._phase is not Phase.WAITING:
             return self._replan(snapshot, "found")
+        mistake = self._taken_for.mistake(snapshot)
+        if mistake is not None:
+            return self._admit(mistake, snapshot)
         ending = self._handlers[self._phase](context, snapshot)
         self._progress.follow(self._job)
         return ending
@@ -185,6 +192,9 @@ class Errand:
         self._ledger.note(snapshot)
         open_goals = self._ledger.open(snapshot)
         if not open_goals:
+            mistake = self._taken_for.mistake(snapshot, at_last=True)
+            if mistake is not None:
+                return self._admit(mistake, snapshot)
             return self._chronicle.success(snapshot, self._stamp_s)
         if self._phase_s < self._crew.settings.confirm_s:
             return None
@@ -236,12 +246,30 @@ class Errand:
         self.close()
         plan = self._replanner.plan(self._ledger.remaining(), snapshot, self._stamp_s)
         if isinstance(plan, Impossible):
-            return self._chronicle.surrender(plan.reason, snapshot)
+            return self._despair(plan, snapshot)
         self._replans += 1
         self._progress.adopt(plan, snapshot, replans=self._replans)
         self._chronicle.replan(str(plan), why, self._stamp_s)
         self._enter(Phase.READY)
         return None
+
+    def _admit(self, mistake: Failure, snapshot: Snapshot) -> Ending:
+        """A thing is not what the request was about: nothing that could be done with it would be what was asked."""
+        self.close()
+        self._progress.fail()
+        self._chronicle.failure(mistake, self._progress.step or VERIFY, snapshot, self._stamp_s, hopeless=True)
+        return self._chronicle.surrender(mistake.message, snapshot)
+
+    def _despair(self, why: Impossible, snapshot: Snapshot) -> Ending:
+        """There is no plan any more. What was looked for in vain is the last failure, not the last place on the way."""
+        if why.lost is not None:
+            carried = any(goal.object_id == why.lost for goal in self._ledger.goals)
+            code = FailureCode.OBJECT_GONE if carried else FailureCode.SUPPORT_GONE
+            evidence = Evidence(nodes=why.nodes, revision=snapshot.revision, observation="not found anywhere")
+            failure = Failure(code=code, message=f"{capital(humanize(why.reason, snapshot))}.", evidence=evidence)
+            step = Step(skill="SEARCH", args=(why.lost,))
+            self._chronicle.failure(failure, step, snapshot, self._stamp_s, hopeless=True)
+        return self._chronicle.surrender(why.reason, snapshot)
 
     def _start(self, name: str, actions: list[Action], timeout_s: float, watch: Watch | None = None) -> None:
         self._job = Job(name, actions, timeout_s=timeout_s, watch=watch, wanted=self._wanted)

@@ -51,10 +51,14 @@ class Plan:
 
 @dataclass(frozen=True, kw_only=True)
 class Impossible:
-    """No plan exists; ``reason`` says why in one sentence, ``nodes`` are what it is about."""
+    """No plan exists; ``reason`` says why in one sentence, ``nodes`` are what it is about.
+
+    ``lost``: what was looked for everywhere and not found, if that is why.
+    """
 
     reason: str
     nodes: tuple[str, ...] = ()
+    lost: str | None = None
 
 
 @dataclass(frozen=True, kw_only=True)

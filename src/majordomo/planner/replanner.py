@@ -79,7 +79,7 @@ class Replanner:
         if isinstance(plan, Plan) and plan.steps:
             return plan
         reason = exhausted_reason(object_id, hunt.looked, hunt.skipped, snapshot)
-        return Impossible(reason=reason, nodes=(object_id,))
+        return Impossible(reason=reason, nodes=(object_id,), lost=object_id)
 
 
 def _needed(goals: Sequence[Goal]) -> list[str]:

@@ -66,7 +66,8 @@ class RobotContext:
     """What actions share: the graph, the body as measured at this tick, raw obstacle points, and the commands to send.
 
     ``obstacles_base``: (N, 3), base frame. ``path_room``: the path being followed, for display, current room's frame.
-    ``surroundings`` remembers obstacle points, ``grip`` what the fingers hold; both outlive a single action.
+    ``surroundings`` remembers obstacle points, ``grip`` what the fingers hold, ``blocked_doors`` in which doors
+    something stood, and when; they outlive a single action.
     """
 
     memory: WorkingMemory
@@ -79,6 +80,7 @@ class RobotContext:
     path_room: tuple[tuple[float, float], ...] = ()
     surroundings: Surroundings = field(default_factory=Surroundings)
     grip: Grip | None = None
+    blocked_doors: dict[str, float] = field(default_factory=dict)
 
     @property
     def snapshot(self) -> Snapshot:

@@ -21,6 +21,8 @@ LOOK_DWELL_S = 1.5
 LEAST_STANDOFF_M = 0.42
 """Nearest that the base's axis comes to a footprint: the planning radius and what drawing on the grid takes."""
 
+BLOCKED_S = 120.0
+"""So long something is expected to stay in a doorway; another way is taken meanwhile, if there is one."""
 ASIDE_DEG = (0.0, 25.0, -25.0, 45.0, -45.0)
 """From which sides a door may be looked at, when something stands before it."""
 
@@ -31,7 +33,7 @@ def travel(context: RobotContext, room: str | None) -> list[Action]:
     here = snapshot.current_room
     if here is None or room is None or here == room or not _stands(snapshot, here) or not _stands(snapshot, room):
         return []
-    path = Topology.from_snapshot(snapshot).path(here, room)
+    path = _way(context, snapshot, here, room)
     if path is None:
         return [Refusal(context, no_way(snapshot, here, room))]
     return [action for leg in _legs(path) for action in _through(context, *leg)]
@@ -75,6 +77,14 @@ def no_way(snapshot: Snapshot, here: str, room: str) -> Failure:
     message = f"the way from {here} to {room} is closed at {', '.join(closed)}."
     evidence = Evidence(nodes=(*closed, here, room), revision=snapshot.revision, observation="topology")
     return Failure(code=FailureCode.DOOR_CLOSED, message=message, evidence=evidence)
+
+
+def _way(context: RobotContext, snapshot: Snapshot, here: str, room: str) -> Path | None:
+    """The shortest open way from where the robot stands, around doors that were blocked just now if there is one."""
+    topology, start = Topology.from_snapshot(snapshot), snapshot.position(ROBOT_ID, here)
+    blocked = {door for door, since_s in context.blocked_doors.items() if context.stamp_s - since_s < BLOCKED_S}
+    detour = topology.path(here, room, blocked, start_m=(start[0], start[1]))
+    return detour if detour is not None else topology.path(here, room, start_m=(start[0], start[1]))
 
 
 def _drive(context: RobotContext, node_id: str, standoff_m: float) -> Action:

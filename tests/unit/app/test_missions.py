@@ -2,21 +2,28 @@
 
 from __future__ import annotations
 
+import io
 import math
+from dataclasses import replace
 
+import matplotlib.image
 import numpy as np
 import pytest
 
+from majordomo.app.evaluations.inventory import GraphContents, GraphThing
+from majordomo.app.evaluations.missions.attempts import Attempts
 from majordomo.app.evaluations.missions.disturbances import DISTURBANCES, Moment
 from majordomo.app.evaluations.missions.evaluation import met, summarize
+from majordomo.app.evaluations.missions.filmstrip import MOST, Still, draw_filmstrip
 from majordomo.app.evaluations.missions.inventing import invent
 from majordomo.app.evaluations.missions.mission import Mission
 from majordomo.app.evaluations.missions.mission_file import MissionFileError, load_missions
 from majordomo.app.evaluations.missions.outcome import HAND, Outcome, Placed, RobotIn, Scene, stirred
 from majordomo.app.evaluations.missions.playing import Verdict
+from majordomo.app.evaluations.missions.resident import meant
 from majordomo.app.evaluations.missions.ways import Ways
-from majordomo.planner.tasks import Task, TaskStatus, TaskTimes
-from majordomo.simulation.house import load_house, parse_disturbance
+from majordomo.planner.tasks import PlanReport, StepReport, StepStatus, Task, TaskStatus, TaskTimes
+from majordomo.simulation.house import Door, Object, Room, load_house, parse_disturbance
 
 FLAT = load_house("flat")
 CUP = {"id": "cup_1", "category": "cup", "color": "red", "position_m": [1.0, 1.0, 0.8], "room": "kitchen", "in": None}
@@ -87,7 +94,23 @@ def test_the_shortest_way_is_no_shorter_than_the_line_and_a_shut_door_lengthens_
     assert Ways(scene(), shut=doors[:1]).length_m(start, goal) > length_m
     assert Ways(scene(shut=[door.id for door in FLAT.doors])).length_m(start, goal) == math.inf
     assert ways.is_free(start)
+    assert ways.comes_near(start)
+    assert not ways.comes_near((-50.0, 0.0))
     assert not ways.is_free((-50.0, 0.0))
+
+
+def test_nobody_reaches_through_a_wall():
+    rooms = [
+        Room(id=name, polygon=((x_m, 0.0), (x_m + 4.0, 0.0), (x_m + 4.0, 3.0), (x_m, 3.0)))
+        for name, x_m in (("west", 0.0), ("east", 4.2))
+    ]
+    door = Door(id="door_1", rooms=("west", "east"), center=(4.1, 2.0), width=0.9)
+    house = FLAT.model_copy(update={"rooms": tuple(rooms), "doors": (door,), "furniture": (), "objects": ()})
+    ways = Ways(Scene(house=house, truth={"doors": [{"id": "door_1", "state": "open"}]}))
+    west, by_the_wall = (3.6, 0.5), (4.3, 0.5)
+    assert math.dist(west, by_the_wall) < 0.8
+    assert [each.id for each in ways.doors_between(west, by_the_wall)] == ["door_1"]
+    assert ways.length_m(west, by_the_wall) > 2.0
 
 
 def test_invented_requests_are_the_same_for_a_seed_and_ask_for_every_thing_once():
@@ -98,6 +121,43 @@ def test_invented_requests_are_the_same_for_a_seed_and_ask_for_every_thing_once(
     assert len(asked) == len(set(asked)) >= 4
     for mission in missions:
         assert not any(outcome.met(scene(*FLAT_THINGS), task()) for outcome in mission.outcomes if outcome.things)
+
+
+def contents(rooms=None, **at):
+    things = tuple(
+        GraphThing(id=name, label="cup", position_m=np.array(place), size_m=(0.1, 0.1, 0.1))
+        for name, place in at.items()
+    )
+    return GraphContents(things=things, relations=(), rooms=rooms or {}, labels={})
+
+
+def test_who_is_asked_back_says_which_thing_or_room_is_meant_and_nothing_where_it_is_not_offered():
+    known = contents({"office": "room_3"}, cup_7=(3.0, 1.0, 0.8), cup_8=(1.1, 1.0, 0.8), cup_9=(1.3, 1.0, 0.8))
+    here = scene(CUP_ON_TABLE)
+    cup = Mission(
+        house="flat", kind="", request="", outcomes=(Outcome(states=(Placed(things=("cup_1",), places=("office",)),)),)
+    )
+    assert meant(("cup_7", "cup_9", "cup_8"), cup, here, known) == 2
+    assert meant(("cup_7",), cup, here, known) is None
+    assert meant(("room_1", "room_3"), cup, here, known) == 1
+
+
+def test_a_thing_is_called_by_its_kind_or_a_plain_color_or_its_place_never_by_words_that_fit_two():
+    bottle = {"category": "bottle", "on": "table_1"}
+    things = [
+        Object(id="bottle_1", color="blue", **bottle), Object(id="bottle_2", color="dark cream", **bottle),
+        Object(id="bottle_3", color="blue", category="bottle", on="desk_1"),
+        Object(id="cup_1", color="red", category="cup", on="table_1"),
+        Object(id="cup_2", color="white", category="cup", on="table_1"),
+        Object(id="book_1", color="light teal", category="book", on="table_1"),
+    ]  # fmt: skip
+    house = FLAT.model_copy(update={"objects": tuple(things)})
+    requests = [mission.request for seed in range(8) for mission in invent("flat", house, count=20, seed=seed)]
+    said = " | ".join(requests)
+    for words in ("the bottle from the desk in the office", "the red cup", "the white cup", "the book"):
+        assert words in said
+    for words in ("cream", "the blue bottle", "the bottle from the table"):
+        assert words not in said
 
 
 FLAT_THINGS = [{**CUP_ON_TABLE, "id": thing.id, "on": thing.on} for thing in FLAT.objects]
@@ -125,6 +185,18 @@ def test_every_disturbance_has_its_time_and_deeds_that_the_simulator_understands
     for events in deeds:
         for event in events:
             parse_disturbance(event)
+
+
+def test_a_mission_gets_only_what_can_happen_to_it():
+    def fitting(*places):
+        placed = Placed(things=("cup_1",), places=places)
+        mission = Mission(house="flat", kind="", request="", outcomes=(Outcome(states=(placed,)),))
+        return {name for name, each in DISTURBANCES.items() if each.fits(mission, FLAT)}
+
+    assert fitting("desk_1") == {*DISTURBANCES}
+    assert fitting("office") == {*DISTURBANCES} - {"support_full", "support_gone"}
+    assert fitting(HAND) == {*DISTURBANCES} - {"support_full", "support_gone", "slipped"}
+    assert not any(each.fits(Mission(house="flat", kind="", request=""), FLAT) for each in DISTURBANCES.values())
 
 
 def test_nothing_is_moved_before_the_robot_is_under_way_and_nothing_slips_from_an_empty_hand():
@@ -167,10 +239,10 @@ def test_what_a_mission_file_may_not_say_is_named_with_its_line(tmp_path, text, 
         load_missions(file)
 
 
-def row(verdict, disturbance="", *, possible=True, collisions=0, driven_m=5.0, shortest_m=4.5):
+def row(verdict, disturbance="", *, possible=True, collisions=0, driven_m=5.0, shortest_m=4.5, attempts=()):
     return {
         "verdict": verdict, "disturbance": disturbance, "made": bool(disturbance), "possible": possible,
-        "collisions": collisions, "driven_m": driven_m, "shortest_m": shortest_m,
+        "collisions": collisions, "driven_m": driven_m, "shortest_m": shortest_m, "attempts": attempts,
     }  # fmt: skip
 
 
@@ -188,6 +260,8 @@ def test_what_was_impossible_counts_for_its_reason_and_not_as_a_failure():
     summary = summarize(rows)
     assert (summary["success_disturbed"], summary["right_reason"], summary["impossible"]) == (1.0, 1.0, 1)
     assert met(summary)
+    rows.append(row(Verdict.RIGHTLY_IMPOSSIBLE, possible=False))
+    assert (summarize(rows)["success_undisturbed"], summarize(rows)["impossible"]) == (None, 2)
     rows.append(row(Verdict.OTHER_REASON, "removed", possible=False))
     assert not met(summarize(rows))
 
@@ -195,3 +269,58 @@ def test_what_was_impossible_counts_for_its_reason_and_not_as_a_failure():
 def test_the_way_is_compared_where_nobody_interfered():
     rows = [row(Verdict.DONE, driven_m=9.0), row(Verdict.DONE, "pushed", driven_m=90.0)]
     assert summarize(rows)["way_over_shortest"] == 2.0
+
+
+def plan_of(*steps):
+    reports = tuple(StepReport(skill=skill, args=("cup_1",), status=status) for skill, status in steps)
+    return PlanReport(source="grammar", revision=1, goals=(), steps=reports)
+
+
+def test_a_go_counts_once_it_has_begun_and_ended_and_a_failed_one_stays_failed_after_a_new_plan():
+    attempts = Attempts()
+    pending, running, failed, done = StepStatus.PENDING, StepStatus.RUNNING, StepStatus.FAILED, StepStatus.SUCCEEDED
+    for steps in (
+        (("GOTO", done), ("PICK", failed)),
+        (("GOTO", done), ("PICK", running)),
+        (("GOTO", done), ("PICK", failed)),
+        (("GOTO", running), ("PICK", pending)),
+        (("GOTO", done), ("PICK", running)),
+        (("GOTO", running), ("PICK", pending)),
+        (("GOTO", done), ("PICK", running)),
+        (("GOTO", done), ("PICK", done)),
+        (("GOTO", done), ("PICK", done)),
+    ):
+        attempts.follow(replace(task(TaskStatus.RUNNING), plan=plan_of(*steps)))
+    found = attempts.check(scene(CUP_ON_TABLE, holding="cup_1"), calm=True)
+    assert [(attempt.step, attempt.done) for attempt in found] == [("PICK(cup_1)", False), ("PICK(cup_1)", True)]
+    assert attempts.check(scene(CUP_ON_TABLE), calm=True) == []
+
+
+@pytest.mark.parametrize(("skill", "holding"), [("PICK", None), ("PLACE", "cup_1")])
+def test_a_go_that_the_robot_takes_for_done_and_the_truth_does_not_is_none(skill, holding):
+    attempts = Attempts()
+    for status in (StepStatus.RUNNING, StepStatus.SUCCEEDED):
+        attempts.follow(replace(task(TaskStatus.RUNNING), plan=plan_of((skill, status))))
+    (attempt,) = attempts.check(scene(CUP_ON_TABLE, holding=holding), calm=True)
+    assert not attempt.done
+
+
+def test_goes_count_until_somebody_interferes():
+    goes = [{"skill": "PICK", "done": True, "calm": True}, {"skill": "PICK", "done": False, "calm": False}]
+    summary = summarize([row(Verdict.DONE, "pushed", attempts=goes)])
+    assert (summary["picks"], summary["places"]) == (1.0, None)
+    bad = [{"skill": "PLACE", "done": False, "calm": True}]
+    assert not met(summarize([row(Verdict.DONE, attempts=bad)]))
+
+
+def test_a_filmstrip_shows_the_first_and_the_last_of_many_pictures(tmp_path):
+    jpeg = io.BytesIO()
+    matplotlib.image.imsave(jpeg, np.zeros((24, 32, 3), np.uint8), format="jpeg")
+    stills = [
+        Still(stamp_s=float(n), at=(1.0 + n / 10, 1.0), caption=f"picture {n}", jpeg=jpeg.getvalue() if n else None)
+        for n in range(MOST + 5)
+    ]
+    few, many = tmp_path / "few.png", tmp_path / "new" / "many.png"
+    draw_filmstrip(FLAT, [(1.0, 1.0), (2.0, 1.5)], stills[:3], "done: put the cup on the desk", few)
+    draw_filmstrip(FLAT, [], stills, "done: put the cup on the desk", many)
+    assert matplotlib.image.imread(many).shape[0] > matplotlib.image.imread(few).shape[0] > 0

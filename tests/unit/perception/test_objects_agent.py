@@ -358,6 +358,48 @@ def test_of_two_equal_bottles_the_one_taken_away_is_missing_and_not_the_other():
     assert graph.object("bottle_2").state is ObjectState.PRESENT
 
 
+@pytest.mark.parametrize("shift", [(0.0, 0.0, 0.14), (0.0, -0.2, 0.0)])
+@pytest.mark.parametrize("gone_first", [0, 1])
+@pytest.mark.parametrize("back", [0, 1])
+def test_of_two_missing_bottles_the_one_that_was_missed_there_or_nearest_is_found_again(gone_first, back, shift):
+    bottles = [BLUE_BOTTLE, BLUE_BOTTLE.moved_to((0.35, 0.1, 0.87))]
+    story = Story([TABLE, *bottles])
+    graph = story.run(8)
+    places = {n.id: graph.position(n.id, "room_1")[0] for n in graph.of_type(ObjectNode) if n.label == "bottle"}
+    names = sorted(places, key=places.__getitem__)
+    story.room.solids = [TABLE, bottles[1 - gone_first]]
+    story.run(8)
+    story.room.solids = [TABLE]
+    graph = story.run(8)
+    assert {graph.object(name).state for name in names} == {ObjectState.MISSING}
+    x_m, y_m, z_m = np.array(bottles[back].center) + shift
+    story.room.solids = [TABLE, bottles[back].moved_to((x_m, y_m, z_m))]
+    graph = story.run(8)
+    assert graph.object(names[back]).state is ObjectState.PRESENT
+    assert graph.object(names[1 - back]).state is ObjectState.MISSING
+
+
+class SeesDouble(ScriptedRoom):
+    """A network that finds a bottle, and its lower part once more."""
+
+    async def infer(self, frame):
+        scene = await super().infer(frame)
+        whole = next(i for i in scene.instances if i.label == "bottle")
+        rows = np.nonzero(whole.mask.any(axis=1))[0]
+        lower = whole.mask.copy()
+        lower[: rows[len(rows) // 2]] = False
+        return replace(scene, instances=(*scene.instances, replace(whole, mask=lower)))
+
+
+def test_a_bottle_whose_lower_part_the_network_finds_once_more_is_one_bottle():
+    story = Story([TABLE, BLUE_BOTTLE])
+    story.run(8)
+    story.room = SeesDouble([TABLE, BLUE_BOTTLE])
+    story.agent._model = story.room
+    graph = story.run(8)
+    assert [n.id for n in graph.of_type(ObjectNode) if n.label == "bottle"] == ["bottle_1"]
+
+
 def test_a_second_bottle_found_while_exploring_is_a_second_bottle():
     desk = Solid(label="desk", center=(0.0, 2.2, 0.375), size_m=(1.2, 0.6, 0.75), color=(90.0, 90.0, 90.0))
     story = Story([TABLE, desk, BLUE_BOTTLE, BLUE_BOTTLE.moved_to((0.1, 2.1, 0.87))], eye=(-1.2, 0.0))

@@ -235,13 +235,39 @@ def test_an_object_that_is_gone_is_looked_for_everywhere_and_then_reported_hones
     assert not any(verified.confirmed for verified in task.verified)
 
 
+@pytest.mark.parametrize(
+    ("request_", "label", "chance", "status"),
+    [
+        (BRING, "vase", 0.95, TaskStatus.FAILED),
+        (BRING, "vase", 0.6, TaskStatus.FAILED),
+        (BRING, "flask", 0.95, TaskStatus.SUCCEEDED),
+        ("tidy up", "vase", 0.95, TaskStatus.SUCCEEDED),
+    ],
+)
+def test_what_turns_out_to_be_something_else_than_the_request_called_it_is_no_success(request_, label, chance, status):
+    show = Show()
+    show.ask(request_)
+    show.until_step("GOTO", StepStatus.RUNNING)
+    bottle = show.memory.snapshot().object("bottle_1")
+    rest = (("bottle", 0.99 - chance),)
+    bottle = replace(bottle, label=label, label_distribution=((label, chance), *(rest if chance < 0.9 else ())))
+    show.memory.commit([PutNode(bottle)], agent="objects", stamp_s=show.stamp_s)
+    show.run_until(lambda: show.task.status.ended)
+    assert show.task.status is status
+    if status is TaskStatus.FAILED:
+        assert "what I took for a bottle is a vase" in show.task.explanation
+        assert (show.stage.places["bottle_1"] == "desk_1") is (chance == 0.6)  # in doubt it is carried out, not claimed
+
+
 def test_a_place_that_cannot_be_reached_is_skipped_in_a_search_and_said_so():
     show = Show(Script(outcomes={"LOOK": [FailureCode.WAY_BLOCKED] * 2}))
     show.ask()
     show.until_step("GOTO")
     show.stage.places["bottle_1"] = None
     show.run_until(lambda: show.task.status.ended, limit=20_000)
-    assert show.codes == ["object_gone", "way_blocked", "way_blocked"]
+    assert show.codes == ["object_gone", "way_blocked", "way_blocked", "object_gone"]
+    assert show.task.failures[-1].evidence.nodes == ("bottle_1",)
+    assert "I could not get to" in show.task.failures[-1].message
     assert "I could not get to" in show.task.explanation
 
 

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import pi
 
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from majordomo.scene_graph.edges import InEdge, RtEdge
+from majordomo.scene_graph.edges import ConnectsEdge, InEdge, MatchEdge, RtEdge
 from majordomo.scene_graph.nodes import DoorState
 from majordomo.scene_graph.se3 import SE3
 from majordomo.skills import journeys
@@ -124,6 +125,43 @@ async def test_a_person_in_the_gap_is_named_and_a_box_is_not(flat):
         failure = await rehearsal.run([CrossDoor(await rehearsal.prepare(), "door_1_1_0")])
         assert failure.code is code
         assert rehearsal.least_clearance_m > 0.25
+
+
+def with_second_door(built):
+    """Another door between the rooms, 1.7 m beside the first."""
+    with built.memory.edit("test", 0.0) as tx:
+        for near, wall_id, rooms, x_m in (
+            ("door_1_1_1", "wall_1_1", ("room_1", "room_2"), 1.7),
+            ("door_2_3_1", "wall_2_3", ("room_2", "room_1"), -1.7),
+        ):
+            tx.put(replace(built.memory.snapshot().door("door_1_1_0"), id=near, rooms=rooms))
+            tx.put(RtEdge(source=wall_id, target=near, T_source_target=SE3.from_xyz_yaw(x_m, 0.0, 0.0, 0.0)))
+            tx.put(*(ConnectsEdge(source=near, target=room) for room in rooms))
+        tx.put(MatchEdge(source="door_1_1_1", target="door_2_3_1"))
+    return built
+
+
+async def test_after_a_blocked_door_another_one_is_taken_for_a_while(flat):
+    built = with_second_door(flat())
+    world = wall(0.9, Box2(Pose2(3.1, 0.0), 0.3, 0.4))
+    rehearsal = Rehearsal(memory=built.memory, world=world, body=FakeBody(pose=Pose2(2.0, 0.0)))
+    context = await rehearsal.prepare()
+
+    def doors():
+        return [action.door_id for action in journeys.travel(context, "room_2") if isinstance(action, CrossDoor)]
+
+    assert doors() == ["door_1_1_0"]
+    assert (await rehearsal.run(journeys.travel(context, "room_2"))).code is FailureCode.WAY_BLOCKED
+    assert doors() == ["door_1_1_1"]
+    context.stamp_s += journeys.BLOCKED_S
+    assert doors() == ["door_1_1_0"]
+
+
+async def test_a_blocked_door_is_tried_again_where_there_is_no_other(flat):
+    rehearsal = Rehearsal(memory=flat().memory, world=wall())
+    context = await rehearsal.prepare()
+    context.blocked_doors["door_1_1_0"] = context.stamp_s
+    assert [a.door_id for a in journeys.travel(context, "room_2") if isinstance(a, CrossDoor)] == ["door_1_1_0"]
 
 
 @pytest.mark.parametrize("side", [1, -1])

@@ -73,6 +73,16 @@ async def test_with_no_table_near_it_is_put_on_the_floor_beside_the_person(kitch
     assert snapshot.position("bottle_1", "room_1")[2] == pytest.approx(0.12)
 
 
+@pytest.mark.parametrize("seen_m", [0.18, 0.24])
+async def test_the_bottom_of_what_is_held_is_where_it_stood_though_only_its_upper_part_was_seen(kitchen, seen_m):
+    rehearsal = kitchen()
+    with rehearsal.memory.edit("objects", 0.0) as tx:
+        tx.put(replace(rehearsal.memory.snapshot().object("bottle_1"), size_m=(0.07, 0.07, seen_m)))
+    context = await rehearsal.prepare()
+    assert await rehearsal.run(SKILLS["PICK"].actions(context, ["bottle_1"]), 900.0) is None
+    assert context.grip.size_m[2] == pytest.approx(0.24, abs=0.01)
+
+
 async def test_the_state_read_after_goto_allows_pick(kitchen):
     rehearsal = kitchen()
     rehearsal.body.pose = Pose2(-1.0, 1.0)

@@ -271,6 +271,9 @@ def evaluate_missions(
     seeds: Seeds = 1,
     model: Network = SHIPPED,
     json_file: JsonFile = None,
+    pictures: Annotated[
+        Path | None, typer.Option(file_okay=False, help="Folder for a picture of each mission: way and camera.")
+    ] = None,
     jobs: Jobs = 2,
 ) -> None:
     """Let the robot explore houses and carry out requests there while people interfere; compare with the truth."""
@@ -295,6 +298,7 @@ def evaluate_missions(
             jobs=jobs,
             json_file=json_file,
             console=console,
+            pictures=pictures,
         )
     except MissionFileError as error:
         raise typer.BadParameter(str(error), param_hint="--commands") from error

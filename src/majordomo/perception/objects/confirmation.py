@@ -64,9 +64,11 @@ def turned_up(
 
 
 def _in_its_place(sighting: Track, track: Track, settings: IdentitySettings) -> bool:
-    """Whether a sighting stands where a like thing is said to be that is no longer seen: two cannot be in one place."""
+    """Whether a sighting stands where a like thing is said to be, or was missed, that is no longer seen: two cannot be
+    in one place.
+    """
     small = not sighting.is_furniture and not track.is_furniture
-    unseen = track.state is ObjectState.PRESENT and track.last_seen_s < sighting.last_seen_s - _UNSEEN_S
+    unseen = track.state is not ObjectState.HELD and track.last_seen_s < sighting.last_seen_s - _UNSEEN_S
     if not (small and unseen and track.room == sighting.room):
         return False
     apart_m = np.abs(track.position - sighting.position)

@@ -10,8 +10,10 @@ The old one has left with ``1 - existence exp(-age / tau)``: certain when it is 
 it was last seen. A look-alike is unlikely where one has looked before and seen nothing (``look_alike_known``), and
 quite possible in a place seen for the first time (``look_alike_new``). Two that were seen at the same time are two.
 With several candidates the best wins; several *present* look-alikes make neither of them unique, and then only a
-missing one is taken for the moved one. A published identifier gives way afterwards in one case only: an older thing is
-missed, and this is its only look-alike, which turned up later where one had looked before (``turned_up``).
+missing one is taken for the moved one. Of several missing ones it is the nearest, if one was missed nearby: what falls
+from the hand, or is let go and topples, has not gone far. A published identifier gives way afterwards in one case only:
+an older thing is missed, and this is its only look-alike, which turned up later where one had looked before
+(``turned_up``).
 """
 
 from __future__ import annotations
@@ -28,7 +30,10 @@ from majordomo.scene_graph.nodes import ObjectState, Point3
 
 @dataclass(frozen=True, kw_only=True)
 class IdentitySettings:
-    """``tau_s``: mean time after which people have moved a thing. ``odds``: needed to say it is the same one."""
+    """``tau_s``: mean time after which people have moved a thing. ``odds``: needed to say it is the same one.
+
+    ``near_m``: how far a thing goes that falls over or rolls.
+    """
 
     tau_s: float = 900.0
     look_alike_known: float = 0.02
@@ -36,6 +41,7 @@ class IdentitySettings:
     odds: float = 2.0
     likeness_min: float = 0.35
     furniture_reach_m: float = 1.5
+    near_m: float = 1.0
 
 
 def likeness(a: Track, b: Track) -> float:
@@ -65,7 +71,11 @@ def same_thing_moved(
         return None
     if not alike:
         return None
-    value, best = max(alike, key=lambda pair: (pair[0], pair[1].last_seen_s, -pair[1].number))
+    nearby = [pair for pair in missing if _apart_m(sighting, pair[1]) < settings.near_m]
+    if nearby:
+        value, best = min(nearby, key=lambda pair: (_apart_m(sighting, pair[1]), pair[1].number))
+    else:
+        value, best = max(alike, key=lambda pair: (pair[0], pair[1].last_seen_s, -pair[1].number))
     look_alike = settings.look_alike_known if place_known else settings.look_alike_new
     return best if departed(best, sighting.first_seen_s, settings) * value / look_alike >= settings.odds else None
 
@@ -84,6 +94,11 @@ def _could_be(sighting: Track, track: Track, settings: IdentitySettings) -> bool
         return True
     near = np.linalg.norm((track.position - sighting.position)[:2]) < settings.furniture_reach_m
     return track.room == sighting.room and bool(near)
+
+
+def _apart_m(one: Track, other: Track) -> float:
+    """Distance of two things in one room; infinite for those in two."""
+    return float(np.linalg.norm(one.position - other.position)) if one.room == other.room else np.inf
 
 
 def _size_agreement(a_m: Point3, b_m: Point3) -> float:

@@ -152,12 +152,19 @@ class Tracker:
             track.change_room(home, T_here_room[home].inverse() @ T_here_room[track.room])
 
     def _absorb(self, detection: Detection, scope: list[Track], sight: Sight) -> bool:
-        """Whether the detection is a further part of a piece of furniture that something in front cuts in two."""
+        """Whether the detection is a further part of a piece of furniture that something in front cuts in two, or of a
+        small thing that is seen whole: two cannot be in one place.
+        """
+        seen = {track.number for track in self.matches.values()}
         for track in scope:
-            if not track.is_furniture or agreement(track.label.distribution, detection.distribution) < 0.5:
+            if agreement(track.label.distribution, detection.distribution) < 0.5:
                 continue
             T_room_view = sight.surroundings.T_here_room[track.room].inverse()
-            if float(track.box.contains(T_room_view.apply(detection.cloud.points), 0.1).mean()) > 0.6:
+            if not track.is_furniture:
+                center = T_room_view.apply(detection.shape.center[None])
+                if track.number in seen and not track.category.container and bool(track.box.contains(center)[0]):
+                    return True
+            elif float(track.box.contains(T_room_view.apply(detection.cloud.points), 0.1).mean()) > 0.6:
                 self._observe(track, detection, sight)
                 return True
         return False

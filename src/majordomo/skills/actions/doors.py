@@ -6,6 +6,7 @@ crossing has x in the direction of travel and y to the left, so that progress, o
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import atan2, cos, hypot, pi
 
@@ -49,6 +50,11 @@ class ApproachDoor(DriveTo):
         super().__init__(context, door_id, _in_front(context, door_id))
         self.name = f"approach {door_id}"
 
+    def fail(self, code: FailureCode, message: str, nodes: Sequence[str] = (), observation: str = "") -> Status:
+        """Record why, and that this door is blocked if it is."""
+        _note_blocked(self.context, self.target, code)
+        return super().fail(code, message, nodes, observation)
+
 
 @dataclass(frozen=True, kw_only=True)
 class CrossingConfig:
@@ -81,6 +87,11 @@ class CrossDoor(Action):
         self._giving_up: tuple[FailureCode, str] | None = None
         self._lane_m = 0.0
         self._anew = False
+
+    def fail(self, code: FailureCode, message: str, nodes: Sequence[str] = (), observation: str = "") -> Status:
+        """Record why, and that this door is blocked if it is."""
+        _note_blocked(self.context, self.door_id, code)
+        return super().fail(code, message, nodes, observation)
 
     def begin(self) -> None:
         """Say which door, and line up first when not in front of it."""
@@ -234,6 +245,11 @@ class EnterRoom(Action):
         """Wait."""
         arrived = self.context.snapshot.current_room == self.room
         return Status.SUCCESS if arrived or self.elapsed_s > self._patience_s else Status.RUNNING
+
+
+def _note_blocked(context: RobotContext, door_id: str, code: FailureCode) -> None:
+    if code is FailureCode.WAY_BLOCKED:
+        context.blocked_doors[door_id] = context.stamp_s
 
 
 def tracked_door(snapshot: Snapshot, door_id: str) -> str:

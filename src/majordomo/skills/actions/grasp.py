@@ -11,10 +11,12 @@ from py_trees.common import Status
 from majordomo.scene_graph.se3 import SE3
 from majordomo.skills.action import Action, Grip, RobotContext
 from majordomo.skills.actions.arm import EMPTY_OPENING_M, ArmAction, ArmProgress, is_firm
+from majordomo.skills.containers import is_container
 from majordomo.skills.errors import Unreachable
 from majordomo.skills.failures import FailureCode
 from majordomo.skills.grasping import Grasp, choose_grasp, prefers_level
 from majordomo.skills.navigation.pose import in_base
+from majordomo.skills.place_spot import surface_m
 
 HAND_TOLERANCE_M = 0.02
 SIDE_TOLERANCE_M = 0.015
@@ -23,6 +25,8 @@ SETTLE_S = 0.35
 EXTENDED_M = 0.05
 STAND_S = 0.6
 STUCK_S, RELIEF_M = 2.0, 0.015
+MISJUDGED_M = 0.1
+"""A height that is farther off than this is not that of a thing standing there."""
 LET_GO_S = 2.0
 """A thing may lean on a finger after it was let go; after this long it is left so."""
 
@@ -105,10 +109,12 @@ class CloseGripper(Action):
         super().__init__(f"close on {object_id}", context)
         self.object_id = object_id
         self._last_m, self._still_s = 0.0, 0.0
+        self._size_m: tuple[float, float, float] | None = None
 
     def begin(self) -> None:
-        """Remember the opening, to see when it stops changing."""
+        """Remember the opening, to see when it stops changing, and the size while the object still stands."""
         self.context.grip = None
+        self._size_m = self._standing_size_m() if self.object_id in self.context.snapshot else None
         self._last_m, self._still_s = self.context.body.gripper_opening_m, self.context.stamp_s
 
     def step(self) -> Status:
@@ -139,13 +145,27 @@ class CloseGripper(Action):
     def _hold(self) -> None:
         """Remember where the object sits in the hand; the fingers have centered it along their closing direction."""
         snapshot = self.context.snapshot
-        if self.object_id not in snapshot:
+        if self.object_id not in snapshot or self._size_m is None:
             return
-        T_gripper_object = self.context.body.T_base_gripper.inverse() @ in_base(self.context, self.object_id)
+        T_base_object = in_base(self.context, self.object_id)
+        T_gripper_object = self.context.body.T_base_gripper.inverse() @ T_base_object
         x_m, _, z_m = T_gripper_object.translation_m
         centered = SE3(T_gripper_object.quat_wxyz, np.array([x_m, 0.0, z_m]))
-        size_m = snapshot.object(self.object_id).size_m
-        self.context.grip = Grip(object_id=self.object_id, T_gripper_object=centered, size_m=size_m)
+        self.context.grip = Grip(object_id=self.object_id, T_gripper_object=centered, size_m=self._size_m)
+
+    def _standing_size_m(self) -> tuple[float, float, float]:
+        """Its size, as high as it must be to stand on what carries it: of a thing that is half hidden, the bottom is
+        known from its place better than from its picture, and it is the bottom that is put down again.
+        """
+        snapshot = self.context.snapshot
+        x_m, y_m, z_m = snapshot.object(self.object_id).size_m
+        support = snapshot.support_of(self.object_id)
+        if support is not None and is_container(snapshot.object(support).label):
+            return x_m, y_m, z_m
+        top_m = surface_m(snapshot, support, self.object_id) if support is not None else 0.0
+        surface_z_m = in_base(self.context, support).z_m + top_m if support is not None else 0.0
+        standing_m = 2 * (in_base(self.context, self.object_id).z_m - surface_z_m)
+        return x_m, y_m, standing_m if standing_m > 0.0 and abs(standing_m - z_m) < MISJUDGED_M else z_m
 
 
 class OpenGripper(Action):

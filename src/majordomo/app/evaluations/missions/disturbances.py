@@ -15,7 +15,7 @@ from majordomo.app.evaluations.missions.outcome import HAND, Scene
 from majordomo.app.evaluations.missions.ways import Ways
 from majordomo.planner.tasks import Task, TaskStatus
 from majordomo.simulation.catalog import category_named
-from majordomo.simulation.house import Door, room_at
+from majordomo.simulation.house import Door, House, room_at
 from majordomo.skills.failures import FailureCode
 
 Event = Mapping[str, Any]
@@ -58,7 +58,8 @@ class Moment:
 class Disturbance:
     """``due``: whether the time for it has come. ``deeds``: ways to do it, each a list of events, the first that the
     house allows is done. ``reasons``: what the robot may rightly give as its reason where the request then cannot be
-    fulfilled any more; ``blocks``: whether that has to be found out from the ways that are left.
+    fulfilled any more; ``blocks``: whether that has to be found out from the ways that are left. ``carries``: it
+    happens while something is carried somewhere; ``furniture``: to the furniture that it is to go on.
     """
 
     name: str
@@ -66,6 +67,14 @@ class Disturbance:
     deeds: Callable[[Moment], Sequence[Sequence[Event]]]
     reasons: frozenset[FailureCode] = frozenset()
     blocks: bool = False
+    carries: bool = False
+    furniture: bool = False
+
+    def fits(self, mission: Mission, house: House) -> bool:
+        """Whether it can happen to a mission at all."""
+        places = [place for place in mission.places if place != HAND]
+        on = [place for place in places if any(item.id == place for item in house.furniture)]
+        return bool(mission.things) and (bool(places) or not self.carries) and (bool(on) or not self.furniture)
 
     @property
     def ends_it(self) -> bool:
@@ -220,18 +229,13 @@ _ALL = (
     Disturbance(name="moved_unseen", due=_driving, deeds=lambda moment: _elsewhere(moment, same_room=False)),
     Disturbance(name="moved_in_view", due=_near, deeds=lambda moment: _elsewhere(moment, same_room=True)),
     Disturbance(name="removed", due=_driving, deeds=_removed, reasons=frozenset({FailureCode.OBJECT_GONE})),
-    Disturbance(name="slipped", due=_carrying, deeds=_aside),
+    Disturbance(name="slipped", due=_carrying, deeds=_aside, carries=True),
     Disturbance(
         name="support_full",
         due=lambda moment: _onto_furniture(moment) and _carrying(moment),
         deeds=_crowded,
         reasons=frozenset({FailureCode.SUPPORT_FULL}),
-    ),
-    Disturbance(
-        name="support_gone",
-        due=lambda moment: _onto_furniture(moment) and _carrying(moment),
-        deeds=_taken_away,
-        reasons=frozenset({FailureCode.SUPPORT_GONE}),
+        furniture=True,
     ),
     Disturbance(
         name="door_closed",
@@ -250,7 +254,14 @@ _ALL = (
     Disturbance(name="person_in_way", due=_on_the_way, deeds=_stroll),
     Disturbance(name="pushed", due=_driving, deeds=_push),
     Disturbance(name="kidnapped", due=_driving, deeds=_carry_off),
+    Disturbance(
+        name="support_gone",
+        due=lambda moment: _onto_furniture(moment) and _carrying(moment),
+        deeds=_taken_away,
+        reasons=frozenset({FailureCode.SUPPORT_GONE}),
+        furniture=True,
+    ),
 )
 
 DISTURBANCES: Mapping[str, Disturbance] = MappingProxyType({each.name: each for each in _ALL})
-"""All of them by name."""
+"""All of them by name; what leaves least behind comes first."""

@@ -7,7 +7,6 @@ import json
 from collections import defaultdict
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from itertools import cycle
 from pathlib import Path
 from statistics import median
 from typing import Any
@@ -27,7 +26,7 @@ from majordomo.app.evaluations.recognition import share
 from majordomo.app.evaluations.tables import shown
 
 OWN_HOUSES = ("flat", "office", "stocked:20", "stocked:21", "stocked:22", "stocked:23")
-LEAST = {"success_undisturbed": 0.90, "success_disturbed": 0.80, "right_reason": 0.95}
+LEAST = {"success_undisturbed": 0.90, "success_disturbed": 0.80, "right_reason": 0.95, "picks": 0.95, "places": 0.97}
 MOST = {"phantoms": 0, "collisions": 0, "way_over_shortest": 1.25}
 Row = Mapping[str, Any]
 
@@ -43,6 +42,7 @@ def evaluate(
     jobs: int,
     json_file: Path | None,
     console: Console,
+    pictures: Path | None = None,
 ) -> bool:
     """Play everything, print tables, write JSON; whether all aims were met.
 
@@ -56,6 +56,7 @@ def evaluate(
         jobs: runs at the same time.
         json_file: where to write the figures.
         console: where to print the tables.
+        pictures: folder for a filmstrip of each mission; none by default.
 
     Raises:
         MissionFileError: what is wrong with the file; said before anything is played.
@@ -66,7 +67,7 @@ def evaluate(
     names = list(dict.fromkeys(mission.house for mission in missions))
     check(names, model)
     played = [
-        (name, [mission for mission in missions if mission.house == name], seed, model)
+        (name, [mission for mission in missions if mission.house == name], seed, model, pictures)
         for name in names
         for seed in seeds
     ]
@@ -82,23 +83,29 @@ def evaluate(
     return met(summary) and all(run["explored"] for run in runs)
 
 
-def run_once(name: str, missions: Sequence[Mission], seed: int, model: Path) -> dict[str, Any]:
+def run_once(
+    name: str, missions: Sequence[Mission], seed: int, model: Path, pictures: Path | None = None
+) -> dict[str, Any]:
     """One house, in this process."""
-    return asyncio.run(play_all(name, house_of(name), missions, seed=seed, model=model))
+    return asyncio.run(play_all(name, house_of(name), missions, seed=seed, model=model, pictures=pictures))
 
 
 def summarize(rows: Sequence[Row]) -> dict[str, Any]:
     """Figures over all missions."""
-    calm = [row for row in rows if not row["disturbance"]]
+    calm = [row for row in rows if not row["disturbance"] and row["possible"]]
     upset = [row for row in rows if row["disturbance"] and row["made"]]
     possible = [row for row in upset if row["possible"]]
-    impossible = [row for row in upset if not row["possible"]]
+    impossible = [row for row in rows if not row["possible"] and (row["made"] or not row["disturbance"])]
+    picks, places = (_first_goes(rows, skill) for skill in ("PICK", "PLACE"))
     ways = [row["driven_m"] / row["shortest_m"] for row in calm if _done(row) and (row["shortest_m"] or 0.0) > 1.0]
     return {
         "missions": len(rows),
         "success_undisturbed": share(sum(map(_done, calm)), len(calm)),
         "success_disturbed": share(sum(map(_done, possible)), len(possible)),
         "right_reason": share(sum(row["verdict"] == Verdict.RIGHTLY_IMPOSSIBLE for row in impossible), len(impossible)),
+        "picks": share(sum(picks), len(picks)),
+        "places": share(sum(places), len(places)),
+        "attempts": {"PICK": len(picks), "PLACE": len(places)},
         "disturbed": len(upset),
         "impossible": len(impossible),
         "not_made": sum(bool(row["disturbance"]) and not row["made"] for row in rows),
@@ -117,17 +124,24 @@ def met(summary: Mapping[str, Any]) -> bool:
     return high and low and summary["missions"] > 0
 
 
+def _first_goes(rows: Sequence[Row], skill: str) -> list[bool]:
+    """Of every attempt at a skill before anybody interfered, whether it came off."""
+    return [go["done"] for row in rows for go in row["attempts"] if go["skill"] == skill and go["calm"]]
+
+
 def _done(row: Row) -> bool:
     return bool(row["verdict"] == Verdict.DONE)
 
 
 def _invented(houses: Sequence[str], requests: int, disturb: Sequence[str]) -> list[Mission]:
-    """Requests for every house; each is disturbed by the next of what is to happen that can happen to it."""
+    """Requests for every house; each is disturbed by what has not happened for longest of what can happen to it."""
     missions = []
-    turn = cycle(disturb or ("",))
+    turn = list(disturb)
     for number, name in enumerate(houses):
-        for mission in invent(name, house_of(name), count=requests, seed=number):
-            disturbance = next(turn) if mission.things or not disturb else ""
+        house = house_of(name)
+        for mission in invent(name, house, count=requests, seed=number):
+            disturbance = next((each for each in turn if DISTURBANCES[each].fits(mission, house)), "")
+            turn = [*(each for each in turn if each != disturbance), *([disturbance] if disturbance else [])]
             missions.append(replace(mission, disturbance=disturbance))
     lasting = list(DISTURBANCES).index
     return sorted(missions, key=lambda m: (houses.index(m.house), lasting(m.disturbance) if m.disturbance else -1))

@@ -1,4 +1,5 @@
-"""Invents requests for a house from its own document: things a person would call by words that fit nothing else there.
+"""Invents requests for a house from its own document: things a person would call by words that fit nothing else there:
+their kind, a plain color and their kind, or their kind and the furniture they are on.
 
 For scoring only; the robot is given the words alone.
 """
@@ -7,7 +8,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.random import Generator
@@ -19,6 +20,9 @@ from majordomo.simulation.house import Furniture, House, Object, Room, room_at
 
 LOWEST_M, HIGHEST_M = 0.15, 1.05
 """Tops within these heights are where things are asked for to be put."""
+PLAIN_COLORS = ("red", "orange", "yellow", "green", "blue", "purple", "pink", "brown", "black", "gray", "white")
+"""Colors that people and the robot call by the same word."""
+_PAIRS = ("keys", "scissors")
 _ABSENT = ("piano", "violin", "bicycle", "ladder")
 
 
@@ -28,9 +32,15 @@ class _Item:
 
     id: str
     words: str
+    color: str
     category: str
     on: str
     room: Room
+
+    @property
+    def pronoun(self) -> str:
+        """What a request calls it the second time."""
+        return "them" if self.category in _PAIRS else "it"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -64,7 +74,7 @@ class _Inventor:
         self._name, self._house, self._rng = name, house, rng
         self._rooms = _uniquely_labelled(house)
         self._spots = _spots(house, self._rooms)
-        self._items = [item for item in _items(house) if item.room.id in self._rooms]
+        self._items = [item for item in _items(house, self._spots) if item.room.id in self._rooms]
         self._rng.shuffle(self._items)
         self._turn = int(rng.integers(len(KINDS)))
 
@@ -82,9 +92,9 @@ class _Inventor:
         """One of several ways to say it."""
         return str(self._rng.choice(ways)).format(**parts)
 
-    def take(self, away_from: str = "") -> _Item | None:
-        """A thing that has not been asked for yet and is not at that place."""
-        found = next((item for item in self._items if item.on != away_from), None)
+    def take(self, *, without_place: bool = False) -> _Item | None:
+        """A thing that has not been asked for yet; ``without_place``: whose words do not say where it is."""
+        found = next((item for item in self._items if not (without_place and " from " in item.words)), None)
         if found is not None:
             self._items.remove(found)
         return found
@@ -113,12 +123,13 @@ def _to_place(inventor: _Inventor) -> _Made:
     spot = inventor.spot(beside=[item]) if item is not None else None
     if item is None or spot is None:
         return None
+    whence = () if " from " in item.words else ("could you move {it} from {room} to {there}?",)
     words = inventor.say(
         "put {it} on {there}",
         "please bring {it} to {there}",
-        "could you move {it} from {room} to {there}?",
-        "take {it} and put it on {there}",
-        it=item.words, there=spot.words, room=f"the {item.room.label}",
+        "take {it} and put {that} on {there}",
+        *whence,
+        it=item.words, that=item.pronoun, there=spot.words, room=f"the {item.room.label}",
     )  # fmt: skip
     return words, Outcome(states=(Placed(things=(item.id,), places=(spot.id,)),))
 
@@ -129,8 +140,9 @@ def _to_room(inventor: _Inventor) -> _Made:
     if item is None or room is None:
         return None
     words = inventor.say(
-        "take {it} to the {room}", "{it} belongs in the {room}, bring it there please", "move {it} to the {room}",
-        it=item.words, room=room.label,
+        "take {it} to the {room}", "{it} {belong} in the {room}, bring {that} there please",
+        "move {it} to the {room}",
+        it=item.words, that=item.pronoun, belong="belongs" if item.pronoun == "it" else "belong", room=room.label,
     )  # fmt: skip
     return words, Outcome(states=(Placed(things=(item.id,), places=(room.id,)),))
 
@@ -145,8 +157,8 @@ def _to_person(inventor: _Inventor) -> _Made:
 
 
 def _two_things(inventor: _Inventor) -> _Made:
-    first = inventor.take()
-    second = inventor.take() if first is not None else None
+    first = inventor.take(without_place=True)  # two places more in one sentence, and nobody knows what belongs to what
+    second = inventor.take(without_place=True) if first is not None else None
     if first is None or second is None:
         return None
     spot = inventor.spot(beside=[first, second])
@@ -189,10 +201,11 @@ def _there_and_back(inventor: _Inventor) -> _Made:
 
 
 def _where(inventor: _Inventor) -> _Made:
-    item = inventor.take()
+    item = inventor.take(without_place=True)
     if item is None:
         return None
-    words = inventor.say("where is {it}?", "do you know where {it} is?", it=item.words)
+    verb = "is" if item.pronoun == "it" else "are"
+    words = inventor.say("where {verb} {it}?", "do you know where {it} {verb}?", it=item.words, verb=verb)
     return words, Outcome(words=(item.room.label,))
 
 
@@ -219,13 +232,13 @@ KINDS: tuple[tuple[str, Callable[[_Inventor], _Made]], ...] = (
 
 def _uniquely_labelled(house: House) -> dict[str, Room]:
     """Rooms that their label tells from the others."""
-    counts = Counter(_label(room) for room in house.rooms)
-    return {
-        room.id: room.model_copy(update={"label": _label(room)}) for room in house.rooms if counts[_label(room)] == 1
-    }
+    named = [(room, room_name(room)) for room in house.rooms]
+    counts = Counter(name for _, name in named)
+    return {room.id: room.model_copy(update={"label": name}) for room, name in named if counts[name] == 1}
 
 
-def _label(room: Room) -> str:
+def room_name(room: Room) -> str:
+    """What people call it."""
     return (room.label or room.id).replace("_", " ")
 
 
@@ -253,22 +266,31 @@ def _carries(item: Furniture) -> bool:
     return kind.support and not kind.container and LOWEST_M <= top_m <= HIGHEST_M
 
 
-def _items(house: House) -> list[_Item]:
-    """Things of a size for the hand that color and kind tell from all others, on furniture within reach."""
+def _items(house: House, spots: Sequence[_Spot]) -> list[_Item]:
+    """Things of a size for the hand, on furniture within reach, that people have words for that fit nothing else."""
     everything = list(_all_objects(house))
-    kinds = Counter(item.category for item in everything)
-    called = Counter(item.words for item in everything)
     carriers = {item.id for item in house.furniture if _carries(item)}
     found = []
     for item, entry in zip(everything, (entry for entry in house.objects if _room_of(house, entry)), strict=True):
-        kind = category_named(entry.category, entry.size)
-        size = entry.size or kind.size_m
-        if item.on not in carriers or min(size[:2]) > GRIPPER_M or called[item.words] > 1:
-            continue
-        alone = kinds[item.category] == 1
-        words = f"the {_plain(item.category)}" if alone else f"the {item.words}"
-        found.append(_Item(id=item.id, words=words, category=item.category, on=item.on, room=item.room))
+        size = entry.size or category_named(entry.category, entry.size).size_m
+        words = _words(item, everything, spots)
+        if item.on in carriers and min(size[:2]) <= GRIPPER_M and words is not None:
+            found.append(replace(item, words=words))
     return found
+
+
+def _words(item: _Item, everything: Sequence[_Item], spots: Sequence[_Spot]) -> str | None:
+    """Kind alone, else color and kind where all of its kind have plain colors, else kind and furniture."""
+    alike = [other for other in everything if other.category == item.category and other is not item]
+    kind = _plain(item.category)
+    if not alike:
+        return f"the {kind}"
+    colors = [each.color for each in (item, *alike)]
+    if set(colors) <= {*PLAIN_COLORS} and item.color not in colors[1:]:
+        return f"the {item.color} {kind}"
+    spot = next((spot for spot in spots if spot.id == item.on), None)
+    alone = spot is not None and not any(other.on == item.on for other in alike)
+    return f"the {kind} from {spot.words}" if spot is not None and alone else None
 
 
 def _all_objects(house: House) -> Iterator[_Item]:
@@ -276,15 +298,15 @@ def _all_objects(house: House) -> Iterator[_Item]:
         room = _room_of(house, entry)
         if room is not None:
             kind = category_named(entry.category, entry.size)
-            words = f"{entry.color or kind.color} {_plain(entry.category)}"
-            yield _Item(id=entry.id, words=words, category=entry.category, on=entry.on or entry.in_ or "", room=room)
+            color, on = entry.color or kind.color, entry.on or entry.in_ or ""
+            yield _Item(id=entry.id, words="", color=color, category=entry.category, on=on, room=room)
 
 
 def _room_of(house: House, entry: Object) -> Room | None:
     carrier = next((item for item in house.furniture if item.id in (entry.on, entry.in_)), None)
     pose = carrier.pose if carrier is not None else entry.pose
     room = room_at(house, pose[0], pose[1]) if pose is not None else None
-    return next((each.model_copy(update={"label": _label(each)}) for each in house.rooms if each.id == room), None)
+    return next((each.model_copy(update={"label": room_name(each)}) for each in house.rooms if each.id == room), None)
 
 
 def _plain(category: str) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from enum import StrEnum
 from pathlib import Path
 from typing import Any
@@ -14,32 +14,49 @@ import numpy as np
 from numpy.random import Generator
 
 from majordomo.app.evaluations.exploration import pass_time, service_in_lockstep, until_explored
+from majordomo.app.evaluations.missions.attempts import Attempts
+from majordomo.app.evaluations.missions.filmstrip import Still, draw_filmstrip
 from majordomo.app.evaluations.missions.meddler import Meddler
 from majordomo.app.evaluations.missions.mission import Mission
 from majordomo.app.evaluations.missions.outcome import HAND, Scene, stirred
+from majordomo.app.evaluations.missions.resident import Resident
 from majordomo.app.evaluations.missions.ways import Point, Ways
 from majordomo.app.evaluations.pool import tell
 from majordomo.app.runtime import Runtime
 from majordomo.planner.tasks import Task, TaskStatus
+from majordomo.scene_graph.identifiers import slug
 from majordomo.simulation.house import House
+from majordomo.skills.failures import FailureCode
 
 LIMIT_S = 900.0
 """Simulated seconds after which a request is given up."""
+OUT_OF_REACH = frozenset({FailureCode.UNREACHABLE})
+"""What the robot may rightly say of a thing that no free floor is near enough to."""
 _LOOK_S = 0.4
 _SETTLE_S = 1.5
 _SITTING_STILL_M = 0.02
 
 
-async def play_all(name: str, house: House, missions: Sequence[Mission], *, seed: int, model: Path) -> dict[str, Any]:
-    """All missions of one house, in their order, and what came of each."""
+async def play_all(
+    name: str, house: House, missions: Sequence[Mission], *, seed: int, model: Path, pictures: Path | None = None
+) -> dict[str, Any]:
+    """All missions of one house, in their order, and what came of each.
+
+    ``pictures``: folder for a filmstrip of each.
+    """
     async with service_in_lockstep(house, seed, camera=True, model=model) as runtime:
         began = time.monotonic()
         explored = await until_explored(runtime, house)
         tell(f"{name}: {'explored' if explored else 'given up'} after {runtime.now_s:.0f} simulated seconds")
+        Resident(runtime, house).introduce()
         rows = []
         for number, mission in enumerate(missions):
-            rows.append(await _Play(runtime, house, mission, np.random.default_rng((seed, number))).play())
-            tell(f"{name}: {rows[-1]['verdict']}: {mission.request} [{mission.disturbance or 'undisturbed'}]")
+            play = _Play(runtime, house, mission, np.random.default_rng((seed, number)), filming=pictures is not None)
+            rows.append(await play.play())
+            line = f"{name}: {rows[-1]['verdict']}: {mission.request} [{mission.disturbance or 'undisturbed'}]"
+            tell(line)
+            if pictures is not None:
+                draw_filmstrip(house, play.way, play.stills, line, pictures / f"{slug(name)}_{seed}_{number}.png")
         return {
             "house": name,
             "seed": seed,
@@ -66,7 +83,7 @@ class Verdict(StrEnum):
 
 @dataclass(kw_only=True)
 class _Course:
-    """Where the robot has been, and whether it asked something back."""
+    """Where the robot has been, and whether it asked something that nobody could answer."""
 
     points: list[Point] = field(default_factory=list)
     asked: bool = False
@@ -83,34 +100,56 @@ class _Course:
 
 
 class _Play:
-    """One mission."""
+    """One mission.
 
-    def __init__(self, runtime: Runtime, house: House, mission: Mission, rng: Generator) -> None:
+    Attributes:
+        stills: what the camera saw at its key moments, if it is filmed.
+    """
+
+    def __init__(
+        self, runtime: Runtime, house: House, mission: Mission, rng: Generator, *, filming: bool = False
+    ) -> None:
         self._runtime, self._house, self._mission = runtime, house, mission
         self._meddler = Meddler(runtime, mission, rng)
+        self._resident = Resident(runtime, house)
         self._course = _Course()
+        self._attempts = Attempts()
+        self._filming, self._failures = filming, 0
+        self.stills: list[Still] = []
+
+    @property
+    def way(self) -> Sequence[Point]:
+        """Where the robot has been."""
+        return self._course.points
 
     async def play(self) -> dict[str, Any]:
         """Ask, watch, interfere, and judge."""
         began = time.monotonic()
         before = await self._scene()
-        shortest_m = self._shortest_m(before)
+        ways = Ways(before)
+        shortest_m = self._shortest_m(before, ways)
+        within_reach = all(ways.comes_near(before.where(name)) for name in self._mission.things)
         task = self._runtime.submit(self._mission.request)
+        await self._film(before, self._mission.request)
         task = await self._watch(task)
+        await self._note(await self._scene(), task)
         await pass_time(self._runtime, _SETTLE_S)
         after = await self._scene()
-        row = self._judged(task, before, after)
+        await self._film(after, task.explanation or task.reply)
+        row = self._judged(task, before, after, within_reach=within_reach)
         await self._meddler.tidy_up()
         return {
             "kind": self._mission.kind,
             "request": self._mission.request,
             "disturbance": self._mission.disturbance,
             "made": self._meddler.made_s is not None,
-            "possible": self._meddler.possible,
             **row,
-            "asked": self._course.asked,
+            "ended": {name: _whereabouts(after, name) for name in self._mission.things},
+            "answers": self._resident.answers,
+            "dialogue": [question for question, _ in task.dialogue],
             "status": task.status.value,
             "codes": [failure.code for failure in task.failures],
+            "attempts": [asdict(attempt) for attempt in self._attempts.checked],
             "explanation": task.explanation or task.reply,
             "replans": task.replans,
             "collisions": int(after.truth["collisions"]) - int(before.truth["collisions"]),
@@ -124,47 +163,94 @@ class _Play:
         """Follow the task to its end."""
         began_s = looked_s = self._runtime.now_s
         going_s: float | None = None
-        while not (task := self._runtime.queue.task(task.id)).status.ended:
+        task_id = task.id
+        self._runtime.queue.listen(lambda version: self._attempts.follow(version) if version.id == task_id else None)
+        while not (task := self._runtime.queue.task(task_id)).status.ended:
             now_s = self._runtime.now_s
-            self._course.asked |= task.status is TaskStatus.AWAITING_ANSWER
-            if task.status is TaskStatus.AWAITING_ANSWER or now_s > began_s + LIMIT_S:
+            if task.status is TaskStatus.AWAITING_ANSWER:
+                await self._answer(task)
+            elif now_s > began_s + LIMIT_S:
                 self._runtime.queue.cancel(task.id, stamp_s=now_s)
             elif now_s >= looked_s + _LOOK_S:
                 looked_s = now_s
                 scene = await self._scene()
                 self._course.at(scene.robot_at)
+                await self._note(scene, task)
                 going_s = now_s if going_s is None and len(self._course.points) > 1 else going_s
-                await self._meddler.step(scene, task, 0.0 if going_s is None else now_s - going_s)
+                await self._interfere(scene, task, 0.0 if going_s is None else now_s - going_s)
             await self._runtime.wait_for_change()
         return task
 
-    def _judged(self, task: Task, before: Scene, after: Scene) -> dict[str, Any]:
-        """Reported and true outcome, and whether both fit."""
+    async def _answer(self, task: Task) -> None:
+        """Say which one is meant; where the right one is not offered, give the request up."""
+        text = self._resident.answer(task, self._mission, await self._scene())
+        if text is None:
+            self._course.asked = True
+            self._runtime.queue.cancel(task.id, stamp_s=self._runtime.now_s)
+        else:
+            self._runtime.queue.answer(task.id, text, stamp_s=self._runtime.now_s)
+
+    async def _interfere(self, scene: Scene, task: Task, since_s: float) -> None:
+        calm = self._meddler.made_s is None
+        await self._meddler.step(scene, task, since_s)
+        if calm and self._meddler.made_s is not None:
+            await self._film(scene, f"disturbed: {self._mission.disturbance.replace('_', ' ')}")
+
+    async def _note(self, scene: Scene, task: Task) -> None:
+        """Take down what was tried, and what went wrong, since the last look."""
+        for attempt in self._attempts.check(scene, calm=self._meddler.made_s is None):
+            await self._film(scene, f"{attempt.step} {'done' if attempt.done else 'not done'}")
+        for failure in task.failures[self._failures :]:
+            await self._film(scene, f"{failure.code}: {failure.message}")
+        self._failures = len(task.failures)
+
+    async def _film(self, scene: Scene, caption: str) -> None:
+        if self._filming:
+            jpeg = await self._runtime.camera_jpeg()
+            stamp_s = float(scene.truth["stamp_s"])
+            self.stills.append(Still(stamp_s=stamp_s, at=scene.robot_at, caption=caption, jpeg=jpeg))
+
+    def _judged(self, task: Task, before: Scene, after: Scene, *, within_reach: bool) -> dict[str, Any]:
+        """Reported and true outcome, and whether both fit; ``within_reach``: of all that is to be moved."""
         reported = task.status is TaskStatus.SUCCEEDED
         outcomes = self._mission.outcomes
         met = any(outcome.met(after, task) and (reported or outcome.refused) for outcome in outcomes)
         question = all(outcome.words and not outcome.states for outcome in outcomes)
-        right_reason = bool(task.failures) and task.failures[-1].code in self._meddler.reasons
+        possible = self._meddler.possible and within_reach
+        reasons = self._meddler.reasons if within_reach else OUT_OF_REACH
+        right_reason = bool(task.failures) and task.failures[-1].code in reasons
         if met:
             verdict = Verdict.DONE
         elif reported:
             verdict = Verdict.UNJUDGED if not outcomes else Verdict.WRONG_ANSWER if question else Verdict.PHANTOM
-        elif not self._meddler.possible:
+        elif not possible:
             verdict = Verdict.RIGHTLY_IMPOSSIBLE if right_reason else Verdict.OTHER_REASON
         else:
             verdict = Verdict.ASKED if self._course.asked else Verdict.HONEST_FAILURE
         spared = frozenset(self._mission.things) | self._meddler.touched
-        return {"verdict": verdict, "reported": reported, "stirred": list(stirred(before, after, spared))}
+        return {
+            "verdict": verdict,
+            "possible": possible,
+            "reported": reported,
+            "stirred": list(stirred(before, after, spared)),
+        }
 
-    def _shortest_m(self, scene: Scene) -> float | None:
+    def _shortest_m(self, scene: Scene, ways: Ways) -> float | None:
         """The shortest way that does what is asked for; None where nothing moves, or in more orders than one."""
         things, places = self._mission.things, self._mission.places
         if len(things) != 1 or len(places) != 1:
             return None
-        ways = Ways(scene)
         stops = [scene.where(name) or ways.middle_of(name) for name in (*things, *places) if name != HAND]
         length_m = ways.length_m(scene.robot_at, *[stop for stop in stops if stop is not None])
         return length_m if math.isfinite(length_m) else None
 
     async def _scene(self) -> Scene:
         return Scene(house=self._house, truth=await self._runtime.require_robot().truth())
+
+
+def _whereabouts(scene: Scene, thing: str) -> str:
+    """What carries a thing at last, or the room it is in."""
+    record = scene.thing(thing)
+    if record is None:
+        return "gone"
+    return HAND if scene.holding == thing else str(record["on"] or record["in"] or record["room"])

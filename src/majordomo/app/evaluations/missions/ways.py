@@ -14,7 +14,7 @@ from scipy.sparse.csgraph import dijkstra
 
 from majordomo.app.evaluations.missions.outcome import Scene
 from majordomo.simulation.catalog import category_named
-from majordomo.simulation.house import OUTSIDE, Door
+from majordomo.simulation.house import OUTSIDE, Door, Furniture, House, room_at
 
 CELL_M = 0.05
 ROBOT_RADIUS_M = 0.25
@@ -42,13 +42,13 @@ class Ways:
         rows, columns = np.indices((height, width))
         self._places = self._low + (np.stack((columns, rows), axis=-1) + 0.5) * CELL_M
         free = np.zeros((height, width), np.bool_)
-        for room in house.rooms:
-            free |= self._inside(np.array(room.polygon))
+        self._floors = {room.id: self._inside(np.array(room.polygon)) for room in house.rooms}
+        for floor in self._floors.values():
+            free |= floor
         for door in self._open:
-            free |= self._inside(self._gap(door))
+            free |= self._inside(gap(house, door))
         for item in house.furniture:
-            size = item.size or category_named(item.category, None, static=True).size_m
-            free &= ~self._inside(_rectangle((item.pose[0], item.pose[1]), size[:2], item.pose[2]))
+            free &= ~self._inside(outline(item))
         self.clearance_m: NDArray[np.float64] = np.asarray(distance_transform_edt(free)) * CELL_M
         self._number, self._graph = _grid_graph(self.clearance_m > ROBOT_RADIUS_M)
 
@@ -89,6 +89,10 @@ class Ways:
                 met[door.id] = (int(near[0]), door)
         return [door for _, door in sorted(met.values(), key=lambda pair: pair[0])]
 
+    def comes_near(self, point: Point | None) -> bool:
+        """Whether there is floor from which the robot reaches a point; of what is nowhere, yes."""
+        return point is None or len(self._within(point)) > 0
+
     def is_free(self, point: Point) -> bool:
         """Whether the robot could stand there."""
         row, column = self._cell(point)
@@ -100,17 +104,9 @@ class Ways:
         room = next((room for room in self._house.rooms if room.id == room_id), None)
         if room is None:
             return None
-        clearance_m = self.clearance_m * self._inside(np.array(room.polygon))
+        clearance_m = self.clearance_m * self._floors[room.id]
         x_m, y_m = self._places[np.unravel_index(np.argmax(clearance_m), clearance_m.shape)]
         return float(x_m), float(y_m)
-
-    def _gap(self, door: Door) -> NDArray[np.float64]:
-        """The floor of a doorway, from room to room: along the axis of the wall that is nearer."""
-        rooms = [room for room in self._house.rooms if room.id in door.rooms]
-        boundaries = [_direction_at(np.array(room.polygon), np.array(door.center)) for room in rooms]
-        along = boundaries[0] if boundaries else np.array((1.0, 0.0))
-        yaw_rad = math.atan2(along[1], along[0])
-        return _rectangle(door.center, (door.width, self._house.wall_thickness + 4 * CELL_M), yaw_rad)
 
     def _inside(self, polygon_m: NDArray[np.float64]) -> NDArray[np.bool_]:
         """(H, W) cells within a polygon."""
@@ -127,13 +123,30 @@ class Ways:
         return points
 
     def _within(self, point: Point) -> NDArray[np.int64]:
-        """Numbers of the cells within reach of a point."""
+        """Numbers of the cells within reach of a point, on the same side of the walls."""
         points = self._points(np.arange(int(self._number.max()) + 1))
-        return np.flatnonzero(np.linalg.norm(points - np.array(point), axis=1) < REACH_M)
+        near = np.linalg.norm(points - np.array(point), axis=1) < REACH_M
+        floor = self._floors.get(room_at(self._house, *point) or "")
+        return np.flatnonzero(near if floor is None else near & floor[self._number >= 0])
 
     def _nearest(self, point: Point) -> int | None:
         points = self._points(np.arange(int(self._number.max()) + 1))
         return int(np.argmin(np.linalg.norm(points - np.array(point), axis=1))) if len(points) else None
+
+
+def gap(house: House, door: Door) -> NDArray[np.float64]:
+    """The floor of a doorway, from room to room, as (4, 2) corners: along the side of a room that is nearest."""
+    rooms = [room for room in house.rooms if room.id in door.rooms]
+    sides = [_direction_at(np.array(room.polygon), np.array(door.center)) for room in rooms]
+    along = sides[0] if sides else np.array((1.0, 0.0))
+    yaw_rad = math.atan2(along[1], along[0])
+    return _rectangle(door.center, (door.width, house.wall_thickness + 4 * CELL_M), yaw_rad)
+
+
+def outline(item: Furniture) -> NDArray[np.float64]:
+    """What a piece of furniture covers of the floor, as (4, 2) corners."""
+    size = item.size or category_named(item.category, None, static=True).size_m
+    return _rectangle((item.pose[0], item.pose[1]), size[:2], item.pose[2])
 
 
 def _grid_graph(free: NDArray[np.bool_]) -> tuple[NDArray[np.int64], coo_matrix]:

@@ -1,0 +1,67 @@
+"""The person who asks for things: says what the rooms are called when the robot has seen them, and answers when it asks
+back.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from majordomo.app.evaluations.inventory import GraphContents, graph_contents
+from majordomo.app.evaluations.missions.inventing import room_name
+from majordomo.app.evaluations.missions.mission import Mission
+from majordomo.app.evaluations.missions.outcome import Scene
+from majordomo.app.runtime import Runtime
+from majordomo.planner.lessons import teach
+from majordomo.planner.tasks import Task
+from majordomo.simulation.house import House
+
+SAME_M = 0.4
+"""A node this close to a thing, and closer than the other candidates, is what the person means."""
+MOST_ANSWERS = 3
+_ORDINALS = ("first", "second", "third", "fourth", "fifth")
+"""As many as the robot offers at once."""
+
+
+class Resident:
+    """Knows the house by its truth, and tells the robot only what its requests are about, in words.
+
+    Attributes:
+        answers: how many questions were answered so far.
+    """
+
+    def __init__(self, runtime: Runtime, house: House) -> None:
+        self._runtime, self._house = runtime, house
+        self.answers = 0
+
+    def introduce(self) -> None:
+        """Say what the rooms are called: no sensor sees that a room is *the storage* and not *the pantry*."""
+        contents = self._contents()
+        for room in self._house.rooms:
+            node = contents.rooms.get(room.id)
+            if node is not None and contents.labels[node] != room_name(room):
+                teach(self._runtime.memory, node, label=room_name(room), name=None, stamp_s=self._runtime.now_s)
+
+    def answer(self, task: Task, mission: Mission, scene: Scene) -> str | None:
+        """Which of the candidates is meant, *the second one*; None where none of those that the robot offers is."""
+        if self.answers >= MOST_ANSWERS:
+            return None
+        number = meant(task.candidates[: len(_ORDINALS)], mission, scene, self._contents())
+        self.answers += number is not None
+        return None if number is None else f"the {_ORDINALS[number]} one"
+
+    def _contents(self) -> GraphContents:
+        return graph_contents(self._runtime.scene_document("map"), self._house)
+
+
+def meant(candidates: Sequence[str], mission: Mission, scene: Scene, contents: GraphContents) -> int | None:
+    """Index of the candidate that is what the mission is about."""
+    at = {thing.id: (float(thing.position_m[0]), float(thing.position_m[1])) for thing in contents.things}
+    for name in (*mission.things, *mission.places):
+        if contents.rooms.get(name) in candidates:
+            return candidates.index(contents.rooms[name])
+        where = scene.where(name)
+        near = [(math.dist(where, at[node]), node) for node in candidates if node in at] if where is not None else []
+        if near and min(near)[0] <= SAME_M:
+            return candidates.index(min(near)[1])
+    return None

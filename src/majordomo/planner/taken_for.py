@@ -1,0 +1,63 @@
+"""What a request took the things in the graph for, and whether a closer look has shown that they are something else."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+from majordomo.planner.goals import Goal
+from majordomo.planner.phrasing import article
+from majordomo.planner.vocabulary import normal, singular, words_for
+from majordomo.scene_graph.nodes import ObjectNode
+from majordomo.scene_graph.snapshot import Snapshot
+from majordomo.skills.failures import Evidence, Failure, FailureCode
+
+SURE, RULED_OUT = 0.8, 0.1
+"""Probability of the new label, and of the old one, at which the robot was mistaken; less is flicker."""
+
+
+class TakenFor:
+    """Remembers by which kinds a request called its objects.
+
+    Args:
+        request: in a person's words.
+        goals: what they were taken to mean.
+        snapshot: the graph in which that was so.
+    """
+
+    def __init__(self, request: str, goals: Sequence[Goal], snapshot: Snapshot) -> None:
+        spoken = {form for word in re.findall(r"[a-z]+", request.casefold()) for form in (word, singular(word))}
+        nodes = [snapshot.get(arg) for arg in dict.fromkeys(arg for goal in goals for arg in goal.args)]
+        self._labels = {
+            node.id: normal(node.label)
+            for node in nodes
+            if isinstance(node, ObjectNode) and spoken & {part for name in _names(node.label) for part in name.split()}
+        }
+
+    def mistake(self, snapshot: Snapshot, *, at_last: bool = False) -> Failure | None:
+        """The first thing that surely is of another kind than the request called it; ``at_last``, when everything is to
+        be said to be done: that is more likely of another kind.
+        """
+        for object_id, called in self._labels.items():
+            node = snapshot.get(object_id)
+            if not isinstance(node, ObjectNode) or normal(node.label) in _names(called):
+                continue
+            chances = {normal(label): probability for label, probability in node.label_distribution}
+            old, new = chances.get(called, 0.0), chances.get(normal(node.label), 0.0)
+            sure = old < RULED_OUT and new > SURE
+            if sure or at_last:
+                seen = "Seen from near," if sure else "I cannot tell for sure, but"
+                message = f"{seen} what I took for {article(called)} is {article(normal(node.label))}."
+                evidence = Evidence(
+                    nodes=(object_id,),
+                    revision=snapshot.revision,
+                    observation=f"{node.label}: {new:.2f}, {called}: {old:.2f}",
+                )
+                code = FailureCode.OBJECT_GONE if sure else FailureCode.NOT_CONFIRMED
+                return Failure(code=code, message=message, evidence=evidence)
+        return None
+
+
+def _names(label: str) -> frozenset[str]:
+    """A label and the other words for it."""
+    return words_for(normal(label)) | {normal(label)}

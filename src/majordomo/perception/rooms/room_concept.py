@@ -23,6 +23,7 @@ from majordomo.perception.lifecycle import LifeCycle, Verdict
 from majordomo.perception.localization.landmarks import RoomModel, room_model
 from majordomo.perception.localization.planar import Pose2
 from majordomo.perception.localization.robot_pose import RobotPose, robot_pose_at
+from majordomo.perception.range_noise import calmed
 from majordomo.perception.rooms.adjustment import LocalAdjustment
 from majordomo.perception.rooms.insertion import insert_room, propose_visit, withdraw
 from majordomo.perception.rooms.instance import MeasuredRoom
@@ -31,7 +32,7 @@ from majordomo.perception.rooms.revision import let_stand, missing_walls, revise
 from majordomo.perception.rooms.shifted_walls import shift_walls, wall_stds
 from majordomo.perception.rooms.slice import OutlineScan, OutlineSlicer
 from majordomo.perception.rooms.survey import Survey, SurveySettings
-from majordomo.perception.sensing import SensorBuffer, scan_points_base
+from majordomo.perception.sensing import SensorBuffer, scan_points_between
 from majordomo.scene_graph.edges import HasIntentionEdge, IntentionStatus
 from majordomo.scene_graph.identifiers import next_id
 from majordomo.scene_graph.memory import WorkingMemory
@@ -49,6 +50,8 @@ _RETURNS = 4
 _WELL_INSIDE_M = 0.35
 _REVISIONS = 2
 _WORTH_WRITING = 0.05
+_USUAL_NOISE_M = 0.015
+_STRANDED_S = 4.0
 _MOVED_STD_M = 0.01
 
 
@@ -75,6 +78,7 @@ class RoomConcept:
         self._scan_stamp_s = -np.inf
         self._stamp_s = 0.0
         self._arrived_s: dict[float, float] = {}
+        self._stranded_s = np.inf
         self._returns: dict[str, int] = {}
         self._fitness: dict[str, OutlineFitness] = {}
         self._adjustment = LocalAdjustment()
@@ -203,8 +207,17 @@ class RoomConcept:
     # Steps of the initialization.
 
     def _begin(self, snapshot: Snapshot, pose: RobotPose) -> Verdict:
-        """Propose to visit what looks like a room."""
-        return self._propose(pose, next_id(snapshot, "room")) or Verdict.BUSY
+        """Propose to visit what looks like a room; where for a while no way leads on, take it as it looks from here."""
+        begun = self._propose(pose, next_id(snapshot, "room"))
+        if begun is not None:
+            self._stranded_s = np.inf
+            return begun
+        self._stranded_s = min(self._stranded_s, self._stamp_s)
+        if self._stamp_s < self._stranded_s + _STRANDED_S:
+            return Verdict.BUSY
+        self._stranded_s = np.inf
+        logger.info("no way leads further into what looks like a room")
+        return self._conclude(snapshot, pose)
 
     def _arrived(self, snapshot: Snapshot, pose: RobotPose, intention: HasIntentionEdge) -> Verdict:
         """At a vantage point, or unable to get there: take the room as it is now, or look from elsewhere."""
@@ -314,10 +327,11 @@ class RoomConcept:
 
     def _obstacles_base(self) -> Array:
         """(N, 2) returns at the height of the robot's body."""
-        if self._buffer.scan is None:
+        scan = self._buffer.scan
+        if scan is None:
             return np.empty((0, 2))
-        points = scan_points_base(self._buffer.scan)
-        return np.asarray(points[(points[:, 2] > 0.10) & (points[:, 2] < 1.7), :2])
+        ranges_m = calmed(scan.ranges_m.astype(np.float64), _USUAL_NOISE_M).astype(np.float32)
+        return scan_points_between(replace(scan, ranges_m=ranges_m), 0.10, 1.7)[:, :2]
 
 
 def own_intention(snapshot: Snapshot) -> HasIntentionEdge | None:

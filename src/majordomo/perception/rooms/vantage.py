@@ -7,7 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import distance_transform_edt, label
+from scipy.ndimage import label
+from scipy.spatial import cKDTree
 
 from majordomo.perception.localization.landmarks import distance_to_outline, inside, points_inside
 from majordomo.perception.rooms.outline import Outline
@@ -18,7 +19,7 @@ _CLEARANCE_M = 0.45
 _STEP_BACK_M = 0.6
 _VISITED_M = 0.5
 _CELL_M = 0.05
-_BODY_M = 0.3
+_BODY_M = 0.29
 _ESCAPE_M = 0.45
 
 
@@ -119,15 +120,11 @@ class _Reach:
         """
         low, high = np.minimum(polygon.min(axis=0), robot), np.maximum(polygon.max(axis=0), robot)
         count = np.maximum(np.ceil((high - low) / _CELL_M).astype(np.int64), 1) + 1
-        drawn = np.zeros(tuple(count), dtype=bool)
-        index = np.rint((obstacles - low) / _CELL_M).astype(np.int64)
-        index = index[((index >= 0) & (index < count)).all(axis=1)]
-        drawn[tuple(index.T)] = True
-        for start, end in zip(polygon, np.roll(polygon, -1, axis=0), strict=True):
-            steps = np.linspace(start, end, 2 + int(np.linalg.norm(end - start) / (0.5 * _CELL_M)))
-            drawn[tuple(np.rint((steps - low) / _CELL_M).astype(np.int64).T)] = True
-        wide = distance_transform_edt(~drawn) * _CELL_M > _BODY_M
-        cells = low + np.moveaxis(np.indices(wide.shape), 0, -1) * _CELL_M
+        sides = zip(polygon, np.roll(polygon, -1, axis=0), strict=True)
+        walls = [np.linspace(a, b, 2 + int(np.linalg.norm(b - a) / (0.5 * _CELL_M))) for a, b in sides]
+        cells = low + np.moveaxis(np.indices(tuple(count)), 0, -1) * _CELL_M
+        nearest_m, _ = cKDTree(np.concatenate([*walls, obstacles])).query(cells, distance_upper_bound=_BODY_M)
+        wide = np.isinf(nearest_m)
         wide |= np.linalg.norm(cells - robot, axis=-1) < _ESCAPE_M
         regions, _ = label(wide, np.ones((3, 3)))
         here = tuple(np.rint((robot - low) / _CELL_M).astype(np.int64).tolist())

@@ -161,6 +161,8 @@ def test_rooms_are_looked_around_then_supports_and_only_those_not_seen_from_near
     finish(story, "room_1", IntentionStatus.DONE)
     graph = story.run(10)
     assert "desk_1" in {e.target for e in graph.intentions(IntentionStatus.PROPOSED)}
+    story.room.eye, story.room.target = (2.0, 0.4), (2.0, 1.5, 0.75)
+    story.run(1)
     finish(story, "desk_1", IntentionStatus.DONE)
     graph = story.run(1)
     assert graph.object("desk_1").inspected_s == story.now_s
@@ -178,6 +180,23 @@ def test_a_support_seen_from_near_counts_as_inspected():
     assert graph.object("table_1").inspected_s is not None
 
 
+def test_a_support_that_a_look_did_not_show_is_looked_at_once_more_from_the_other_side():
+    story = Story([TABLE], eye=(-2.6, 0.0))
+    story.run(8)
+    finish(story, "room_1", IntentionStatus.DONE)
+    story.run(2)
+    finish(story, "table_1", IntentionStatus.DONE)
+    graph = story.run(1)
+    (again,) = graph.intentions(IntentionStatus.PROPOSED)
+    assert again.target == "table_1"
+    assert abs(again.side_rad) < 0.8, "not from where one looked"
+    assert graph.object("table_1").inspected_s is None
+    finish(story, "table_1", IntentionStatus.DONE)
+    graph = story.run(1)
+    assert graph.object("table_1").inspected_s == story.now_s
+    assert not graph.intentions(IntentionStatus.PROPOSED)
+
+
 def test_a_look_that_fails_twice_is_given_up_with_its_reason():
     story = Story([TABLE])
     story.run(2)
@@ -187,7 +206,7 @@ def test_a_look_that_fails_twice_is_given_up_with_its_reason():
     (edge,) = [e for e in graph.intentions() if e.target == "room_1"]
     assert edge.status is IntentionStatus.FAILED
     assert "way blocked" in edge.reason
-    assert story.run(3).intentions() == graph.intentions()
+    assert [e for e in story.run(3).intentions() if e.target == "room_1"] == [edge]
 
 
 def finish(story, target, status, reason=""):

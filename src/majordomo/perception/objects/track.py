@@ -24,6 +24,9 @@ from majordomo.scene_graph.se3 import SE3
 
 Array = NDArray[np.float64]
 _SIDE_RAD = math.pi / 4.0
+_PART_TRUST = 0.25
+"""What a view of a part counts, cut by the border of the picture or by what stands before it: networks name parts badly.
+"""
 _STORED_FRAMES = 5
 """A stored label counts as much as so many frames that say the same."""
 
@@ -105,7 +108,8 @@ class Track:
 
     def observe(self, detection: Detection, view: View, T_room_view: SE3) -> None:
         """Take in a detection that is this thing."""
-        self.label.update(detection.distribution, detection.weight, self._side_of(detection, view, T_room_view))
+        side, trust = self._side_of(detection, view, T_room_view), 1.0 if detection.shape.complete else _PART_TRUST
+        self.label.update(detection.distribution, detection.weight, (*side, trust), trust=trust)
         self.color.update(detection.colors, detection.weight)
         self.hits += 1
         self.misses = 0

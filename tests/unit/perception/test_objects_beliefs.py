@@ -231,8 +231,15 @@ def test_what_only_ever_shows_in_part_gets_a_name_too():
 
 def test_a_look_alike_in_an_unexplored_place_is_new_and_in_an_inspected_place_is_the_old_one():
     known = thing(1, seen=(0.0, 10.0))
-    assert moved(thing(2, seen=(100.0, 101.0)), [known], place_known=False) is None
-    assert moved(thing(2, seen=(100.0, 101.0)), [known], place_known=True) is known
+    assert moved(thing(2, seen=(600.0, 601.0)), [known], place_known=False) is None
+    assert moved(thing(2, seen=(600.0, 601.0)), [known], place_known=True) is known
+
+
+def test_what_was_seen_at_its_place_a_moment_ago_is_not_what_is_seen_at_another():
+    known = thing(1, seen=(0.0, 10.0))
+    assert moved(thing(2, seen=(60.0, 61.0)), [known], place_known=True) is None
+    known.state = ObjectState.MISSING
+    assert moved(thing(2, seen=(60.0, 61.0)), [known], place_known=True) is known
 
 
 def test_one_of_several_present_look_alikes_is_never_taken_for_the_moved_one():

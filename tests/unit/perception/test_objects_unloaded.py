@@ -52,7 +52,7 @@ def test_what_is_in_an_unloaded_room_stays_there_untouched(story):
 
 
 def test_a_thing_brought_from_an_unloaded_room_keeps_its_name(story):
-    story.wait(120.0)
+    story.wait(600.0)
     story.room.solids = [TABLE, BLUE_BOTTLE]
     graph = story.run(12)
     assert [node.id for node in graph.of_type(ObjectNode)] == ["bottle_1", "table_1"]

@@ -48,7 +48,8 @@ class LabelBelief:
     Frames are not independent: from one side the same mistake repeats. What a thing looked like from one ``view`` is
     therefore the mean over its newest frames, and counts as no more than ``evidence_of_view`` independent ones, however
     long the robot looks; a view that shows a part only, as less. The newest ``views`` count, those of parts only where
-    no whole ones take their place: a belief can be turned, but not by one view alone when others agree. The network is assumed to be wrong altogether with probability ``noise``.
+    no whole ones take their place: a belief can be turned, but not by one view alone when others agree. The network is
+    assumed to be wrong altogether with probability ``noise``.
 
     What the network does not know it gives no name to speak of: no class is much likelier than the others. That a thing
     has none of the known names is therefore as likely as ``nameless`` in every frame, and a class that gets more than

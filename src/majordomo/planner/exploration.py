@@ -25,7 +25,7 @@ def explore(intention: HasIntentionEdge, context: RobotContext) -> list[Action]:
         case IntentionAction.VISIT:
             return visit(context, target, intention.standoff_m)
         case IntentionAction.LOOK:
-            return look_at(target, context, intention.standoff_m)
+            return look_at(target, context, intention.standoff_m, intention.side_rad)
         case IntentionAction.CROSS if isinstance(snapshot.node(target), DoorNode):
             return cross(context, target)
         case IntentionAction.CROSS:
@@ -34,11 +34,13 @@ def explore(intention: HasIntentionEdge, context: RobotContext) -> list[Action]:
             return [_refusal(context, target, "a task's actions come from its mission.")]
 
 
-def look_at(node_id: str, context: RobotContext, standoff_m: float = 0.0) -> list[Action]:
+def look_at(
+    node_id: str, context: RobotContext, standoff_m: float = 0.0, side_rad: float | None = None
+) -> list[Action]:
     """Actions that approach a node, through doors if need be, and look at it; a room is looked around in."""
     if node_id not in context.snapshot:
         return [_refusal(context, node_id, f"{node_id} is no longer in the scene graph.")]
-    return look(context, node_id, standoff_m or LOOK_STANDOFF_M)
+    return look(context, node_id, standoff_m or LOOK_STANDOFF_M, side_rad)
 
 
 def _refusal(context: RobotContext, node_id: str, message: str) -> Action:

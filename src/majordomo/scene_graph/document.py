@@ -180,6 +180,7 @@ class EdgeRecord(_Record):
     status: IntentionStatus = IntentionStatus.PROPOSED
     priority: int = 0
     standoff_m: float = 0.0
+    side_rad: float | None = None
     proposed_s: float = 0.0
     reason: str = ""
     needs: tuple[str, ...] = ()

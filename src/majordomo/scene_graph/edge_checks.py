@@ -93,7 +93,7 @@ def edge_value_violations(key: EdgeKey, edge: Edge) -> Iterator[Violation]:
         case MatchEdge():
             numbers = (edge.walked_std_m, *(edge.walked or ()))
         case HasIntentionEdge():
-            numbers = (edge.standoff_m, edge.proposed_s, edge.priority)
+            numbers = (edge.standoff_m, edge.side_rad or 0.0, edge.proposed_s, edge.priority)
         case _:
             numbers = ()
     if not all(map(math.isfinite, numbers)):

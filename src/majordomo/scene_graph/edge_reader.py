@@ -148,6 +148,7 @@ def _intention(record: EdgeRecord) -> HasIntentionEdge:
         status=record.status,
         priority=record.priority,
         standoff_m=record.standoff_m,
+        side_rad=record.side_rad,
         proposed_s=record.proposed_s,
         reason=record.reason,
         needs=record.needs,

@@ -182,8 +182,9 @@ class HasEdge:
 class HasIntentionEdge:
     """An agent or task asks for the robot (source) to act on a node (target).
 
-    ``standoff_m`` is how far from the target to stop (visit, look). ``reason`` says why it ended. ``needs`` names what
-    must be known for it besides the target: memory keeps the rooms of these nodes, and those on the way, at hand.
+    ``standoff_m`` is how far from the target to stop (visit, look); ``side_rad``, where given, from which side, as a
+    direction in the target's frame. ``reason`` says why it ended. ``needs`` names what must be known for it besides the
+    target: memory keeps the rooms of these nodes, and those on the way, at hand.
     """
 
     source: str
@@ -193,6 +194,7 @@ class HasIntentionEdge:
     status: IntentionStatus = IntentionStatus.PROPOSED
     priority: int
     standoff_m: float = 0.0
+    side_rad: float | None = None
     proposed_s: float = 0.0
     reason: str = ""
     needs: tuple[str, ...] = ()

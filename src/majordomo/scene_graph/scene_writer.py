@@ -255,6 +255,7 @@ def _intention_details(edge: HasIntentionEdge) -> Iterator[tuple[str, object]]:
     yield "status", edge.status.value
     yield "priority", int(edge.priority)
     yield "standoff_m", edge.standoff_m
+    yield "side_rad", edge.side_rad
     yield "proposed_s", edge.proposed_s
     yield "reason", edge.reason
     yield "needs", list(edge.needs)

@@ -5,19 +5,19 @@ from __future__ import annotations
 from math import atan2, cos, radians, sin
 
 from majordomo.scene_graph.doors import physical_doors
-from majordomo.scene_graph.nodes import ROBOT_ID, DoorNode, DoorState, RoomNode, RoomStatus
+from majordomo.scene_graph.nodes import ROBOT_ID, DoorNode, DoorState, ObjectNode, RoomNode, RoomStatus
 from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.scene_graph.topology import Path, Topology
 from majordomo.skills.action import Action, Refusal, RobotContext
 from majordomo.skills.actions.arm import Stow
 from majordomo.skills.actions.doors import ApproachDoor, CrossDoor, EnterRoom
 from majordomo.skills.actions.driving import DriveTo
-from majordomo.skills.actions.looking import LookAt, SweepCamera
+from majordomo.skills.actions.looking import LookAt, SweepCamera, gaze_points
 from majordomo.skills.anchor import Anchor
 from majordomo.skills.failures import Evidence, Failure, FailureCode
-from majordomo.skills.navigation.goals import around, at_poses, freest, near_origin
+from majordomo.skills.navigation.goals import around, at_poses, freest, near_origin, overlooking
 
-LOOK_DWELL_S = 1.5
+LOOK_DWELL_S = 1.2
 LEAST_STANDOFF_M = 0.42
 """Nearest that the base's axis comes to a footprint: the planning radius and what drawing on the grid takes."""
 
@@ -52,12 +52,23 @@ def cross(context: RobotContext, door_id: str) -> list[Action]:
     return [Stow(context), *travel(context, own_room), ApproachDoor(context, door_id), CrossDoor(context, door_id)]
 
 
-def look(context: RobotContext, node_id: str, standoff_m: float = 0.8) -> list[Action]:
-    """Actions that look at a node from ``standoff_m``; a room is looked around in from its origin."""
-    actions = visit(context, node_id, standoff_m)
-    if isinstance(context.building.node(node_id), RoomNode):
-        return [*actions, SweepCamera(context)]
-    return [*actions, LookAt(context, node_id, Anchor(node_id), dwell_s=LOOK_DWELL_S)]
+def look(context: RobotContext, node_id: str, standoff_m: float = 0.8, side_rad: float | None = None) -> list[Action]:
+    """Actions that look at a node from ``standoff_m``: around a room from its origin, over the whole of an object from
+    where all of it is near, and from the side ``side_rad`` (a direction in its frame) if that can be.
+    """
+    node = context.building.node(node_id)
+    if isinstance(node, RoomNode):
+        return [*visit(context, node_id), SweepCamera(context)]
+    if not isinstance(node, ObjectNode):
+        return [*visit(context, node_id, standoff_m), LookAt(context, node_id, Anchor(node_id), dwell_s=LOOK_DWELL_S)]
+    where = overlooking(context, node_id, max(standoff_m, LEAST_STANDOFF_M), side_rad=side_rad)
+    points = gaze_points(node.size_m, context.geometry.camera_height_m)
+    return [
+        Stow(context),
+        *travel(context, context.building.room_of(node_id)),
+        DriveTo(context, node_id, where),
+        *(LookAt(context, node_id, Anchor(node_id, point), dwell_s=LOOK_DWELL_S) for point in points),
+    ]
 
 
 def look_from_the_middle(context: RobotContext) -> list[Action]:

@@ -205,10 +205,41 @@ def test_the_longer_unseen_the_likelier_it_has_moved():
     assert chances[-1] > 0.99
 
 
+def test_parts_seen_from_many_sides_do_not_outvote_the_whole():
+    label = LabelBelief()
+    for side in range(2):
+        for _ in range(5):
+            label.update((("cabinet", 0.8), ("desk", 0.1)), view=(side, "whole"))
+    for side in range(4):
+        for _ in range(10):
+            label.update((("tv", 0.5), ("cabinet", 0.2)), 0.6, view=(side, "part"), trust=0.25)
+    assert label.best == "cabinet"
+    for side in range(2, 5):
+        for _ in range(5):
+            label.update((("tv", 0.9),), view=(side, "whole"))
+    assert label.best == "tv", "whole views from three other sides turn it"
+
+
+def test_what_only_ever_shows_in_part_gets_a_name_too():
+    label = LabelBelief()
+    for side in range(3):
+        for _ in range(10):
+            label.update((("cabinet", 0.7), ("desk", 0.1)), 0.6, view=side, trust=0.25)
+    assert label.best == "cabinet"
+    assert label.confidence > 0.6
+
+
 def test_a_look_alike_in_an_unexplored_place_is_new_and_in_an_inspected_place_is_the_old_one():
     known = thing(1, seen=(0.0, 10.0))
-    assert moved(thing(2, seen=(100.0, 101.0)), [known], place_known=False) is None
-    assert moved(thing(2, seen=(100.0, 101.0)), [known], place_known=True) is known
+    assert moved(thing(2, seen=(600.0, 601.0)), [known], place_known=False) is None
+    assert moved(thing(2, seen=(600.0, 601.0)), [known], place_known=True) is known
+
+
+def test_what_was_seen_at_its_place_a_moment_ago_is_not_what_is_seen_at_another():
+    known = thing(1, seen=(0.0, 10.0))
+    assert moved(thing(2, seen=(60.0, 61.0)), [known], place_known=True) is None
+    known.state = ObjectState.MISSING
+    assert moved(thing(2, seen=(60.0, 61.0)), [known], place_known=True) is known
 
 
 def test_one_of_several_present_look_alikes_is_never_taken_for_the_moved_one():

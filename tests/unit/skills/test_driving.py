@@ -198,15 +198,30 @@ async def test_a_sweep_stands_still_in_overlapping_views_all_around(flat):
     assert steps.max() < np.deg2rad(60)
 
 
-async def test_a_sweep_sees_what_is_higher_than_the_camera(flat):
+async def rows_of_a_sweep(flat):
+    """Tilts, lowest first, at which a sweep holds the camera still."""
     rehearsal = Rehearsal(memory=flat().memory)
     context = await rehearsal.prepare()
-    tilts = set()
-    rehearsal.observe = lambda rehearsal: tilts.add(round(rehearsal.body.camera[1], 2))
+    held = {}
+
+    def watch(rehearsal):
+        if rehearsal.body.camera == rehearsal.body._camera:
+            tilt = round(rehearsal.body.camera[1], 2)
+            held[tilt] = held.get(tilt, 0.0) + rehearsal.dt_s
+
+    rehearsal.observe = watch
     assert await rehearsal.run([SweepCamera(context)]) is None
-    half_rad = np.arctan(np.tan(np.deg2rad(30)) * 0.75)
-    assert max(tilts) + half_rad > atan2(2.1 - 1.4, 1.6), "the top of a wardrobe, 1.6 m away"
-    assert max(tilts) - min(tilts) < 2 * half_rad, "without a gap between the rows"
+    return sorted(tilt for tilt, seconds in held.items() if seconds > 2.0)
+
+
+HALF_HEIGHT_RAD = np.arctan(np.tan(np.deg2rad(30)) * 0.75)
+
+
+async def test_a_sweep_sees_from_before_the_robots_feet_to_higher_than_the_camera(flat):
+    rows = await rows_of_a_sweep(flat)
+    assert rows[-1] + HALF_HEIGHT_RAD > atan2(2.1 - 1.4, 1.6), "the top of a wardrobe, 1.6 m away"
+    assert rows[0] - HALF_HEIGHT_RAD < -atan2(1.4, 0.5), "what lies on the floor half a meter away"
+    assert np.diff(rows).max() < 2 * HALF_HEIGHT_RAD, "without a gap between the rows"
 
 
 async def test_a_looking_journey_ends_in_the_room_center_having_looked_around(flat):

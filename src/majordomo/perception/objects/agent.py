@@ -52,7 +52,8 @@ class ObjectMemorySettings:
     """Settings of every stage.
 
     ``silent_s``: age of the newest frame from which on the camera counts as silent. ``wall_share``: of the points of
-    furniture; where so many are of walls, it is one.
+    furniture; where so many are of walls, it is one. ``sure_rad``: standard deviation of the robot's heading from which
+    on nothing is placed by it.
     """
 
     period_s: float = 0.2
@@ -61,6 +62,7 @@ class ObjectMemorySettings:
     depth_share_min: float = 0.05
     in_hand_m: float = 0.12
     wall_share: float = 0.85
+    sure_rad: float = 0.008
     detection: DetectionSettings = field(default_factory=DetectionSettings)
     tracker: TrackerSettings = field(default_factory=TrackerSettings)
     people: PeopleSettings = field(default_factory=PeopleSettings)
@@ -110,7 +112,9 @@ class ObjectMemory:
         frame = self._new_frame(stamp_s)
         scene = await self._infer(frame) if frame is not None else None
         snapshot = self._memory.snapshot()
-        sight = view_of(frame, snapshot, self._buffer) if frame is not None and scene is not None else None
+        sight: View | None = None
+        if frame is not None and scene is not None:
+            sight = view_of(frame, snapshot, self._buffer, sure_rad=self._settings.sure_rad)
         if frame is not None and scene is not None and sight is not None:
             await asyncio.to_thread(self._see, frame, scene, sight, snapshot, placed, stamp_s)
         elif placed and snapshot.current_room is not None:

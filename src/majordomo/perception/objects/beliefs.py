@@ -19,7 +19,8 @@ _FIRST = 0.6
 class _Look:
     """What the frames of one view say: sums of log likelihoods, of labels not heard under None."""
 
-    def __init__(self) -> None:
+    def __init__(self, trust: float) -> None:
+        self.trust = trust
         self.weight = 0.0
         self.log: dict[str | None, float] = {None: 0.0}
 
@@ -35,8 +36,10 @@ class _Look:
         self.weight = keep * self.weight + weight
 
     def evidence(self, most: float) -> float:
-        """As how many independent frames they count: the first as ``_FIRST``, all of them together as ``most``."""
-        return most * float(-np.expm1(-_FIRST * self.weight / most))
+        """As how many independent frames they count: the first as ``_FIRST``, all of them together as ``most``; less
+        where the view is not trusted.
+        """
+        return self.trust * most * float(-np.expm1(-_FIRST * self.weight / most))
 
 
 class LabelBelief:
@@ -44,8 +47,9 @@ class LabelBelief:
 
     Frames are not independent: from one side the same mistake repeats. What a thing looked like from one ``view`` is
     therefore the mean over its newest frames, and counts as no more than ``evidence_of_view`` independent ones, however
-    long the robot looks. The newest ``views`` count: a belief can be turned, but not by one view alone when others
-    agree. The network is assumed to be wrong altogether with probability ``noise``.
+    long the robot looks; a view that shows a part only, as less. The newest ``views`` count, those of parts only where
+    no whole ones take their place: a belief can be turned, but not by one view alone when others agree. The network is
+    assumed to be wrong altogether with probability ``noise``.
 
     What the network does not know it gives no name to speak of: no class is much likelier than the others. That a thing
     has none of the known names is therefore as likely as ``nameless`` in every frame, and a class that gets more than
@@ -74,15 +78,19 @@ class LabelBelief:
         self._taught = False
         self.distribution: LabelDistribution = ()
 
-    def update(self, distribution: LabelDistribution, weight: float = 1.0, view: Hashable = None) -> None:
-        """Multiply in one frame; ``weight`` in (0, 1] says how good it was, ``view`` from where it was taken."""
+    def update(
+        self, distribution: LabelDistribution, weight: float = 1.0, view: Hashable = None, *, trust: float = 1.0
+    ) -> None:
+        """Multiply in one frame; ``weight`` in (0, 1] says how good it was, ``view`` from where it was taken, ``trust``
+        in (0, 1] as how much all frames of that view count at most, of what a good view counts.
+        """
         if self._taught:
             return
-        look = self._looks.pop(view, None) or _Look()
+        look = self._looks.pop(view, None) or _Look(trust)
         look.add(self._likelihood(distribution), weight, self._noise)
         self._looks[view] = look
         while len(self._looks) > self._views:
-            del self._looks[next(iter(self._looks))]
+            del self._looks[min(self._looks, key=lambda key: self._looks[key].trust)]
         self.distribution = self._ranked(self._fused())
 
     def _likelihood(self, distribution: LabelDistribution) -> dict[str, float]:

@@ -2,12 +2,13 @@
 
 Decided once, when the sighting is confirmed, by the odds
 
-    P(old one has left its place) x likeness
-    ----------------------------------------
+    P(old one has left its place, and is here) x likeness
+    -----------------------------------------------------
     P(a look-alike nobody has seen before is here)
 
 The old one has left with ``1 - existence exp(-age / tau)``: certain when it is missing, growing with the time since
-it was last seen. A look-alike is unlikely where one has looked before and seen nothing (``look_alike_known``), and
+it was last seen. What is missing must be somewhere, and this may well be it; what may merely have left may be anywhere
+(``here``). A look-alike is unlikely where one has looked before and seen nothing (``look_alike_known``), and
 quite possible in a place seen for the first time (``look_alike_new``). Two that were seen at the same time are two.
 With several candidates the best wins; several *present* look-alikes make neither of them unique, and then only a
 missing one is taken for the moved one. Of several missing ones it is the nearest, if one was missed nearby: what falls
@@ -30,12 +31,12 @@ from majordomo.scene_graph.nodes import ObjectState, Point3
 
 @dataclass(frozen=True, kw_only=True)
 class IdentitySettings:
-    """``tau_s``: mean time after which people have moved a thing. ``odds``: needed to say it is the same one.
-
-    ``near_m``: how far a thing goes that falls over or rolls.
+    """``tau_s``: mean time after which people have moved a thing. ``here``: chance that they put it where a look-alike
+    is seen. ``odds``: needed to say it is the same one. ``near_m``: how far a thing goes that falls over or rolls.
     """
 
     tau_s: float = 900.0
+    here: float = 0.15
     look_alike_known: float = 0.02
     look_alike_new: float = 0.25
     odds: float = 2.0
@@ -77,7 +78,9 @@ def same_thing_moved(
     else:
         value, best = max(alike, key=lambda pair: (pair[0], pair[1].last_seen_s, -pair[1].number))
     look_alike = settings.look_alike_known if place_known else settings.look_alike_new
-    return best if departed(best, sighting.first_seen_s, settings) * value / look_alike >= settings.odds else None
+    here = 1.0 if best.state is ObjectState.MISSING else settings.here
+    left = departed(best, sighting.first_seen_s, settings)
+    return best if left * here * value / look_alike >= settings.odds else None
 
 
 def departed(track: Track, stamp_s: float, settings: IdentitySettings) -> float:

@@ -1,18 +1,17 @@
 """Where the robot still has to look: rooms from their middle, supports from near (contracts, pattern 7).
 
-Few stops: a support whose top was seen well enough while the robot did something else counts as inspected.
+Few stops: a support that was seen well enough while the robot did something else counts as inspected. One of which its
+own look shows too little, such as a chair from behind, is looked at once more from the side of the rest.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
-import numpy as np
-from numpy.typing import NDArray
-
+from majordomo.perception.objects.coverage import Coverage, SeenSurface
 from majordomo.perception.objects.membership import Surroundings
-from majordomo.perception.objects.projection import View, project
+from majordomo.perception.objects.projection import View
 from majordomo.perception.objects.surface import Box
 from majordomo.perception.objects.track import Track
 from majordomo.perception.vocabulary import category_of
@@ -21,33 +20,35 @@ from majordomo.scene_graph.edits import Edit, PutEdge, RemoveEdge
 from majordomo.scene_graph.nodes import ROBOT_ID, ObjectNode, ObjectState, RoomNode, RoomStatus
 from majordomo.scene_graph.snapshot import Snapshot
 
-Array = NDArray[np.float64]
 AGENT = "objects"
 _GIVEN_UP = "given up"
+_ABOVE_M = 0.05
+"""So far above a top the camera must be to see what is on it."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class InspectionSettings:
-    """``near_m``: from so near the smallest things get enough pixels. ``covered``: share of the top that must have
-    been seen so.
+    """``pixels_per_m2``: with so many pixels by its area something flat is recognized: a remote control has a hundred.
+    ``covered``: share of a support that must have been seen so in passing, in so many ``frames``; after a look of its
+    own of which ``enough`` came, none follows from another side.
 
-    ``standoff_m`` is what stays between the robot's axis and the edge of a support; ``settled_hits``: sightings
-    before a support's size is trusted.
+    ``standoff_m`` is what stays between the robot's axis and the edge of a support, ``over_rim_m`` of one that things
+    are put into; ``settled_hits``: sightings before a support's size is trusted.
     """
 
-    near_m: float = 1.9
+    pixels_per_m2: float = 12500.0
     covered: float = 0.85
+    enough: float = 0.7
     frames: int = 2
     standoff_m: float = 0.6
-    standoff_limits_m: tuple[float, float] = (0.9, 1.6)
+    over_rim_m: float = 0.45
     settled_hits: int = 5
     tries: int = 2
     turning_limit_radps: float = 0.6
 
     def standoff_from(self, node: ObjectNode) -> float:
-        """Meters from the middle of a support: its half short side and an arm's length."""
-        low_m, high_m = self.standoff_limits_m
-        return float(np.clip(self.standoff_m + min(node.size_m[:2]) / 2.0, low_m, high_m))
+        """Meters from the edge of a support: over the rim of a container one looks from nearer."""
+        return self.over_rim_m if category_of(node.label, node.size_m).container else self.standoff_m
 
 
 class Inspection:
@@ -60,13 +61,14 @@ class Inspection:
     def __init__(self, settings: InspectionSettings) -> None:
         self._settings = settings
         self.inspected: dict[str, float] = {}
-        self._coverage: dict[str, NDArray[np.int64]] = {}
+        self._coverage: dict[str, Coverage] = {}
         self._failures: dict[str, int] = {}
+        self._sides: dict[str, float] = {}
 
     def looked(self, snapshot: Snapshot, stamp_s: float) -> dict[str, float]:
         """When each support and room was first looked at from near."""
         for edge in snapshot.intentions(IntentionStatus.DONE):
-            if edge.agent == AGENT:
+            if edge.agent == AGENT and self._suffices(edge):
                 self.inspected.setdefault(edge.target, stamp_s)
         stamps = {node.id: node.inspected_s for node in snapshot.of_type(ObjectNode) if node.inspected_s is not None}
         return {**self.inspected, **stamps}
@@ -74,25 +76,39 @@ class Inspection:
     def watch(
         self, tracks: Sequence[Track], view: View, surroundings: Surroundings, turning_radps: float, snapshot: Snapshot
     ) -> None:
-        """Count what this view shows, in passing, of supports not inspected yet."""
+        """Count what this view shows, in passing, of supports not inspected yet; not of those higher than the camera,
+        which show themselves only to a look of their own.
+        """
         if turning_radps > self._settings.turning_limit_radps:
             return
+        seen: SeenSurface | None = None
         for track in tracks:
             node = snapshot.get(track.node_id) if track.node_id is not None else None
             if not isinstance(node, ObjectNode) or not _worth_a_look(node) or node.id in self.inspected:
                 continue
-            if track.room in surroundings.T_here_room and self._covered(node.id, track, view, surroundings):
+            if track.room not in surroundings.T_here_room or node.size_m[2] > view.T_room_camera.z_m - _ABOVE_M:
+                continue
+            seen = seen or SeenSurface.of(view)
+            if self._covered(node.id, track, seen, surroundings):
                 self.inspected[node.id] = view.stamp_s
 
-    def _covered(self, node_id: str, track: Track, view: View, surroundings: Surroundings) -> bool:
-        """Whether all of the support's top has now been seen from near."""
+    def _covered(self, node_id: str, track: Track, seen: SeenSurface, surroundings: Surroundings) -> bool:
+        """Whether all of the support has now been seen from near."""
         T = surroundings.T_here_room[track.room]
         box = Box(T.apply(track.position), track.box.size_m, track.box.yaw_rad + T.yaw_rad)
-        grid = _top_grid(box)
-        seen = self._coverage.setdefault(node_id, np.zeros(len(grid), dtype=np.int64))
-        seen += _visible_from_near(grid, view, self._settings.near_m)
-        share = float(np.mean(seen >= self._settings.frames))
-        return share >= self._settings.covered and track.hits >= self._settings.settled_hits
+        settings = self._settings
+        coverage = self._coverage.get(node_id)
+        if coverage is None:
+            coverage = Coverage(pixels_per_m2=settings.pixels_per_m2, frames=settings.frames)
+            self._coverage[node_id] = coverage
+        coverage.add(box, seen)
+        self._sides[node_id] = coverage.hidden_side_rad(box)
+        return coverage.share >= settings.covered and track.hits >= settings.settled_hits
+
+    def _suffices(self, edge: HasIntentionEdge) -> bool:
+        """Whether a look that was had is the last one at its target: it showed enough, or came from a chosen side."""
+        coverage = self._coverage.get(edge.target)
+        return coverage is None or edge.side_rad is not None or coverage.share >= self._settings.enough
 
     def edits(self, snapshot: Snapshot, stamp_s: float) -> list[Edit]:
         """Looks to propose, propose again or take back; a look at a support that is done leaves its stamp in
@@ -105,8 +121,7 @@ class Inspection:
         for target, edge in ours.items():
             node = snapshot.get(target)
             if isinstance(node, ObjectNode) and edge.status is IntentionStatus.DONE:
-                self.inspected[target] = stamp_s
-                edits.append(RemoveEdge(edge.key))
+                edits.append(self._after(edge, stamp_s))
             elif edge.status is IntentionStatus.FAILED:
                 edits += [PutEdge(again) for again in self._again(edge, stamp_s)]
             elif isinstance(node, ObjectNode) and edge.status is IntentionStatus.PROPOSED and not _worth_a_look(node):
@@ -119,13 +134,20 @@ class Inspection:
         edits += [PutEdge(_look(node.id, self._settings.standoff_from(node), stamp_s)) for node in supports]
         return edits
 
+    def _after(self, edge: HasIntentionEdge, stamp_s: float) -> Edit:
+        """What follows a look at a support: one from the side of what it did not show, or nothing."""
+        if self._suffices(edge):
+            self.inspected[edge.target] = stamp_s
+            return RemoveEdge(edge.key)
+        return PutEdge(replace(_look(edge.target, edge.standoff_m, stamp_s), side_rad=self._sides[edge.target]))
+
     def _again(self, edge: HasIntentionEdge, stamp_s: float) -> list[HasIntentionEdge]:
         """Propose a failed look once more; then leave it, with its reason, as given up."""
         if edge.reason.startswith("given up") or (edge.target in self._failures and self._failures[edge.target] < 0):
             return []
         self._failures[edge.target] = self._failures.get(edge.target, 0) + 1
         if self._failures[edge.target] < self._settings.tries:
-            return [_look(edge.target, edge.standoff_m, stamp_s)]
+            return [replace(_look(edge.target, edge.standoff_m, stamp_s), side_rad=edge.side_rad)]
         reason = f"{_GIVEN_UP} after {self._settings.tries} tries: {edge.reason or 'no reason said'}"
         return [_look(edge.target, edge.standoff_m, edge.proposed_s, IntentionStatus.FAILED, reason)]
 
@@ -157,27 +179,3 @@ def _look(
         proposed_s=stamp_s,
         reason=reason,
     )
-
-
-def _top_grid(box: Box) -> Array:
-    """(30, 3) points on the top of a box, a tenth of its sides in from the rim."""
-    x, y = np.meshgrid(np.linspace(-0.4, 0.4, 6), np.linspace(-0.4, 0.4, 5))
-    local = np.stack((x.ravel() * box.size_m[0], y.ravel() * box.size_m[1], np.full(30, box.size_m[2] / 2.0)), axis=1)
-    return box.place(local)
-
-
-def _visible_from_near(points: Array, view: View, near_m: float) -> NDArray[np.bool_]:
-    """Which points are in the image, near, not hidden, and not looked at from below."""
-    pixels, depth_m = project(view.T_room_camera.inverse().apply(points), view.intrinsics)
-    with np.errstate(invalid="ignore"):
-        inside = (
-            (pixels >= 3.0).all(axis=1)
-            & (pixels[:, 0] < view.intrinsics.width - 3.0)
-            & (pixels[:, 1] < view.intrinsics.height - 3.0)
-            & (depth_m > 0.2)
-            & (depth_m < near_m)
-        )
-    u, v = np.round(np.where(inside[:, None], pixels, 0.0)).astype(np.int64).T
-    measured_m = view.depth_m[v, u]
-    unhidden = (measured_m > 0.0) & (measured_m > depth_m - 0.35)
-    return np.asarray(inside & unhidden & (view.T_room_camera.z_m > points[:, 2] + 0.05))

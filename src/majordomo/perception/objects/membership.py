@@ -15,6 +15,8 @@ _FACE_M = 0.06
 """How far inside a wall's face a point may be measured and still be of the wall."""
 _NEAR_FACE_M = 0.04
 """The same for points of furniture in front of it, which would lose depth."""
+_WALL_M = 0.5
+"""What is farther behind a wall's face than this is seen past the wall, through a door, and stands in another room."""
 _FLOOR_M = 0.04
 MARGIN_M = 0.15
 """How far outside the inner face of a wall the center of a thing may be measured and still belong to the room."""
@@ -76,12 +78,14 @@ class Surroundings:
         return nearest if distances[nearest] <= MARGIN_M else None
 
     def in_walls(self, points_here: Array) -> float:
-        """Share of points (N, 3) in the robot's room frame that lie on the faces of walls, or in or behind them."""
-        return float(np.mean(self._depth_m(points_here) > -_FACE_M)) if len(points_here) else 0.0
+        """Share of points (N, 3) in the robot's room frame that lie on the faces of walls or in them."""
+        depth_m = self._depth_m(points_here)
+        return float(np.mean((depth_m > -_FACE_M) & (depth_m < _WALL_M))) if len(points_here) else 0.0
 
     def of_building(self, points_here: Array) -> NDArray[np.bool_]:
-        """Which of the points (N, 3) in the robot's room frame lie on the floor, or on a wall's face or behind it."""
-        return (points_here[:, 2] < _FLOOR_M) | (self._depth_m(points_here) > -_NEAR_FACE_M)
+        """Which of the points (N, 3) in the robot's room frame lie on the floor, or on a wall's face or in the wall."""
+        depth_m = self._depth_m(points_here)
+        return (points_here[:, 2] < _FLOOR_M) | ((depth_m > -_NEAR_FACE_M) & (depth_m < _WALL_M))
 
     def _depth_m(self, points_here: Array) -> Array:
         """(N,) how far behind the nearest inner face, negative in front of it, ``-inf`` where no room is known."""

@@ -91,13 +91,15 @@ class ScriptedRoom:
         if not self.silent:
             buffer.frame = self.frame(stamp_s)
 
-    def locate(self, memory: WorkingMemory, stamp_s: float, error: SE3 | None = None) -> None:
-        """Write the robot's pose in ``room_1`` into the graph, as localization does; ``error`` is right-multiplied."""
+    def locate(self, memory: WorkingMemory, stamp_s: float, error: SE3 | None = None, std_rad: float = 0.0063) -> None:
+        """Write the robot's pose in ``room_1`` into the graph, as localization does; ``error`` is right-multiplied,
+        ``std_rad`` what localization says of the heading then.
+        """
         edge = RtEdge(
             source="room_1",
             target=ROBOT_ID,
             T_source_target=self.T_room_base @ (error or SE3.identity()),
-            covariance=np.diag((1e-4, 1e-4, 1e-8, 1e-8, 1e-8, 4e-5)) if error is not None else np.zeros((6, 6)),
+            covariance=np.diag((1e-4, 1e-4, 1e-8, 1e-8, 1e-8, std_rad**2)) if error is not None else np.zeros((6, 6)),
             stamp_s=stamp_s,
         )
         memory.commit([PutEdge(edge)], agent="energy_optimizer", stamp_s=stamp_s)

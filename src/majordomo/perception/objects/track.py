@@ -24,6 +24,8 @@ from majordomo.scene_graph.se3 import SE3
 
 Array = NDArray[np.float64]
 _SIDE_RAD = math.pi / 4.0
+_PART_TRUST = 0.25
+"""What a view of a part counts, cut by the picture's border or by what stands before it: networks name parts badly."""
 _STORED_FRAMES = 5
 """A stored label counts as much as so many frames that say the same."""
 
@@ -43,7 +45,8 @@ class Track:
         number: running number; order of birth. node_id: its node, once confirmed. room: room whose frame holds it.
             place: a ``CenterBelief`` for what can be carried, a ``SurfaceBelief`` for furniture, ``None`` before the
             first sight. state, log_odds: whether it still is where it is said to be. hits: frames that saw it;
-            ``misses``: frames in a row that should have and did not.
+            ``misses``: frames in a row that should have and did not. homeless: whether it is in none of the rooms known
+            so far; ``room`` then is the one it was seen from.
     """
 
     def __init__(self, number: int, room: str, *, settings: TrackSettings, random: Generator) -> None:
@@ -55,6 +58,7 @@ class Track:
         self.place: CenterBelief | SurfaceBelief | None = None
         self.state = ObjectState.PRESENT
         self.log_odds = settings.log_odds
+        self.homeless = False
         self.hits = 0
         self.misses = 0
         self.first_seen_s = 0.0
@@ -105,7 +109,8 @@ class Track:
 
     def observe(self, detection: Detection, view: View, T_room_view: SE3) -> None:
         """Take in a detection that is this thing."""
-        self.label.update(detection.distribution, detection.weight, self._side_of(detection, view, T_room_view))
+        side, trust = self._side_of(detection, view, T_room_view), 1.0 if detection.shape.complete else _PART_TRUST
+        self.label.update(detection.distribution, detection.weight, (*side, trust), trust=trust)
         self.color.update(detection.colors, detection.weight)
         self.hits += 1
         self.misses = 0
@@ -162,8 +167,8 @@ class Track:
             self.place.put_at(position, sigma_m, yaw_rad)
 
     def change_room(self, room: str, T_new_old: SE3) -> None:
-        """Express it in the frame of another room."""
-        self.room = room
+        """Express it in the frame of another room, which is the one it is in."""
+        self.room, self.homeless = room, False
         if self.place is not None:
             self.place.change_frame(T_new_old)
 

@@ -46,7 +46,9 @@ _BORDER = np.ones((7, 7), np.uint8)
 class TrackerSettings:
     """``confirm_hits`` sightings with ``confirm_label`` certainty (or twice as many sightings) make a thing a node.
 
-    ``patience_hits``: how many sightings to wait for a look-alike that is just being missed.
+    ``patience_hits``: how many sightings to wait for a look-alike that is just being missed. ``homeless_life_s``: how
+    long a thing seen through a door waits for its room to become known; ``wall_share``: of its points in that room's
+    walls, from which on furniture was one of them.
     """
 
     association: AssociationSettings = field(default_factory=AssociationSettings)
@@ -57,6 +59,8 @@ class TrackerSettings:
     confirm_label: float = 0.6
     patience_hits: int = 15
     tentative_life_s: float = 2.0
+    homeless_life_s: float = 300.0
+    wall_share: float = 0.85
     furniture_min_px: int = 150
 
 
@@ -110,6 +114,7 @@ class Tracker:
         matched = {j for _, j in pairs}
         unmatched = [d for j, d in enumerate(sight.detections) if j not in matched]
         unmatched = [d for d in unmatched if not self._absorb(d, scope, sight)]
+        self._settle(scope, sight)
         self._doubt_unseen(scope, sight)
         self._doubt_surfaces(sight)
         for detection in unmatched:
@@ -224,13 +229,28 @@ class Tracker:
             return
         seen_at = np.median(detection.cloud.points, axis=0) if furniture else detection.shape.center
         room = sight.surroundings.room_of(seen_at)  # how deep furniture is, and so its center, is a guess at first
-        if room is not None:
-            self._observe(self.new_track(room), detection, sight)
+        track = self.new_track(room or sight.view.room)
+        track.homeless = room is None
+        self._observe(track, detection, sight)
+
+    def _settle(self, scope: list[Track], sight: Sight) -> None:
+        """Give things that were seen through a door to their room as soon as it is known; what then turns out to be a
+        wall of it is forgotten.
+        """
+        for track in [t for t in scope if t.homeless]:
+            T_here_room = sight.surroundings.T_here_room
+            home = sight.surroundings.room_of(T_here_room[track.room].apply(track.position))
+            if home is None:
+                continue
+            track.change_room(home, T_here_room[home].inverse() @ T_here_room[track.room])
+            points = T_here_room[home].apply(track.surface_points)
+            if track.category.floor and sight.surroundings.in_walls(points) > self._settings.wall_share:
+                self.drop(track)
 
     def _confirm(self, sight: Sight) -> None:
         """Name what has been seen often enough, or recognize it."""
         identity = self._settings.identity
-        for track in [t for t in self.tracks if t.node_id is None and self._is_stable(t)]:
+        for track in [t for t in self.tracks if t.node_id is None and not t.homeless and self._is_stable(t)]:
             known = [t for t in self.tracks if t.node_id is not None]
             same = known_as(
                 track,
@@ -284,9 +304,10 @@ class Tracker:
                     self.drop(newer)
 
     def _forget_tentative(self, stamp_s: float) -> None:
-        self.tracks = [
-            t
-            for t in self.tracks
-            if t.node_id is not None
-            or (t.state is ObjectState.PRESENT and stamp_s - t.last_seen_s <= self._settings.tentative_life_s)
-        ]
+        self.tracks = [t for t in self.tracks if t.node_id is not None or self._may_come_true(t, stamp_s)]
+
+    def _may_come_true(self, track: Track, stamp_s: float) -> bool:
+        """Whether to wait for further sights of a tentative thing, or for its room to become known."""
+        awaits_room = track.homeless and self._is_stable(track)
+        patience_s = self._settings.homeless_life_s if awaits_room else self._settings.tentative_life_s
+        return track.state is ObjectState.PRESENT and stamp_s - track.last_seen_s <= patience_s

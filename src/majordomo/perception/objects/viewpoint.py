@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from majordomo.perception.crossing import in_doubt
 from majordomo.perception.errors import OdometryUnavailable
 from majordomo.perception.objects.projection import View
@@ -12,9 +14,16 @@ from majordomo.scene_graph.nodes import ROBOT_ID, RoomNode, RoomStatus
 from majordomo.scene_graph.se3 import SE3
 from majordomo.scene_graph.snapshot import Snapshot
 
+_YAW = 5
+"""Index of the heading in a pose's covariance."""
 
-def view_of(frame: RgbdFrame, snapshot: Snapshot, buffer: SensorBuffer) -> View | None:
-    """The frame in the robot's room, ``None`` while there is no room to see it in, or its place is in doubt."""
+
+def view_of(frame: RgbdFrame, snapshot: Snapshot, buffer: SensorBuffer, *, sure_rad: float = math.inf) -> View | None:
+    """The frame in the robot's room, ``None`` while there is no room to see it in, or its place is in doubt.
+
+    ``sure_rad``: standard deviation of the robot's heading from which on it is: behind a door, until the new room is
+    known, it rests on odometry alone.
+    """
     room_id = snapshot.current_room
     room = snapshot.get(room_id) if room_id is not None else None
     parent = snapshot.parent(ROBOT_ID)
@@ -23,6 +32,8 @@ def view_of(frame: RgbdFrame, snapshot: Snapshot, buffer: SensorBuffer) -> View 
     try:
         T_room_robot, covariance = snapshot.transform_with_covariance(room.id, ROBOT_ID)
     except FramesNotConnected:
+        return None
+    if covariance[_YAW, _YAW] > sure_rad**2:
         return None
     T_room_base = T_room_robot @ _motion(buffer, parent.stamp_s, frame.stamp_s)
     return View.of(frame, room=room.id, T_room_base=T_room_base, pose_covariance=covariance)

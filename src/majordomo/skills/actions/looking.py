@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from math import atan2, hypot, pi
+from math import atan2, ceil, hypot, pi
 
 import numpy as np
 from py_trees.common import Status
 
+from majordomo.scene_graph.nodes import Point3
 from majordomo.skills.action import Action, RobotContext
 from majordomo.skills.anchor import Anchor, AnchorSource, resolved
 from majordomo.skills.failures import FailureCode
@@ -23,6 +24,15 @@ VIEWS = 8
 TILT_RAD = -0.38
 RAISED_RAD = 0.15
 """Above what is seen at ``TILT_RAD``: the tops of wardrobes and shelves, and what hangs on walls."""
+LOWERED_RAD = -0.98
+"""Below what is seen at ``TILT_RAD``: the floor from 0.4 m before the camera's foot on, and low furniture there."""
+LOWERED_VIEWS = 6
+"""The nearer to straight down, the more of the surroundings is in a picture."""
+PICTURE_M = 0.9
+"""So much of a thing, side by side, is in a picture taken from an arm's length."""
+TOP, UPPER, LOWER = 0.3, 0.17, -0.25
+"""Where to look at a thing, as shares of its height from its middle; the latter two where it is as high as the eye."""
+EYE_LEVEL_M = 0.2
 
 
 class LookAt(Action):
@@ -54,16 +64,19 @@ class LookAt(Action):
         return Status.SUCCESS if self.context.stamp_s - self._settled_s >= self._dwell_s else Status.RUNNING
 
 
+Row = tuple[float, int]
+"""Tilt of the camera and number of views all around."""
+ROWS: tuple[Row, ...] = ((TILT_RAD, VIEWS), (RAISED_RAD, VIEWS), (LOWERED_RAD, LOWERED_VIEWS))
+
+
 class SweepCamera(Action):
     """Looks once around in overlapping views, standing still in each long enough to be seen twice."""
 
-    timeout_s = 60.0
+    timeout_s = 90.0
 
-    def __init__(
-        self, context: RobotContext, *, views: int = VIEWS, tilts_rad: tuple[float, ...] = (TILT_RAD, RAISED_RAD)
-    ) -> None:
+    def __init__(self, context: RobotContext, *, rows: tuple[Row, ...] = ROWS) -> None:
         super().__init__("look around", context)
-        self._views, self._tilts_rad = views, tilts_rad
+        self._rows = rows
         self._gaze = Gaze(context)
         self._todo: list[tuple[float, float]] = []
         self._settled_s: float | None = None
@@ -73,9 +86,9 @@ class SweepCamera(Action):
         self.context.announce("looking around")
         yaw = self._yaw()
         self._todo, self._settled_s = [], None
-        for row, tilt in enumerate(self._tilts_rad):
-            pans = np.linspace(-pi, pi, self._views, endpoint=False) + pi / self._views
-            self._todo += [(yaw + float(pan), tilt) for pan in (pans if row % 2 == 0 else pans[::-1])]
+        for number, (tilt, views) in enumerate(self._rows):
+            pans = np.linspace(-pi, pi, views, endpoint=False) + pi / views
+            self._todo += [(yaw + float(pan), tilt) for pan in (pans if number % 2 == 0 else pans[::-1])]
 
     def step(self) -> Status:
         """Aim at the next heading, settle, dwell."""
@@ -102,6 +115,18 @@ def aim(context: RobotContext, anchor: Anchor) -> tuple[float, float]:
     x_m, y_m, z_m = anchor.in_base(context)
     ahead = hypot(x_m - CAMERA_X_M, y_m)
     return atan2(y_m, x_m - CAMERA_X_M), atan2(z_m - context.geometry.camera_height_m, max(ahead, 1e-3))
+
+
+def gaze_points(size_m: Point3, camera_height_m: float) -> list[Point3]:
+    """Where to point the camera, from an arm's length, to see all of a thing of this size: points in its own frame.
+
+    A top is seen in pictures side by side, what is as high as the camera also in one below the other.
+    """
+    x_m, y_m, z_m = size_m
+    count = max(1, ceil(max(x_m, y_m) / PICTURE_M))
+    aside = [max(x_m, y_m) * ((number + 0.5) / count - 0.5) for number in range(count)]
+    heights = (UPPER, LOWER) if z_m > camera_height_m - EYE_LEVEL_M else (TOP,)
+    return [(a, 0.0, h * z_m) if x_m >= y_m else (0.0, a, h * z_m) for h in heights for a in aside]
 
 
 class Gaze:

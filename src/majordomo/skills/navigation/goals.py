@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from math import cos, pi, sin
 
 import numpy as np
@@ -16,6 +17,8 @@ from majordomo.skills.navigation.pose import planar_pose, robot_frame
 from majordomo.skills.navigation.route import Routes
 
 SPACING_M = 0.15
+OTHER_SIDE_M = 6.0
+"""So much way is made to look at a thing from the side that is wanted and not from the opposite one."""
 PERSON_SIZE_M = 0.4
 
 
@@ -70,15 +73,43 @@ def around(context: RobotContext, node_id: str, standoff_m: float) -> GoalSource
 
     def goals(routes: Routes | None) -> list[Goal]:
         del routes
-        box = _footprint(context, node_id)
-        found = []
-        for extra_m in (0.0, 0.1, 0.2, 0.35):
-            for x_m, y_m in _outline(box, standoff_m + extra_m):
-                yaw = Pose2(x_m, y_m).bearing_rad(box.pose.point)
-                found.append(Goal(point=(x_m, y_m), yaw_rad=yaw, cost_m=3.0 * extra_m))
-        return found
+        return _facing(_footprint(context, node_id), standoff_m)
 
     return goals
+
+
+def overlooking(context: RobotContext, node_id: str, standoff_m: float, *, side_rad: float | None = None) -> GoalSource:
+    """The same, those preferred from which all of it is near, and on the side ``side_rad``, a direction in its own
+    frame.
+    """
+
+    def goals(routes: Routes | None) -> list[Goal]:
+        del routes
+        box = _footprint(context, node_id)
+        return [
+            replace(goal, cost_m=goal.cost_m + _askew_m(box, goal.point, side_rad)) for goal in _facing(box, standoff_m)
+        ]
+
+    return goals
+
+
+def _facing(box: Box2, standoff_m: float) -> list[Goal]:
+    """Goals on curves around a rectangle, the nearer ones preferred."""
+    found = []
+    for extra_m in (0.0, 0.1, 0.2, 0.35):
+        for x_m, y_m in _outline(box, standoff_m + extra_m):
+            yaw = Pose2(x_m, y_m).bearing_rad(box.pose.point)
+            found.append(Goal(point=(x_m, y_m), yaw_rad=yaw, cost_m=3.0 * extra_m))
+    return found
+
+
+def _askew_m(box: Box2, point: tuple[float, float], side_rad: float | None) -> float:
+    """As how many meters of way it counts that a corner is far from ``point``, and that it lies on another side."""
+    far_m = float(np.hypot(*(box.corners() - point).T).max())
+    if side_rad is None:
+        return far_m
+    off_rad = box.pose.bearing_rad(point) - box.pose.yaw_rad - side_rad
+    return far_m + OTHER_SIDE_M * (1.0 - cos(off_rad)) / 2.0
 
 
 def _outline(box: Box2, distance_m: float) -> list[tuple[float, float]]:

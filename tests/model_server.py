@@ -151,7 +151,7 @@ class Ollama:
 
     unknown_format = ({"error": "invalid format"}, 400)
     too_long = ({"error": "the input length, format included, exceeds the context length"}, 400)
-    wrong_types = ({"message": "hi"}, {"message": {"content": None}}, {"message": {"content": {}}}, {"error": "no"})
+    wrong_types = ({"message": "hi"}, {"message": {"content": None}}, {"message": {"content": {}}}, {"message": [1]})
 
 
 class Anthropic:
@@ -194,7 +194,7 @@ class Anthropic:
         {"content": "hi"},
         {"content": [{"type": "text", "text": 7}]},
         {"content": [{"type": "tool_use", "input": "{}"}]},
-        {"type": "error", "error": {"message": "no"}},
+        {"type": "message"},
     )
 
 

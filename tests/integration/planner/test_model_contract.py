@@ -104,6 +104,23 @@ async def test_a_failure_that_may_pass_is_tried_again(dialect, status):
     assert (outcome.attempts, len(server.requests), clock.naps) == (2, 2, [0.5])
 
 
+@pytest.mark.parametrize(
+    "error", [{"code": 429, "message": "busy"}, {"message": "busy"}, "busy", {"code": "overloaded"}]
+)
+async def test_an_error_under_the_status_of_a_success_is_one(dialect, error):
+    outcome, server = await ask(dialect, Line(body={"error": error}), Line(body=dialect.text(GOOD)))
+    assert isinstance(outcome, ModelReply)
+    assert len(server.requests) == 2
+    outcome, server = await ask(dialect, Line(body={"error": {"code": 401, "message": "who are you?"}}))
+    assert_failed(outcome, FailureKind.HTTP_ERROR)
+    assert "key" in outcome.message
+
+
+async def test_an_answer_that_speaks_of_an_error_or_has_none_is_an_answer(dialect):
+    outcome, _ = await ask(dialect, Line(body=dialect.text('{"a": 1, "error": "none"}') | {"error": None}))
+    assert isinstance(outcome, ModelReply)
+
+
 async def test_a_server_that_stays_out_of_order_is_given_up_after_three_attempts(dialect):
     clock = Time()
     outcome, server = await ask(dialect, Line(body="Traceback: secret", status=500), clock=clock)

@@ -16,6 +16,8 @@ from majordomo.planner.models.protocol import FailureKind, ModelFailure
 
 MAX_ANSWER_BYTES = 2_000_000
 CONNECT_S = 5.0
+ERROR_WITHIN = 10_000
+"""An error is told in the first so many bytes."""
 PASSING = frozenset({FailureKind.ENDPOINT_DOWN, FailureKind.SERVER_ERROR, FailureKind.RATE_LIMITED})
 RETRIED_STATUSES = frozenset({408, 409, 425, 429, 500, 502, 503, 504, 529})
 
@@ -98,6 +100,8 @@ class Exchange:
             return ModelFailure(
                 kind=FailureKind.WRONG_SHAPE, message=message, text=body[:2000].decode(errors="replace")
             )
+        if status == httpx.codes.OK:
+            status = status_within(body) or status
         answer = Answer(status=status, body=body)
         return _passing_failure(answer, _retry_after_s(headers)) if status in RETRIED_STATUSES else answer
 
@@ -110,6 +114,24 @@ class Exchange:
                 if len(body) > MAX_ANSWER_BYTES:
                     break
         return response.status_code, response.headers, bytes(body)
+
+
+def status_within(body: bytes) -> int | None:
+    """The status that an error in the body stands for: gateways report some under the status of a success, ``{"error":
+    {"code": 429, …}}``. ``None`` when there is no error; one without a code is taken for a fault of the server.
+    """
+    if b'"error"' not in body[:ERROR_WITHIN]:
+        return None
+    try:
+        document = json.loads(body)
+    except (ValueError, RecursionError):
+        return None
+    error = document.get("error") if isinstance(document, dict) else None
+    if not error:
+        return None
+    code = error.get("code") if isinstance(error, dict) else None
+    known = isinstance(code, int) and 400 <= code < 600
+    return code if known else int(httpx.codes.BAD_GATEWAY)
 
 
 def host_of(url: str) -> str:

@@ -78,7 +78,7 @@ class MissionStage(Stage):
     @property
     def task(self) -> Task:
         """The request under way."""
-        return self.queue.tasks[0]
+        return self.queue.tasks[-1]
 
     @property
     def codes(self) -> list[str]:
@@ -111,20 +111,20 @@ class MissionStage(Stage):
         while not condition():
             assert not self.task.status.ended, f"ended early: {self.task.explanation} {self.codes}"
             assert self.now_s - began_s < limit_s, f"still {self.task.status} at {self.now_s:.0f} s: {self.codes}"
-            await self._tick()
+            await self.tick()
 
     async def rest(self, duration_s: float) -> None:
         """Let some time pass."""
         began_s = self.now_s
         while self.now_s < began_s + duration_s:
-            await self._tick()
+            await self.tick()
 
     async def end(self, limit_s: float = 400.0) -> Task:
         """Let time pass until the task is over; nothing may have been touched."""
         began_s = self.now_s
         while not self.task.status.ended:
             assert self.now_s - began_s < limit_s, f"goes on and on: {self.task.explanation} {self.codes}"
-            await self._tick()
+            await self.tick()
         self.truth = await self.robot.truth()
         return self.task
 
@@ -140,7 +140,8 @@ class MissionStage(Stage):
         entry = {"id": thing, "category": category, "size": list(size), "pose": pose}
         await self.robot.disturb({"do": "add", "object": entry})
 
-    async def _tick(self) -> None:
+    async def tick(self) -> None:
+        """One control tick of robot, planner and perception."""
         await self._refresh()
         if self.now_s >= self._due_s:
             self._due_s = self.now_s + 0.099

@@ -69,6 +69,14 @@ def _match(words: tuple[str, ...], lexicon: Lexicon) -> Terminal | None:
     owner = tuple(typed.removesuffix("'s").removesuffix("s'").split())
     if typed.endswith(("'s", "s'")) and lexicon.can_own(owner) and not lexicon.is_noun(words):
         return Terminal("POSSESSIVE", typed, typed)
+    if (
+        len(words) == 1
+        and typed.endswith("s")
+        and (typed[:-1],) in lexicon.persons
+        and phrase is None
+        and not lexicon.is_noun(words)
+    ):
+        return Terminal("POSSESSIVE", f"{typed[:-1]}'s", typed)
     if typed in _DOOR:
         return Terminal("DOOR", typed, typed)
     if lexicon.is_noun(words) and (phrase is None or len(words) > 1):

@@ -11,6 +11,7 @@ BRINGING: tuple[tuple[str, str], ...] = (
         ),
         r"put \1 ",
     ),
+    (r"(^|[.;!] )(the [\w ]+?) (?:could|can|might|may) go (?=(?:on|in|to|into|onto|at|next)\b)", r"\1put \2 "),
     (r"^(?:can|could|may|might) (the [\w ]+?) go (?=(?:on|in|to|into|onto|at|next)\b)", r"put \1 "),
     (r"\b(?:shove|stick|chuck|plonk|plop|slide|tuck) (.+?) (in|into|onto|on) (?=(?:the|a|my)\b)", r"put \1 \2 "),
     (
@@ -98,7 +99,10 @@ BRINGING: tuple[tuple[str, str], ...] = (
         ),
         r"put \1 in ",
     ),
-    (r"\b(?:toss|chuck|dump|sling|bin) (.+?) (in|into|onto|on) (?=(?:the|a|my)\b)", r"put \1 \2 "),
+    (
+        r"(?<!the )(?<!a )(?<!my )\b(?:toss|chuck|dump|sling|bin) (.+?) (in|into|onto|on) (?=(?:the|a|my)\b)",
+        r"put \1 \2 ",
+    ),
     (
         r"\b(put|set|place|lay|stow|store|tidy|clear|pack|drop|move|take) (.+?) away (?=(?:in|into|on|onto|to)\b)",
         r"\1 \2 ",
@@ -145,10 +149,15 @@ BRINGING: tuple[tuple[str, str], ...] = (
         "",
     ),
     (r"\bcould i (?:trouble|bother) you for\b", "can i have"),
-    (r"\b(?:i am|we are) (?:dying|longing) for\b", "i want"),
     (r"\bgo(?: and)? (?:bring|get|fetch) \b", "fetch "),
     (r"\b(?:over )?to where i am(?: now| standing| sitting)?\b", "to me"),
-    (r"\b(?:back )?to where you (?:were|started|came from|came)(?: from)?(?: before| at)?\b", "back"),
+    (
+        (
+            r"\b(?:back )?(?:again )?to where you (?:were|started|came from|came|began|set off)"
+            r"(?: from)?(?: before| at| out)?\b"
+        ),
+        "to your starting point",
+    ),
     (r"^(?:and |ok |okay |then |now )*(?:and )?then (?=\w)", "then "),
     (r",? from there (?=(?:to|go|on|drive|head)\b)", ", then "),
     (r"\b(?:after|having done|once done with) that\b,?", "then"),
@@ -190,13 +199,6 @@ BRINGING: tuple[tuple[str, str], ...] = (
         r"where is \1",
     ),
     (r",? (?:but |and )?only (?:the |an? )?(\w+) ones?(?=$|[.!?])", r" that is \1"),
-    (
-        (
-            r"^((?:the|my|that) (?!.*\b(?:is|are|belongs?|should|goes|needs?)\b[^,]*,)[\w ]+?), (?:can you "
-            "|could you |please )*(bring|take|put|get|fetch|carry) (?:it|them) "
-        ),
-        r"\2 \1 ",
-    ),
     (
         (
             r"^(?:i|we) do not (?:want|need) [\w ]+?[,.;]+ (?:just |but |so |please )*(?=(?:bring|take|put|get"

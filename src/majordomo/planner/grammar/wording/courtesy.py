@@ -22,7 +22,9 @@ SLIPS: tuple[tuple[str, str], ...] = (
     (
         (
             r"\b([^\W\d]+)'s (?=(?:in|on|at|not|here|there|under|near|next|home|asleep|gone|open|closed|shut"
-            r"|locked|missing|lost|still|inside|with)\b)"
+            r"|locked|missing|lost|still|inside|with|an?|the|so|too|very|been|gone|all|getting|being|got|asking|waiting"
+            r"|looking|calling|hiding|sitting|standing|lying|sleeping|hungry|thirsty|tired|ill|sick|busy|ready|out|away"
+            r"|broken|dirty|empty|full)\b)"
         ),
         r"\1 is ",
     ),
@@ -35,11 +37,55 @@ SLIPS: tuple[tuple[str, str], ...] = (
     (r"\byuo\b", "you"),
     (r"^(?:wher|whre|were)(?= (?:is|are)\b)", "where"),
     (r"\b(?:fo|4|fro)(?= (?:me|you|her|him)\b)", "for"),
-    (r"\bhw many\b", "how many"),
+    (r"\bhow? m[an]?[an]?y\b", "how many"),
 )
 """Words that are no English, and what was meant."""
 
 COURTESY: tuple[tuple[str, str], ...] = (
+    (r"^(?:maybe|perhaps|possibly)[, ]+(?=\w)", ""),
+    (r"^(?:tidy|clean|clear|pick) up after (?:the |your |our |my )?[\w ]+?[:,;.]+ ", ""),
+    (
+        (
+            r"^(?:(?:so|like|well|ok|okay|yeah|right|now)[, ]+)*(?:i was (?:just )?(?:thinking"
+            r"|wondering|hoping)|i have been thinking|i (?:think|guess|figure|reckon|suppose))(?: that"
+            r"| maybe| perhaps)*,? (?=(?:the|my|it|we|you|can|could|would)\b)"
+        ),
+        "",
+    ),
+    (r",? (?:yeah|yes|ok|okay),? (?:please )?do that(?=[.!]*$)", ""),
+    (
+        (
+            r"(?<=\w)(?<! or)(?<! if),? (?:and )?so (?:please |can you |could you |then |now |just "
+            r"|if you could )*(?=(?:the|my|his|her|go|bring|take|put|get"
+            r"|fetch|give|find|come|move|carry|drop|return|look|hand|pick)\b)(?!(?:it|they|my \w+"
+            r"|the \w+) (?:can|could|will|may|is|are|does)\b)"
+        ),
+        ". ",
+    ),
+    (
+        (
+            r"(?<=\w)(?<! or)(?<! if),? so (?=(?:the|my|his|her) [\w ]+? (?:can|could|may|should|must"
+            r"|has to|needs to) (?:go|be|return)\b)"
+        ),
+        ". ",
+    ),
+    (r",? i mean,? (?=(?:she|he|they|it|we) (?:needs?|wants?|is|are|has|have)\b)", ", "),
+    (
+        (
+            r",? if you (?:can |could |happen to |manage to |are able to |ever )*(?:find|see|spot"
+            r"|locate|get hold of|track down|come across|have) (?:it|them|one|any|some|him|her)"
+            r"(?: somewhere| anywhere)?(?=$|[.!?,])"
+        ),
+        "",
+    ),
+    (
+        (
+            r"((?:^|[.,;!] |\band |\bthen ))you (?:may|might|shall|are free to|are welcome to|can now"
+            r"|may now|can)(?: now| then)? (?=(?:return|put|take|bring|go|carry|move|get|fetch|give"
+            r"|come|drive|leave|drop|place)\b)"
+        ),
+        r"\1",
+    ),
     (
         (
             r"\bbe an? (?:\w+ )?(?:dear|darling|love|pal|sweetheart|angel|lad|boy|girl|sport|robot|star|friend|gem"
@@ -143,13 +189,6 @@ COURTESY: tuple[tuple[str, str], ...] = (
         (
             ",? (?:both|all|each|every one)(?: (?:two|three|four))? of (?:them|these|those)(?=$|,| (?:go|goes"
             r"|should|must|can|belong|belongs)\b),?"
-        ),
-        "",
-    ),
-    (
-        (
-            "^(?:so,? )?(?:i was (?:just )?(?:thinking|wondering|hoping)|i have been thinking)[,.]* (?=it|can"
-            "|could|would)"
         ),
         "",
     ),

@@ -10,6 +10,7 @@ from dataclasses import replace
 from majordomo.planner.answers import Answer, Answers
 from majordomo.planner.gathering import Gathering, Trouble, noun_of
 from majordomo.planner.goals import Goal, Predicate, holds
+from majordomo.planner.going import Going
 from majordomo.planner.grammar.syntax import (
     Ask,
     Carry,
@@ -18,6 +19,7 @@ from majordomo.planner.grammar.syntax import (
     Go,
     Mention,
     NounPhrase,
+    Operate,
     Perhaps,
     Pick,
     Pronoun,
@@ -35,7 +37,7 @@ from majordomo.planner.grounding import Ambiguous, Context, Grounding, NoReferen
 from majordomo.planner.meant import Meant
 from majordomo.planner.naming import aim_phrase, name_of
 from majordomo.planner.teaching import Teaching
-from majordomo.scene_graph.nodes import ObjectNode, PersonNode, RegionNode, RoomNode
+from majordomo.scene_graph.nodes import ObjectNode, PersonNode, RoomNode
 from majordomo.skills.rooms import in_room
 
 MAX_MENTIONED = 6
@@ -55,6 +57,7 @@ class Meaning:
         self._answers = Answers(grounding)
         self._gathering = Gathering(grounding)
         self._teaching = Teaching(grounding)
+        self._going = Going(grounding)
 
     def of(self, readings: tuple[Step, ...], context: Context) -> Outcome:
         """The one meaning of a step, or why there is none.
@@ -113,7 +116,9 @@ class Meaning:
             case Find():
                 return self._find(step, context)
             case Go():
-                return self._go(step, context)
+                return self._going.to(step, context)
+            case Operate():
+                return self._going.operated(step, context)
             case PutDown():
                 return self._put_down(step, context)
             case PutBack():
@@ -163,7 +168,7 @@ class Meaning:
         thing = step.thing
         if isinstance(thing, NounPhrase) and thing.quantity is Quantity.A:
             thing = replace(thing, quantity=Quantity.THE, count=None)
-        found = self._grounding.things(thing, context)
+        found = self._gathering.all_of((thing, *step.more), context)
         if not isinstance(found, tuple):
             return found
         if all(isinstance(self._snapshot.get(i), PersonNode) for i in found):
@@ -187,7 +192,8 @@ class Meaning:
                 )
             names = " and ".join(name_of(i, self._snapshot) for i in things)
             return Ambiguous(question=f"Where should I {step.verb} {names}?", phrase="destination", candidates=())
-        place = self._destination(step.destination, step.things, self._with_said(step.things, context))
+        told = self._with_said(step.things, context)
+        place = self._destination(step.destination, step.things, self._around(step.things, told))
         if not isinstance(place, str):
             unmet = self._gathering.to_carry(step.things, context) if isinstance(place, Ambiguous) else None
             return unmet if isinstance(unmet, NoReferent) else place
@@ -216,12 +222,19 @@ class Meaning:
         said = tuple(i for found in (*things, *places) for i in found)
         return replace(context, mentioned=(*said, *context.mentioned)) if said else context
 
+    def _around(self, references: tuple[Reference, ...], context: Context) -> Context:
+        """*The cups on the kitchen table in the sink*: of several sinks, the one in the room that was named."""
+        told = [x for r in references if isinstance(r, NounPhrase) for x in r.restrictions]
+        rooms = {self._state.room_of(i) for x in told for i in self._grounding.targets(x, context)}
+        (room, *others) = rooms or {None}
+        return context if room is None or others or context.focus else replace(context, focus=room)
+
     def _several(self, step: Several, context: Context) -> Outcome:
         goals: tuple[Goal, ...] = ()
         things: tuple[str, ...] = ()
         places: tuple[str, ...] = ()
         for part in step.steps:
-            outcome = self._carry(part, context) if isinstance(part, Carry) else self._go(part, context)
+            outcome = self._carry(part, context) if isinstance(part, Carry) else self._going.to(part, context)
             if not isinstance(outcome, Meant):
                 return outcome
             goals, things, places = goals + outcome.goals, things + outcome.things, outcome.places + places
@@ -317,23 +330,6 @@ class Meaning:
             Goal(predicate=Predicate.FOUND if self._is_object(i) else Predicate.ROBOT_AT, args=(i,)) for i in found
         )
         return Meant(goals=goals, implied=True, things=found, noun=noun_of(references, context))
-
-    def _go(self, step: Go, context: Context) -> Outcome:
-        found = self._grounding.place(step.target, context)
-        if not isinstance(found, tuple):
-            return found
-        found = tuple(room for i in found for room in self._rooms_of(i))
-        if len(found) > 1:
-            return Ambiguous(question="I can be in one place only. Which one?", phrase="", candidates=found)
-        (place,) = found
-        focus = place if isinstance(self._snapshot.get(place), RoomNode) else self._state.room_of(place)
-        things = (place,) if self._is_object(place) else ()
-        goals = (Goal(predicate=Predicate.ROBOT_AT, args=(place,)),)
-        return Meant(goals=goals, places=(place,), things=things, focus=focus)
-
-    def _rooms_of(self, node_id: str) -> tuple[str, ...]:
-        """A region's rooms; any other node itself."""
-        return self._snapshot.rooms_in(node_id) if isinstance(self._snapshot.get(node_id), RegionNode) else (node_id,)
 
     def _put_down(self, step: PutDown, context: Context) -> Outcome:
         things = self._gathering.all_of(step.things, context)

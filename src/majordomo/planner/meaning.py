@@ -36,6 +36,7 @@ from majordomo.planner.grammar.syntax import (
 from majordomo.planner.grounding import Ambiguous, Context, Grounding, NoReferent
 from majordomo.planner.meant import Meant
 from majordomo.planner.naming import aim_phrase, name_of
+from majordomo.planner.siding import SIDES, beside
 from majordomo.planner.teaching import Teaching
 from majordomo.scene_graph.nodes import ObjectNode, PersonNode, RoomNode
 from majordomo.skills.rooms import in_room
@@ -178,6 +179,12 @@ class Meaning:
         return Meant(things=found, places=people, noun=noun_of((thing,), context), told=True)
 
     def _carry(self, step: Carry, context: Context) -> Outcome:
+        if step.destination is not None and step.destination.relation in SIDES:
+            sided = beside(step.destination, self._grounding, context)
+            if not isinstance(sided, tuple):
+                return sided
+            outcome = self._carry(replace(step, destination=sided[0]), context)
+            return replace(outcome, answer=sided[1]) if isinstance(outcome, Meant) else outcome
         if step.destination is not None and step.destination.relation not in ("to", "in", "on", "near"):
             relation = step.destination.relation
             spot = relation if relation.endswith("floor") else f"“{relation}” it"

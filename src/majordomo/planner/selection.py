@@ -64,6 +64,15 @@ _ANY_WILL_DO = re.compile(
     r"|(?:it |that )?(?:really )?does not (?:really )?matter(?: which(?: one)?)?"
     r"|i (?:really )?do not (?:really )?(?:mind|care)(?: which(?: one)?)?)(?: |$))+$"
 )
+_ADDED = re.compile(
+    r"[\s,]+(?:of course|obviously|naturally|definitely|i (?:guess|think|suppose|mean)|please"
+    r"|then|instead|if possible|thanks?)"
+    r"(?=[\s.!]*$)"
+)
+_WHICHEVER = re.compile(
+    r"^(?:whichever|the one that|the one which|that which)(?: one)? is (?:the )?(nearest"
+    r"|closest|biggest|largest|smallest)\b"
+)
 _LIKED = re.compile(
     r"^(?:i think |i guess |maybe |perhaps |let us say |make it |let us take |go for |i (?:want"
     r"|would like|prefer|choose|pick|would prefer|will take|will have) |it is |that is )*"
@@ -115,6 +124,7 @@ def select(
         return rest if len(rest) == 1 and all(out) else ()
     reasoned = _REASON.match(answer.casefold())
     answer = reasoned["which"] if reasoned else answer
+    answer = _WHICHEVER.sub(r"the \1 one", _ADDED.sub("", answer.casefold()))
     liked = _LIKED.match(answer.casefold())
     if liked and liked["which"] != answer.casefold().strip(" .!"):
         chosen = _chosen(liked["which"], candidates, snapshot, interpreter, grammar)

@@ -132,3 +132,34 @@ def test_waiting_for_a_time_is_not_left_out(text):
 def test_rooms_are_called_by_their_names():
     assert heard("which room are you in").reply == "I am in the hall."
     assert "room_" not in heard("list the rooms").reply
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("put the key left of the pen", "beside the black pen; I do not choose the side"),
+        ("put the key between the pen and the bottle on the desk", "beside the black pen and the red bottle"),
+        ("lay the key to the right of the pen", "I do not choose the side"),
+        ("put the key in front of the pen", "I do not choose the side"),
+    ],
+)
+def test_a_side_is_declined_and_the_thing_put_beside(text, said):
+    found = heard(text)
+    assert [str(goal) for goal in found.goals] == ["on(key_1, desk_1)"], found.reply
+    assert said in found.reply
+
+
+@pytest.mark.parametrize(
+    "text", ["put the key behind the couch", "put the key under the desk", "put the key between the pen and the bowl"]
+)
+def test_a_side_where_nothing_can_be_put_is_refused(text):
+    assert heard(text).kind is Kind.REFUSE
+
+
+def test_a_sink_of_several_is_the_one_in_the_room_that_was_named():
+    shelved = home().furniture("shelf_9", "shelf", "room_5", at=(7.0, 5.0)).snapshot(robot_in="room_2", at=(4.2, 0.0))
+    said = "put the books on the bed on the shelf"
+    found = PLANNER.read(said, shelved, Dialogue())[1].interpretation
+    assert {goal.args[1] for goal in found.goals} == {"shelf_9"}, found.reply
+    asked = PLANNER.read("put the key on the shelf", shelved, Dialogue())[1].interpretation
+    assert asked.kind is Kind.CLARIFY

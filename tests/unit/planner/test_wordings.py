@@ -321,7 +321,7 @@ SAME = [
     ("the brush should be in the cabinet, would you see to that?", "the brush should go to the cabinet?"),
     ("get me the yellow umbrella, it is raining!", "get me the yellow umbrella!"),
     ("what i want is the yellow folder", "i want the yellow folder"),
-    ("she is done with it, it can go back", "it can go back"),
+    ("she is done with it, it can go back", "put it back"),
     ("you should know that the office is our study", "the office is our study"),
     ("the quiet room is from today on the nap room", "the quiet room is the nap room"),
     ("back to where you found it", "put it back where it was"),

@@ -58,7 +58,8 @@ class Reader(QuestionReader):
         return Destination(relation="to", reference=Pronoun(word="there"))
 
     def dest_beside(self, children: Children) -> Destination:
-        return Destination(relation=str(tokens_of(children)[0]), reference=values_of(children)[0])
+        reference, *other = values_of(children)
+        return Destination(relation=str(tokens_of(children)[0]), reference=reference, other=other[0] if other else None)
 
     def dest_spot(self, children: Children) -> Destination:
         return Destination(relation="to", reference=values_of(children)[0])

@@ -82,10 +82,11 @@ Reference = NounPhrase | Pronoun | Spot
 
 @dataclass(frozen=True, kw_only=True)
 class Destination:
-    """Where something goes. ``relation``: to, on, in, near."""
+    """Where something goes. ``relation``: to, on, in, near, or as typed. ``other``: the second one of *between*."""
 
     relation: str
     reference: Reference
+    other: Reference | None = None
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -5,6 +5,35 @@ from __future__ import annotations
 BRINGING: tuple[tuple[str, str], ...] = (
     (
         (
+            r"\b(it|that|this|they|those|the [\w ]+?) (?:goes?|can go|should go|belongs?|needs to go"
+            r"|wants to go|has to go"
+            r"|may go|must go) back(?: (?:to|in|into|on|onto|at) (?:its|their|the) (?:\w+ )?(?:place|spot|home|position"
+            r"|location))?(?=$|[.,!])"
+        ),
+        r"put \1 back",
+    ),
+    (r"^(?:and |now |then |ok |,)*back (?:it|they|that|this) goes?(?=[.!]*$)", "put it back"),
+    (
+        (
+            r"\b(?:make sure|see to it|see|ensure|check|take care)(?: that)? ([^,.;]+?) (?:gets|comes"
+            r"|makes it|makes its way"
+            r"|ends up|winds up|finds its way|lands|arrives|get|end up|makes it back|is (?:put|placed"
+            r"|taken|moved|brought"
+            r"|delivered|returned)) (?=(?:to|on|in|at|into|onto|back|next)\b)"
+        ),
+        r"\1 should go ",
+    ),
+    (
+        (
+            r"\b(?:needs?|wants?|requires?) (?:moving|putting|taking|bringing|carrying|returning|placing|delivering"
+            r"|transferring|shifting|transporting)(?: over| back)? (?=(?:to|on|in|at|into|onto|next)\b)"
+        ),
+        "should go ",
+    ),
+    (r"^(the [\w' ]+?) is (?:meant |intended |supposed to be )?for (\w+)(?=[.!]*$)", r"\1 for \2"),
+    (r"\b(bring|take|carry)( [^,.;]+?) (?:along )?with you\b", r"\1\2"),
+    (
+        (
             r"^do not (?:put|take|bring|move|carry|leave) ((?:the|my|his|her|that|those|these) [^,.;]+?) (?:in|on|to"
             r"|into|onto|at|next to) [^,.;]+[,.;]+ (?:but |just |instead |please |rather )*(?:put|take|bring|move"
             r"|carry|leave) (?:it|them) (?=(?:in|on|to|into|onto|at|next)\b)"

@@ -5,6 +5,13 @@ from __future__ import annotations
 CHOOSING: tuple[tuple[str, str], ...] = (
     (
         (
+            r"\b(except|but not|other than|apart from|besides|excluding) (?:those|the ones|that|any"
+            r"|anything) (?=(?:on|in|at|from|next|near|by|under)\b)"
+        ),
+        r"\1 the ones ",
+    ),
+    (
+        (
             r"\b((?:all )?(?:the|my|our) \w+s), (?:other than|except(?: for)?|apart from|excluding|bar|save for|without"
             r"|minus|but not|all but) (the \w+(?: ones?)?), (?=(?:in|on|to|into|onto|go|goes|should)\b)"
         ),

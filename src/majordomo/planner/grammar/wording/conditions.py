@@ -3,6 +3,23 @@
 from __future__ import annotations
 
 CONDITIONS: tuple[tuple[str, str], ...] = (
+    (
+        (
+            r"\bif (\w+) (?:has left|is out of|is no longer in|has gone from|has gone out of"
+            r"|is away from) (?=(?:the|my)\b)"
+        ),
+        r"unless \1 is in ",
+    ),
+    (
+        (
+            r",? or(?: else)?,? ((?:the|an?|some|my) [\w ]+?) if (?:there (?:is|are) (?:none|no \w+|not any)(?: left)?"
+            r"|you (?:can not|do not) (?:find|see) (?:it|any|one|them)|(?:it|that|they) (?:is|are) "
+            r"(?:gone|not there|missing)"
+            r"|not)(?=$|[.!])"
+        ),
+        r", otherwise \1",
+    ),
+    (r",? or,? failing that,? (?=\w)", ", otherwise "),
     (r"\b(has|have|holds|contains|got) ([^,.;]+?) (?:in|on|inside) (?:it|them)\b", r"\1 \2"),
     (
         r"\bif you (?:happen to )?(?:see|find|come across|spot|notice|have|discover) (?=(?:an?|any|some|the|one)\b)",

@@ -42,6 +42,24 @@ SLIPS: tuple[tuple[str, str], ...] = (
 """Words that are no English, and what was meant."""
 
 COURTESY: tuple[tuple[str, str], ...] = (
+    (
+        (
+            r"^(?:the |my |our )?([\w' ]+?) (?:needs|wants|could do with|requires|is due) (?:some "
+            r"|a good |a bit of |a )?"
+            r"(?:tidying|cleaning|clearing|sorting|sorted|tidy|clean|clearing)(?: up| out)?[:;,.]+ "
+        ),
+        r"tidy the \1: ",
+    ),
+    (
+        (
+            r"\b(?:be |being )?(?:so )?(?:good|kind|nice|sweet|gracious|obliging|lovely) (?:as|enough) to "
+            r"(?=(?:bring|take|put|go|come|get|fetch|give|carry|move|find|look|tell|pick|drive|pop|head|return)\b)"
+        ),
+        "",
+    ),
+    (r"^(?:it is )?(?:about |high )?time (?:for you |you )?(?:to )?(?=\w)(?!is\b)", ""),
+    (r"\s*(?:-+>|=+>|→)\s*", " to "),
+    (r"^first(?:ly)?[,:]? (.+?)(?:,|;|\.| and|, and)+ second(?:ly)?[,:]? (?=\w)", r"\1, then "),
     (r"^(?:maybe|perhaps|possibly)[, ]+(?=\w)", ""),
     (r"^(?:tidy|clean|clear|pick) up after (?:the |your |our |my )?[\w ]+?[:,;.]+ ", ""),
     (

@@ -11,6 +11,7 @@ _HABIT = (
 )
 
 NAMING: tuple[tuple[str, str], ...] = (
+    (r"^(?:the |that |this )((?:\w+ )*?)(\w+) is mine(?=[.!]*$)", r"call the \1\2 my \2"),
     (
         (
             rf"^{_OURS}{_HABIT} (?:call|calls|called|name|named|refer to|label|nickname|dub|know)"

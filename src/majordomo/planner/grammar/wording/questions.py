@@ -6,6 +6,7 @@ _NOW = r"(?: (?:now|right now|at the moment|currently|these days|lately|today|he
 _COLOR = r"(?:red|green|blue|yellow|black|white|brown|pink|purple|gray|grey|orange|gold|silver|cyan|beige|turquoise)"
 
 SHAPES: tuple[tuple[str, str], ...] = (
+    (r"^who (?:has|is got|has got|took|is holding|is carrying|had) ([^?]+?)(?= ?[?.!]|$)", r"where is \1"),
     (
         (
             r"^(?:and |but |so |well |now )*(?:tell|show|inform|remind|let) (?:me|us|an? [\w ]+?|"

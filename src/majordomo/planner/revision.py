@@ -17,7 +17,7 @@ from majordomo.planner.vocabulary import normal
 from majordomo.scene_graph.nodes import ObjectNode, PersonNode, RoomNode
 
 _COURTESY = r"(?:(?:sorry|oops|wait|hm+|um|ah|oh|hang on|hold on|excuse me|please|ok|okay|well|stop)\b[\s,.!]*)*"
-_TRAILING = re.compile(r"[\s,]+(?:instead|please|rather|i mean|i meant)[\s.!]*$")
+_TRAILING = re.compile(r"[\s,]+(?:instead|please|rather|actually|i mean|i meant)[\s.!]*$")
 _LED = re.compile(rf"^{_COURTESY}")
 _SAID = re.compile(r"^(?:i|we) (?:meant|mean|said)(?: to say)?[\s,:]+")
 _NO = re.compile(
@@ -50,10 +50,11 @@ _BARE = re.compile(
     rf"(?:[\s,]+{_SLIP})*[\s,.;:!…–-]+(?P<rest>.+)$"
 )
 """A slip taken back without a pause that is written, or by words that mean nothing else."""
-_RESUMED = re.compile(r"^(?P<said>.+?)\s*(?:\.\.\.+|…)\s*(?P<rest>(?:the|a|an|to|on|in|my|just)\b.+)$")
-_ONLY = re.compile(
-    r"^(?:(?:just|only|simply|rather|well|put it|yes|yeah)[\s,]+)+(?=(?:the|a|an|my|to|in|on|into|onto|at|next)\b)"
+_RESUMED = re.compile(
+    r"^(?P<said>.+?)\s*(?:\.\.\.+|…)\s*(?P<rest>(?:the|a|an|to|on|in|my|just|two|three|four"
+    r"|five|all|both)\b.*)$"
 )
+_ONLY = re.compile(r"^(?:(?:just|only|simply|rather|well|put it|yes|yeah|make (?:it|that)|i mean)[\s,]+)+(?=\w)")
 _NOT_THAT = re.compile(r"^(?:not|wasn't|isn't) (?:the |a |to )?[\w ]{1,30}?(?:[,;.]+| but) *")
 _MEANT = re.compile(
     rf"^{_COURTESY}(?:actually|rather|make (?:it|that)|(?:i (?:have )?)?changed my mind"

@@ -22,7 +22,7 @@ def sentences(text: str, lexicon: Lexicon) -> list[list[Terminal]]:
     """The sentences of a request, each as a list of terminals; courtesy is dropped."""
     typed_words = [Word(part, word.kind) for word in words_of(text) for part in _parted(word, lexicon)]
     words = [Word(lexicon.meant(word.text), "word") if word.kind == "word" else word for word in typed_words]
-    words = [word for word in words if word.kind != "word" or word.text not in ADVERBS]
+    words = [word for word in _joined(words, lexicon) if word.kind != "word" or word.text not in ADVERBS]
     found: list[list[Terminal]] = [[]]
     for token in _owned(_by_name(settled_uses(tagged(words, lexicon), lexicon))):
         if token.type == "STOP":
@@ -30,6 +30,15 @@ def sentences(text: str, lexicon: Lexicon) -> list[list[Terminal]]:
         elif token.type not in ("FILLER", "FRAME"):
             found[-1].append(token)
     return [trimmed(sentence) for sentence in found if trimmed(sentence)]
+
+
+def _joined(words: Sequence[Word], lexicon: Lexicon) -> list[Word]:
+    """Compounds that were typed apart as one word each."""
+    kept: list[Word] = []
+    for word in words:
+        whole = lexicon.joined(kept[-1].text, word.text) if kept and kept[-1].kind == word.kind == "word" else ""
+        kept[-1:] = [Word(whole, "word")] if whole else [*kept[-1:], word]
+    return kept
 
 
 def _parted(word: Word, lexicon: Lexicon) -> tuple[str, ...]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
-from majordomo.planner.grammar.spelling import ORDINARY, closest, sound, sounding_alike, without_vowels
+from majordomo.planner.grammar.spelling import ORDINARY, closest, is_swapped, sound, sounding_alike, without_vowels
 from majordomo.planner.grammar.words import phrase_table
 from majordomo.planner.vocabulary import COLORS, known_nouns, normal, singular
 
@@ -27,6 +27,7 @@ def _by_letters() -> dict[tuple[str, str], tuple[str, ...]]:
 
 
 _SWAPPED = _by_letters()
+_SHORT = frozenset(word for word in PHRASE_WORDS if len(word) < 4)
 _SOUNDS = sounding_alike(word for word in PHRASE_WORDS | KNOWN_WORDS if len(word) > 2)
 _UNDERSTOOD = KNOWN_WORDS | PHRASE_WORDS | ORDINARY
 
@@ -61,13 +62,20 @@ class Lexicon:
         """``word``, or the one name of the graph that it is a slip of."""
         if word in _UNDERSTOOD or self.is_noun((word,)) or word in self.parts or singular(word) in self.parts:
             return word
-        swapped = _SWAPPED.get((word[:1], "".join(sorted(word))), ()) if len(word) > 2 else ()
+        alike_letters = _SWAPPED.get((word[:1], "".join(sorted(word))), ()) if len(word) > 2 else ()
+        swapped = [other for other in alike_letters if is_swapped(word, other)]
         if len(swapped) == 1:
             return swapped[0]
         alike = _SOUNDS.get(sound(word), frozenset()) | {part for part in self.parts if sound(part) == sound(word)}
         if len(alike) == 1 and len(word) > 3:
             return min(alike)
         return closest(word, self.parts) or without_vowels(word, PHRASE_WORDS | self.parts) or word
+
+    def joined(self, one: str, other: str) -> str:
+        """*Hair brush* as *hairbrush*: two words typed apart that only together name something; else empty."""
+        whole = one + other
+        apart = self.is_noun((one, other)) or not self.is_noun((whole,)) or one in _SHORT
+        return "" if apart else whole
 
     def parted(self, word: str) -> tuple[str, ...]:
         """*Thegreen* as *the green*: an article typed together with a word that is known."""

@@ -146,8 +146,11 @@ def _linked(parts: Sequence[Part], steps: list[ParsedStep]) -> list[ParsedStep]:
             _background(part.tokens) if aside and isinstance(part, Clause) else step
             for part, step, aside in zip(parts, steps, told, strict=True)
         ]
-    for index, (part, step, after) in enumerate(zip(parts, steps, steps[1:], strict=False)):
-        if isinstance(part, Clause) and isinstance(step, Understood | NotUnderstood) and _refers_back(after):
+    for index, (part, step) in enumerate(zip(parts, steps, strict=True)):
+        after = next((other for other in steps[index + 1 :] if not isinstance(other, Background)), None)
+        if after is None or not _refers_back(after):
+            continue
+        if isinstance(part, Clause) and isinstance(step, Understood | NotUnderstood):
             steps[index] = _topic(part.tokens, step)
     return steps
 

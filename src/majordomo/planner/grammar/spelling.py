@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
+from functools import lru_cache
 
 MIN_LETTERS = 5
 MIN_REPLACED = 7
@@ -26,11 +27,14 @@ ORDINARY = frozenset(
      "vest", "waste", "west", "wine", "wood", "zone"}
 )  # fmt: skip
 """English words that are nobody's slip of another word, though letters or sounds would allow it."""
+_HARD_C = re.compile(r"c(?![eihky])")
 _SPELLINGS = (("ph", "f"), ("sc", "s"), ("ck", "k"), ("z", "s"), ("gh", "g"), ("wh", "w"), ("qu", "kw"), ("y", "i"))
 
 
+@lru_cache(maxsize=8192)
 def sound(word: str) -> str:
     """Roughly how a word sounds: *sizzors* and *scissors*, *farmacy* and *pharmacy* are the same."""
+    word = _HARD_C.sub("k", word)
     for spelled, heard in _SPELLINGS:
         word = word.replace(spelled, heard)
     return "".join(letter for index, letter in enumerate(word) if index == 0 or letter != word[index - 1])
@@ -66,6 +70,12 @@ _VOWELS = re.compile(r"(?<=.)[aeiou]")
 def _is_within(word: str, other: str) -> bool:
     letters = iter(other)
     return all(letter in letters for letter in word)
+
+
+def is_swapped(word: str, other: str) -> bool:
+    """Whether one letter has moved: *teh*, *pare* for *pear*."""
+    moved = (word[:k] + word[k + 1 :] for k in range(1, len(word)))
+    return any(rest == other[:k] + other[k + 1 :] for rest in moved for k in range(1, len(other)))
 
 
 def closest(word: str, words: Iterable[str]) -> str | None:

@@ -39,7 +39,8 @@ def _same_letters(typed: str, verb: str) -> bool:
     if len(typed) < 3 or len(verb) < 4:
         return False
     lost = len(typed) == len(verb) - 1 and any(verb[:k] + verb[k + 1 :] == typed for k in range(len(verb)))
-    return lost or (sorted(typed) == sorted(verb) and len(typed) == len(verb))
+    one_off = len(typed) == len(verb) > 4 and sum(a != b for a, b in zip(typed, verb, strict=True)) == 1
+    return lost or one_off or (sorted(typed) == sorted(verb) and len(typed) == len(verb))
 
 
 def _longest(words: Sequence[Word], index: int, lexicon: Lexicon) -> tuple[int, Terminal]:

@@ -5,6 +5,14 @@ from __future__ import annotations
 BRINGING: tuple[tuple[str, str], ...] = (
     (
         (
+            r"\b(the \w+ (?:\w+ )?(?:in|on|at|from|by|near|next to) [^,.;]+?), (?:and )?not the (?:one|other)s? "
+            r"(?:in|on|at|from|by|near|next to) [^,.;]+(?=[.!]*$)"
+        ),
+        r"\1",
+    ),
+    (r"^((?:can|could|may) \w+ (?:please )?(?:have|get) (?:his|her|their|the|my) [\w ]+?) back(?=[.!?]*$)", r"\1"),
+    (
+        (
             r"\b(it|that|this|they|those|the [\w ]+?) (?:goes?|can go|should go|belongs?|needs to go"
             r"|wants to go|has to go"
             r"|may go|must go) back(?: (?:to|in|into|on|onto|at) (?:its|their|the) (?:\w+ )?(?:place|spot|home|position"
@@ -15,7 +23,8 @@ BRINGING: tuple[tuple[str, str], ...] = (
     (r"^(?:and |now |then |ok |,)*back (?:it|they|that|this) goes?(?=[.!]*$)", "put it back"),
     (
         (
-            r"\b(?:make sure|see to it|see|ensure|check|take care)(?: that)? ([^,.;]+?) (?:gets|comes"
+            r"(?:\b(?:can|could|would|will) you (?:please )?)?\b(?:make sure|see to it|ensure|take care"
+            r"|(?:see|check)(?= that\b))(?: that)? ([^,.;]+?) (?:gets|comes"
             r"|makes it|makes its way"
             r"|ends up|winds up|finds its way|lands|arrives|get|end up|makes it back|is (?:put|placed"
             r"|taken|moved|brought"
@@ -85,7 +94,7 @@ BRINGING: tuple[tuple[str, str], ...] = (
     (
         (
             r"^(?:can|could|may|might) (?!i\b|you\b|we\b|it\b|the\b|this\b|that\b|someone\b|somebody\b)(\w+)"
-            r" (?:please )?(?:have|get|borrow|use) (?=(?:the|a|an|my|some|one|two|any|that)\b)"
+            r" (?:please )?(?:have|get|borrow|use) (?=(?:the|a|an|my|some|one|two|any|that|his|her|their)\b)"
         ),
         r"bring \1 ",
     ),

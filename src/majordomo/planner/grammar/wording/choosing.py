@@ -17,7 +17,13 @@ CHOOSING: tuple[tuple[str, str], ...] = (
         ),
         r"\1 except \2 ",
     ),
-    (r", (?:both|all|each)(?: of them)? (?=(?:for|to|in|on|into|onto) )", " "),
+    (
+        (
+            r", (?:both|all|each|every one|each and every one|every single one|the (?:whole )?lot)"
+            r"(?: of (?:them|these|those))?,? (?=(?:for|to|in|on|into|onto) )"
+        ),
+        " ",
+    ),
     (
         (
             r"\bthe (red|green|blue|yellow|black|white|brown|pink|purple|gray|grey|gold|silver) "

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 SLIPS: tuple[tuple[str, str], ...] = (
+    (r"\btoo (?=(?:the|my|his|her|our)\b)", "to "),
+    (r"\bhwo\b", "how"),
+    (r"\b(?:thee|thyself)\b", "yourself"),
     (r"\b(the|an?|to|in|on|my|of|and)(?: (?:uh+|um+|er+),?)?(?: \1\b)+", r"\1"),
     (r"(?<=\w)\.\.(?=\w)", " "),
     (r"\b(the|a|that|my) read (?=\w)", r"\1 red "),
@@ -24,7 +27,8 @@ SLIPS: tuple[tuple[str, str], ...] = (
             r"\b([^\W\d]+)'s (?=(?:in|on|at|not|here|there|under|near|next|home|asleep|gone|open|closed|shut"
             r"|locked|missing|lost|still|inside|with|an?|the|so|too|very|been|gone|all|getting|being|got|asking|waiting"
             r"|looking|calling|hiding|sitting|standing|lying|sleeping|hungry|thirsty|tired|ill|sick|busy|ready|out|away"
-            r"|broken|dirty|empty|full)\b)"
+            r"|broken|dirty|empty|full|disappeared|vanished|fallen|dropped|rolled|turned|moved|left"
+            r"|come|become|found|run)\b)"
         ),
         r"\1 is ",
     ),
@@ -42,6 +46,23 @@ SLIPS: tuple[tuple[str, str], ...] = (
 """Words that are no English, and what was meant."""
 
 COURTESY: tuple[tuple[str, str], ...] = (
+    (r"^would it (?:kill|hurt|bother|trouble|be too much for|be possible for) you (?:too much )?to (?=\w)", ""),
+    (
+        (
+            r"^(?:please )?(?:do|there are|i have|here are|i have got) (?:these |the following |just )?"
+            r"(?:two|three|four|five|some|a few|several|a couple of) (?:things|jobs|tasks|chores|errands)"
+            r"(?: for you| to do| for you to do)?[:,.-]+ (?=\w)"
+        ),
+        "",
+    ),
+    (
+        (
+            r"^(?:somebody|someone|anyone|anybody|one of you),? (?:please )?(?=(?:get|bring|take|fetch"
+            r"|put|give|go|come|find|carry|move)\b)"
+        ),
+        "",
+    ),
+    (r"(?<=\w), (?:and )?(?:no|not|nothing) more(?: than that)?(?=[.!]*$)", ""),
     (
         (
             r"^(?:the |my |our )?([\w' ]+?) (?:needs|wants|could do with|requires|is due) (?:some "
@@ -205,7 +226,7 @@ COURTESY: tuple[tuple[str, str], ...] = (
     (" (?:at the moment|at present|right now|as we speak|these days)(?=[?.!]*$)", ""),
     (
         (
-            ",? (?:both|all|each|every one)(?: (?:two|three|four))? of (?:them|these|those)(?=$|,| (?:go|goes"
+            ",? (?:both|all|each and every one|each|every one)(?: (?:two|three|four))? of (?:them|these|those)(?=$|,| (?:go|goes"
             r"|should|must|can|belong|belongs)\b),?"
         ),
         "",

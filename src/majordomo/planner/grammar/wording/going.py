@@ -11,6 +11,21 @@ _HUNT = (
 FINDING: tuple[tuple[str, str], ...] = (
     (
         (
+            r"^(?:has|have|did) ((?:the|my|our|his|her) [\w' ]+?) (?:turned up|shown up|been found"
+            r"|reappeared|appeared|surfaced|turn up|show up)"
+            r"(?: yet| again| anywhere)*(?=[?.!]*$)"
+        ),
+        r"where is \1",
+    ),
+    (
+        (
+            r"^(?:is there |are there )?any (?:signs?|trace|luck (?:with|finding)|news of|word on) "
+            r"(?:of )?(?=(?:the|my|our|his|her)\b)"
+        ),
+        "where is ",
+    ),
+    (
+        (
             rf"^(?:.{{0,30}}?\b)?where (?:on earth |the hell |in the world )?(?:did (?:i|we) (?:leave"
             rf"|put|lay|drop)|(?:i|we) (?:left|put|laid|dropped)|is|are) ([\w' ]+?)(?: is| are"
             rf"| gone)?[?.,;!]+ {_HUNT}(?=[.!?]*$)"
@@ -79,6 +94,36 @@ _PLACED = (
 )
 
 GOING: tuple[tuple[str, str], ...] = (
+    (
+        (
+            r"^(\w+) (?:wants|needs|would like|wishes) (?:a word|a chat|to (?:talk|speak|see|meet|chat)"
+            r"|to have a (?:word|chat))"
+            r"(?: with| to)? you(?: now)?(?=[.!]*$)"
+        ),
+        r"go to \1",
+    ),
+    (r"\b(?:go (?:and )?)?keep (\w+) company(?: for a (?:bit|while|moment))?(?=$|[.!,])", r"go to \1"),
+    (
+        (
+            r"\b(?:go (?:and )?)(?:sit|stay|be|stand|hang out|wait|spend (?:some )?time) with (\w+)"
+            r"(?: for a (?:bit|while|moment))?(?=$|[.!,])"
+        ),
+        r"go to \1",
+    ),
+    (
+        (
+            r"^(.+?) is where you (?:should|ought to|need to|must|have to|are supposed to)(?: be| go"
+            r"| wait| stand)(?: now)?(?=[.!]*$)"
+        ),
+        r"go to \1",
+    ),
+    (
+        (
+            r"\b(?:stop|swing|pop|drop|call|nip|run|go)(?: over| down| up| back)? (?:by|in|into|to|at) (the [\w ]+?) "
+            r"for ((?:the|an?|some|my) [\w ]+?)(?=,? and |,|$|[.!])"
+        ),
+        r"get \2 from \1",
+    ),
     (r"\bmake it (?:over |across |down |up |back )*(?:to|into) (?=\w)", "go to "),
     (
         (

@@ -226,7 +226,8 @@ COURTESY: tuple[tuple[str, str], ...] = (
     (" (?:at the moment|at present|right now|as we speak|these days)(?=[?.!]*$)", ""),
     (
         (
-            ",? (?:both|all|each and every one|each|every one)(?: (?:two|three|four))? of (?:them|these|those)(?=$|,| (?:go|goes"
+            ",? (?:both|all|each and every one|each|every one)(?: (?:two|three|four))? of (?:them"
+            "|these|those)(?=$|,| (?:go|goes"
             r"|should|must|can|belong|belongs)\b),?"
         ),
         "",

@@ -163,3 +163,10 @@ def test_a_sink_of_several_is_the_one_in_the_room_that_was_named():
     assert {goal.args[1] for goal in found.goals} == {"shelf_9"}, found.reply
     asked = PLANNER.read("put the key on the shelf", shelved, Dialogue())[1].interpretation
     assert asked.kind is Kind.CLARIFY
+
+
+@pytest.mark.parametrize(
+    "text", ["on the desk with the pen", "in the room with the bed", "nobody said bring me the key"]
+)
+def test_a_place_told_by_what_is_there_is_no_request(text):
+    assert not [goal for goal in heard(text).goals if goal.object_id is not None]

@@ -39,7 +39,6 @@ BRINGING: tuple[tuple[str, str], ...] = (
         ),
         "should go ",
     ),
-    (r"^(the [\w' ]+?) is (?:meant |intended |supposed to be )?for (\w+)(?=[.!]*$)", r"\1 for \2"),
     (r"\b(bring|take|carry)( [^,.;]+?) (?:along )?with you\b", r"\1\2"),
     (
         (

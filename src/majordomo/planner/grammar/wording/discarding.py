@@ -42,12 +42,30 @@ DISCARDING: tuple[tuple[str, str], ...] = (
     ),
     (
         (
-            rf"^(?:and |now |then |ok |okay |so |,)*(?:(?:off|over|straight|right|away|out|down|up) )*(back )?{_PREP} "
+            r"^(?:and |now |then |ok |okay |so |,)*(?:(?:off|over|straight|right|away|out|down|up) )*(back )?"
+            r"(into|onto|to|over to|down to|back to) "
             r"((?:the|my|our|its|their|his|her|that|this|\w+'s|\w+) ?[\w' ]*?) with (it|them|that|those"
             r"|this|these|him|(?:the|my|his|her|all|both|every|that|those|this) [\w' ]+?)"
             r"(?:,? (?:then|please|now|you go|thanks))?(?=[.!]*$)"
         ),
         r"put \4 \1\2 \3",
+    ),
+    (
+        (
+            rf"^(?:and |now |then |ok |okay |so |,)*(back )?{_PREP} "
+            r"((?:the|my|our|its|their|his|her|that|this|\w+'s) [\w' ]+?) with (it|them|that|those|this|these)"
+            r"(?:,? (?:then|please|now|thanks))?(?=[.!]*$)"
+        ),
+        r"put \4 \1\2 \3",
+    ),
+    (
+        (
+            r"^(?:and |now |then |ok |okay |so |,)*(back (?:in|on) )"
+            r"((?:the|my|our|its|their|his|her|that|this|\w+'s) [\w' ]+?) with ((?:the|my|his|her|that"
+            r"|those|this) [\w' ]+?)"
+            r"(?:,? (?:then|please|now|thanks))?(?=[.!]*$)"
+        ),
+        r"put \3 \1\2",
     ),
     (
         (

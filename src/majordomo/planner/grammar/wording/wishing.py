@@ -48,7 +48,8 @@ WISHING: tuple[tuple[str, str], ...] = (
     ),
     (
         (
-            r"^(?:mum|mom|dad|mother|father|granny|grandma|grandpa|\w+) (?:says|said|asks|wants|told me"
+            r"^(?!nobody|noone|who|what|never|not|if|when)(?:mum|mom|dad|mother|father|granny|grandma"
+            r"|grandpa|\w+) (?:says|said|asks|wants|told me"
             r"|tells me)(?: that| to tell you)?"
             r"(?: you)?(?: should| must| are| need| have)?(?: please)?(?: to)?:? (?=(?:bring|take|put"
             r"|go|fetch|get|carry|move|give|find|come|pick)\b)"

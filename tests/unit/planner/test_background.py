@@ -23,6 +23,7 @@ TOLD = [
     ("Anna has been waiting for the remote all morning, take it to her", "given(remote_1, person_1)"),
     ("my wife Anna forgot the key, take it to her", "given(key_1, person_1)"),
     ("I'm finished washing my hands so the key can go to the office", "in(key_1, room_4)"),
+    ("the key belongs to Anna, give it to her", "given(key_1, person_1)"),
     ("the pen fell over, put it on the couch", "on(pen_1, couch_1)"),
     ("the kettle is whistling, bring me the key", "given(key_1, person_2)"),
     ("that was silly, bring me the key", "given(key_1, person_2)"),
@@ -50,6 +51,8 @@ KEPT = [
     "I hate the red one, bring me a cup",
     "you should wash the cups, bring me the key",
     "the door must be shut, bring me the key",
+    "the pen is to go to the office, bring me the key and the cups have to be washed",
+    "Anna asked me to wash the cups, bring me the key",
 ]
 """What says more than it tells, or leaves open what *it* is: nothing is done."""
 

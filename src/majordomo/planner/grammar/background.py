@@ -34,7 +34,7 @@ _CHOOSING = frozenset(
 _WILLING = frozenset(
     {"want", "wants", "wanted", "need", "needs", "prefer", "prefers", "hate", "hates", "must", "allergic", "only",
      "rather", "wish", "wishes", "better", "best", "favorite", "favourite", "forbidden", "allowed", "instead",
-     "never", "nothing", "nobody", "none", "until", "while", "because", "to", "dislike", "dislikes", "mean",
+     "never", "nothing", "nobody", "none", "until", "while", "because", "dislike", "dislikes", "mean",
      "means", "meant", "say", "why", "how", "what", "which", "who", "later", "tomorrow", "minutes", "every",
      "always", "whenever", "please"}
 )  # fmt: skip

@@ -96,6 +96,14 @@ _PLACED = (
 GOING: tuple[tuple[str, str], ...] = (
     (
         (
+            r"^do not (?:go|drive|come|walk|head) (?:to|into) [^,.;]+[,.;]+ (?:but |just |instead |please |rather )*"
+            r"(?=(?:go|come|drive|walk|head)\b)"
+        ),
+        "",
+    ),
+    (r"\b(to|at|in) wherever ([^,.;]+? (?:is|are))\b", r"\1 where \2"),
+    (
+        (
             r"^(\w+) (?:wants|needs|would like|wishes) (?:a word|a chat|to (?:talk|speak|see|meet|chat)"
             r"|to have a (?:word|chat))"
             r"(?: with| to)? you(?: now)?(?=[.!]*$)"

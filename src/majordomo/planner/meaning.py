@@ -36,6 +36,7 @@ from majordomo.planner.grammar.syntax import (
 from majordomo.planner.grounding import Ambiguous, Context, Grounding, NoReferent
 from majordomo.planner.meant import Meant
 from majordomo.planner.naming import aim_phrase, name_of
+from majordomo.planner.returning import Returning
 from majordomo.planner.siding import SIDES, beside
 from majordomo.planner.teaching import Teaching
 from majordomo.scene_graph.nodes import ObjectNode, PersonNode, RoomNode
@@ -59,6 +60,7 @@ class Meaning:
         self._gathering = Gathering(grounding)
         self._teaching = Teaching(grounding)
         self._going = Going(grounding)
+        self._returning = Returning(grounding, self._gathering, self.predicate)
 
     def of(self, readings: tuple[Step, ...], context: Context) -> Outcome:
         """The one meaning of a step, or why there is none.
@@ -69,7 +71,7 @@ class Meaning:
         """
         parallel = tuple(reading for reading in readings if isinstance(reading, Several))
         others = tuple(reading for reading in readings if reading not in parallel)
-        returned = [self._put_back(reading, context) for reading in others if isinstance(reading, PutBack)]
+        returned = [self._returning.of(reading, context) for reading in others if isinstance(reading, PutBack)]
         if len(returned) == 1 and isinstance(returned[0], Meant):
             return returned[0]
         outcomes = [self._step(reading, context) for reading in parallel]
@@ -123,7 +125,7 @@ class Meaning:
             case PutDown():
                 return self._put_down(step, context)
             case PutBack():
-                return self._put_back(step, context)
+                return self._returning.of(step, context)
             case Perhaps() | Wanted() | Mention():
                 return self._said(step, context)
             case Teach():
@@ -251,30 +253,6 @@ class Meaning:
         doubt = step.verbless and all(holds(goal, self._state) for goal in goals)
         return Meant(goals=goals, things=things, places=places, noun=context.noun, origins=origins, doubt=doubt)
 
-    def _put_back(self, step: PutBack, context: Context) -> Outcome:
-        things = _moved_last(step.things, context) or self._moved_before(
-            self._gathering.to_carry(step.things, context), context
-        )
-        if not isinstance(things, tuple):
-            return things
-        unknown = next((i for i in things if i not in context.origins), None)
-        if unknown is not None:
-            name = name_of(unknown, self._snapshot)
-            return NoReferent(reason=f"I do not remember that I moved {name}. Tell me where to put it.")
-        places = tuple(context.origins[i] for i in things)
-        goals = tuple(
-            Goal(predicate=self.predicate("to", place), args=(i, place))
-            for i, place in zip(things, places, strict=True)
-        )
-        return Meant(goals=goals, things=things, places=places)
-
-    def _moved_before(self, found: tuple[str, ...] | Trouble, context: Context) -> tuple[str, ...] | Trouble:
-        """Of several that are asked about, the one that was moved is what is put back."""
-        if not isinstance(found, Ambiguous):
-            return found
-        moved = tuple(i for i in found.candidates if i in context.origins)
-        return moved if len(moved) == 1 else found
-
     def _destination(self, destination: Destination, things: tuple[Reference, ...], context: Context) -> str | Trouble:
         """One place; *it* is never the thing that is carried."""
         reference = destination.reference
@@ -354,15 +332,6 @@ class Meaning:
 
     def _is_object(self, node_id: str) -> bool:
         return isinstance(self._snapshot.get(node_id), ObjectNode)
-
-
-def _moved_last(references: tuple[Reference, ...], context: Context) -> tuple[str, ...]:
-    """*Put it back*: everything that the request before moved, if that was several things."""
-    if context.fresh or not context.earlier or not all(isinstance(r, Pronoun) for r in references):
-        return ()
-    goals = context.earlier[0].goals
-    moved = tuple(dict.fromkeys(i for goal in goals if (i := goal.object_id) is not None and i in context.origins))
-    return moved if len(moved) > 1 else ()
 
 
 def _clearest(troubles: list[Trouble]) -> Trouble:

@@ -11,7 +11,7 @@ from majordomo.planner.grounding import Ambiguous, Context, Grounding, NoReferen
 from majordomo.planner.matching import nodes_of
 from majordomo.planner.naming import at, listed, name_of
 from majordomo.planner.narrowing import BUILDING, Narrowing
-from majordomo.planner.phrasing import article, describe, described, phrase_text, place_phrase
+from majordomo.planner.phrasing import article, describe, described, phrase_text, place_phrase, told_apart
 from majordomo.planner.plan import Query, QueryKind
 from majordomo.planner.reports import REPORTED, Report, Reports
 from majordomo.planner.vocabulary import singular
@@ -247,16 +247,15 @@ class Answers:
         room = self._snapshot.current_room
         if room is None:
             return "I do not know yet which room I am in."
-        label = self._snapshot.room(room).label
-        return (
-            f"I am in {name_of(room, self._snapshot)} ({room})." if label else f"I am in {room}; I have no name for it."
-        )
+        if not self._snapshot.room(room).label:
+            return f"I am in {room}; I have no name for it."
+        return f"I am in {describe(room, self._snapshot)}."
 
     def _rooms(self) -> tuple[str, tuple[str, ...]]:
         rooms = tuple(node.id for node in nodes_of(self._snapshot) if isinstance(node, RoomNode))
         if not rooms:
             return "I do not know any room yet.", ()
-        names = [f"{name_of(i, self._snapshot)} ({i})" if self._snapshot.room(i).label else i for i in rooms]
+        names = told_apart(rooms, self._snapshot)
         return f"I know {len(rooms)} room{'s' if len(rooms) > 1 else ''}: {listed(names)}.", rooms
 
     def _seen(self) -> tuple[str, tuple[str, ...]]:

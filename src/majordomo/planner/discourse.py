@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 
 from majordomo.planner.answers import Answer, Answers
 from majordomo.planner.gathering import Trouble
-from majordomo.planner.grammar.parser import Choice, ParsedStep, Refrain, Understood
-from majordomo.planner.grammar.syntax import Ask, NounPhrase, Pronoun
+from majordomo.planner.grammar.parser import Background, Choice, ParsedStep, Refrain, Understood
+from majordomo.planner.grammar.syntax import Ask, Mention, NounPhrase, Pronoun, Quantity
 from majordomo.planner.grounding import Ambiguous, Context, Grounding, NoReferent
 from majordomo.planner.meaning import Meaning
 from majordomo.planner.meant import Meant
@@ -49,7 +49,38 @@ class Discourse:
                     found += chosen
                 case Refrain():
                     forbidden.append(step)
+                case Background():
+                    self._context = self._told(step)
         return next((stuck for step in forbidden if (stuck := self._breach(step, found))), found)
+
+    def _told(self, step: Background) -> Context:
+        """What *it* and *him* mean after a statement; of several things, or one that is not known, it is asked."""
+        things: list[tuple[str, ...]] = []
+        trouble: Trouble | None = None
+        context = self._context
+        for is_place, readings in step.spoken:
+            outcomes = [self._meaning.of((reading,), context) for reading in readings]
+            meant = next((outcome for outcome in outcomes if isinstance(outcome, Meant)), None)
+            if meant is not None and meant.things and not is_place:
+                things.append(meant.things)
+            elif meant is not None:
+                context = carried_on(context, replace(meant, things=(), places=(*meant.places, *meant.things)))
+            elif outcomes and not isinstance(outcomes[0], Meant) and not is_place and _is_definite(readings):
+                trouble = trouble or outcomes[0]
+        if trouble is not None:
+            return replace(context, unsettled=trouble)
+        carried = [found for found in things if self._can_be_carried(found)] or things
+        if len(carried) == 1:
+            return carried_on(context, Meant(things=carried[0]))
+        if carried:
+            found = tuple(i for each in carried for i in each)
+            question = which_question("Which one do you mean", "it", found, self._grounding.snapshot)
+            return replace(context, unsettled=Ambiguous(question=question, phrase="it", candidates=found))
+        return context
+
+    def _can_be_carried(self, found: tuple[str, ...]) -> bool:
+        things = self._grounding.state.world.things
+        return all(i in things and things[i].graspable for i in found)
 
     def _chosen(self, choice: Choice) -> list[Meant] | Stuck:
         if choice.condition is None:
@@ -140,12 +171,19 @@ class Discourse:
         return Stuck(step=step, trouble=Ambiguous(question=reason, phrase="", candidates=()))
 
 
+def _is_definite(readings: Sequence[Mention]) -> bool:
+    """*The violin* or *my violin*, which *it* may stand for; not *a kid*."""
+    definite = (Quantity.THE, Quantity.THIS, Quantity.ALL, Quantity.BOTH)
+    return any(isinstance(reading.thing, NounPhrase) and reading.thing.quantity in definite for reading in readings)
+
+
 def carried_on(context: Context, meant: Meant) -> Context:
     """The context for the next step."""
     moved = {i: place for i, place in meant.origins.items() if i not in context.fresh}
     return replace(
         context,
         fresh=meant.things or context.fresh,
+        unsettled=None if meant.things else context.unsettled,
         mentioned=tuple(dict.fromkeys((*meant.things, *meant.places, *context.mentioned))),
         places=(*meant.places, *context.places),
         focus=meant.focus or context.focus,

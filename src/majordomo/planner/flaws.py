@@ -24,6 +24,9 @@ def goal_flaws(goals: Sequence[Goal], snapshot: Snapshot, state: PlanState, *, o
     found: list[Flaw] = []
     for goal in goals:
         unknown = list(_unknown(goal, snapshot, state))
+        if goal.predicate is Predicate.OPEN and not opens_doors and not unknown:
+            found.append(Flaw(message="I cannot open doors.", nodes=goal.args))
+            continue
         found += unknown or [*_unfit(goal, snapshot, state), *_unreachable(goal, snapshot, state, opens_doors)]
     found += _contradictions(goals, snapshot)
     return list({flaw.message: flaw for flaw in found}.values())
@@ -52,6 +55,10 @@ def _alternatives(arg: str, state: PlanState) -> str:
 def _unfit(goal: Goal, snapshot: Snapshot, state: PlanState) -> Iterator[Flaw]:
     first, last = (state.world.things[arg] for arg in (goal.args[0], goal.args[-1]))
     if goal.predicate is Predicate.ROBOT_AT:
+        return
+    if goal.predicate is Predicate.OPEN:
+        if first.kind != "door":
+            yield Flaw(message=f"I can open doors only, and not {_name(first.id, snapshot)}.", nodes=(first.id,))
         return
     if first.kind != "object":
         yield Flaw(

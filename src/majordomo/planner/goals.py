@@ -25,7 +25,10 @@ FRESH_S = 5.0
 
 
 class Predicate(StrEnum):
-    """Closed set of goals; the value is what the API and the language model see. ``found`` is internal to *find*."""
+    """Closed set of goals; the value is what the API and the language model see. ``found`` is internal to *find*.
+
+    ``open`` is about a door, and needs the skill of an installed package.
+    """
 
     ON = "on"
     IN = "in"
@@ -34,6 +37,7 @@ class Predicate(StrEnum):
     ROBOT_AT = "robot_at"
     GIVEN = "given"
     FOUND = "found"
+    OPEN = "open"
 
 
 ARITY: dict[Predicate, int] = {
@@ -44,6 +48,7 @@ ARITY: dict[Predicate, int] = {
     Predicate.ROBOT_AT: 1,
     Predicate.GIVEN: 2,
     Predicate.FOUND: 1,
+    Predicate.OPEN: 1,
 }
 PLACING = frozenset({Predicate.ON, Predicate.IN, Predicate.NEAR, Predicate.GIVEN})
 """Goals about where an object ends up; the first argument is the object, the second the place."""
@@ -72,8 +77,8 @@ class Goal:
 
     @property
     def object_id(self) -> str | None:
-        """The object that must be handled or seen, ``None`` for ``robot_at``."""
-        return None if self.predicate is Predicate.ROBOT_AT else self.args[0]
+        """The object that must be handled or seen, ``None`` for ``robot_at`` and ``open``."""
+        return None if self.predicate in (Predicate.ROBOT_AT, Predicate.OPEN) else self.args[0]
 
 
 def goal(predicate: str, *args: str) -> Goal:
@@ -86,7 +91,7 @@ def superseded(goals: Sequence[Goal], index: int) -> bool:
     this, later = goals[index], goals[index + 1 :]
     if this.predicate in (Predicate.ROBOT_AT, Predicate.FOUND):
         return bool(later)
-    return any(
+    return this.object_id is not None and any(
         other.object_id == this.object_id and (other.predicate in PLACING or other.predicate is Predicate.HOLDING)
         for other in later
     )
@@ -105,6 +110,8 @@ def holds(goal: Goal, state: PlanState) -> bool:
             return state.holding == first
         case Predicate.ROBOT_AT:
             return second in (state.robot_room, state.robot_at) or (not _is_room(state, second) and state.is_at(second))
+        case Predicate.OPEN:
+            return any(link.door == first and link.open for link in state.world.doors)
         case Predicate.FOUND:
             return first not in state.missing and first in (state.holding, state.robot_at)
         case Predicate.GIVEN:

@@ -52,6 +52,7 @@ class Context:
     ``mentioned``: identifiers, the newest first. ``places``: places spoken of, the newest first. ``choices``: answers
     to earlier questions, by phrase. ``focus``: the room the request has just gone to. ``noun``: for *the red one*.
     ``origins``: where things were before they were moved. ``earlier``: what was asked before, the newest first.
+    ``unsettled``: why *it* names nothing, when what was spoken of last is not known.
     """
 
     speaker: str | None = None
@@ -63,6 +64,7 @@ class Context:
     noun: str = ""
     origins: Mapping[str, str] = field(default_factory=dict)
     earlier: tuple[Exchange, ...] = ()
+    unsettled: NoReferent | Ambiguous | None = None
 
 
 class Grounding:
@@ -179,6 +181,8 @@ class Grounding:
         return thing is not None and not thing.graspable
 
     def _it(self, context: Context) -> Grounded:
+        if context.unsettled is not None:
+            return tuple(context.choices.get("it", ())) or context.unsettled
         if context.fresh:
             return context.fresh
         if self.state.holding is not None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from majordomo.planner.answers import ABILITIES
@@ -31,9 +31,13 @@ from majordomo.planner.verifier import Verifier
 from majordomo.planner.vocabulary import normal
 from majordomo.scene_graph.nodes import ObjectNode, PersonNode
 from majordomo.scene_graph.snapshot import Snapshot
+from majordomo.skills.skill import Skill
 
 Choices = dict[str, tuple[str, ...]]
-_PLEASE = re.compile(r"\b(?:please|pls|plz)\b")
+_PLEASE = re.compile(
+    r"\b(?:please|pls|plz|asap|pronto|at once|right away|immediately|(?:as )?(?:quick|fast)(?:ly)? as you can|now)\b"
+)
+"""Shows that what has no verb is a request."""
 DOUBT = "did you mean"
 """The phrase that is settled by *yes*."""
 
@@ -56,6 +60,7 @@ class Interpreter:
 
     def __init__(self, grammar: CommandGrammar, verifier: Verifier) -> None:
         self._grammar, self._verifier = grammar, verifier
+        self._verbs = door_verbs(verifier.skills)
         self._lexicon: tuple[Snapshot, Lexicon] | None = None
         self._grounding: tuple[Snapshot, Grounding] | None = None
 
@@ -125,7 +130,7 @@ class Interpreter:
         """Nouns and names of the graph; those of the last graph asked for are kept."""
         if self._lexicon is None or self._lexicon[0] is not snapshot:
             names = [person.name for person in snapshot.of_type(PersonNode) if person.name]
-            self._lexicon = (snapshot, Lexicon.of(nouns_of(snapshot), names))
+            self._lexicon = (snapshot, Lexicon.of(nouns_of(snapshot), names, self._verbs))
         return self._lexicon[1]
 
     def _revised(self, about: Revision, snapshot: Snapshot, dialogue: Dialogue, choices: Choices) -> Reading | None:
@@ -164,7 +169,8 @@ class Interpreter:
         if not is_place(rest):  # *to the office* is where something goes, and no request of its own
             spoken = replace(dialogue, mentioned=(*first.mentioned, *dialogue.mentioned))
             alone = self._whole(rest, snapshot, spoken, choices, verbless=False)
-            if alone.interpretation.kind is Kind.PLAN:
+            asked = first.kind is not Kind.CLARIFY or first.mentioned
+            if alone.interpretation.kind is Kind.PLAN or (asked and alone.interpretation.kind is Kind.ANSWER):
                 return alone
         return self._restated(said, rest, snapshot, dialogue, choices)
 
@@ -198,7 +204,7 @@ class Interpreter:
 
     def _checked(self, meanings: list[Meant], snapshot: Snapshot) -> Interpretation:
         goals = without_steps_between(meanings, self._verifier.state(snapshot))
-        answers = " ".join(meant.answer for meant in meanings if meant.answer)
+        answers = " ".join([*(meant.answer for meant in meanings if meant.answer), *_waiting(meanings)])
         mentioned = tuple(dict.fromkeys(i for meant in reversed(meanings) for i in (*meant.things, *meant.places)))
         queries = [meant.query for meant in meanings if meant.query is not None]
         lessons = tuple(lesson for meant in meanings for lesson in meant.lessons)
@@ -212,13 +218,35 @@ class Interpreter:
         return Interpretation(kind=Kind.PLAN, goals=goals, reply=answers, mentioned=mentioned, lessons=lessons)
 
 
+def door_verbs(skills: Mapping[str, Skill]) -> frozenset[str]:
+    """What people say for skills of installed packages that take a door: *open*, of ``open {door}``."""
+    found = {
+        phrase.partition(" {")[0]
+        for skill in skills.values()
+        if len(skill.parameters) == 1 and "door" in skill.parameters[0].kinds
+        for phrase in getattr(skill, "phrases", ())
+    }
+    return frozenset(verb for verb in found if verb.isalpha())
+
+
+def _waiting(meanings: Sequence[Meant]) -> list[str]:
+    """What is said of *wait there*: it is done at the end, and declined between other things."""
+    told = [meant.waiting for meant in meanings if meant.waiting]
+    last = bool(meanings) and bool(meanings[-1].waiting)
+    return [*(["I do not wait in between."] if told[: -1 if last else None] else []), *(told[-1:] if last else [])]
+
+
 def _settled(reading: Reading) -> bool:
     """Whether every word was understood, and something is to be done, asked or said of it."""
     return reading.wholly and reading.interpretation.kind is not Kind.REFUSE
 
 
 def _is_wish(step: ParsedStep) -> bool:
-    return isinstance(step, Understood) and all(isinstance(reading, Wanted) for reading in step.readings)
+    """Whether a step is a request only by the *please* with it: *the bathroom, please*, *two cans here, please*."""
+    return isinstance(step, Understood) and all(
+        isinstance(reading, Wanted) or (isinstance(reading, Perhaps) and not reading.verbless)
+        for reading in step.readings
+    )
 
 
 def _is_verbless(step: ParsedStep) -> bool:

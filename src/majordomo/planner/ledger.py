@@ -10,8 +10,10 @@ from majordomo.planner.tasks import VerifiedGoal
 from majordomo.scene_graph.nodes import ObjectNode
 from majordomo.scene_graph.snapshot import Snapshot
 
-IMMEDIATE = frozenset({Predicate.ROBOT_AT, Predicate.HOLDING})
-"""Goals about the robot's own body, which its pose and its grip confirm at every moment."""
+IMMEDIATE = frozenset({Predicate.ROBOT_AT, Predicate.HOLDING, Predicate.OPEN})
+"""Goals about the robot's own body, which its pose and its grip confirm at every moment, and about doors, whose state
+the graph holds without the time of the last look.
+"""
 
 
 class Ledger:

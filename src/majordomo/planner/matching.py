@@ -8,6 +8,7 @@ from difflib import get_close_matches
 from majordomo.planner.vocabulary import (
     ANYTHING,
     FURNITURE,
+    NO_KIND_OF_THEIRS,
     PERSON_WORDS,
     ROOM_WORDS,
     is_known,
@@ -120,7 +121,11 @@ def _rank(head: str, node: Place, *, fixed: bool) -> int | None:
         return 1
     if label in words_for(head):
         return 2
-    if label.rpartition(" ")[2] in forms and (isinstance(node, ObjectNode) or _is_own_name(label) or _is_sort(label)):
+    if (
+        label.rpartition(" ")[2] in forms
+        and label not in NO_KIND_OF_THEIRS
+        and (isinstance(node, ObjectNode) or _is_own_name(label) or _is_sort(label))
+    ):
         return 3
     if isinstance(node, RoomNode) and _sort_of_own_name(label) in forms:
         return 3

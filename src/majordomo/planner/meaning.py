@@ -10,6 +10,7 @@ from dataclasses import replace
 from majordomo.planner.answers import Answer, Answers
 from majordomo.planner.gathering import Gathering, Trouble, noun_of
 from majordomo.planner.goals import Goal, Predicate, holds
+from majordomo.planner.going import Going
 from majordomo.planner.grammar.syntax import (
     Ask,
     Carry,
@@ -18,6 +19,7 @@ from majordomo.planner.grammar.syntax import (
     Go,
     Mention,
     NounPhrase,
+    Operate,
     Perhaps,
     Pick,
     Pronoun,
@@ -34,8 +36,10 @@ from majordomo.planner.grammar.syntax import (
 from majordomo.planner.grounding import Ambiguous, Context, Grounding, NoReferent
 from majordomo.planner.meant import Meant
 from majordomo.planner.naming import aim_phrase, name_of
+from majordomo.planner.returning import Returning
+from majordomo.planner.siding import SIDES, beside
 from majordomo.planner.teaching import Teaching
-from majordomo.scene_graph.nodes import ObjectNode, PersonNode, RegionNode, RoomNode
+from majordomo.scene_graph.nodes import ObjectNode, PersonNode, RoomNode
 from majordomo.skills.rooms import in_room
 
 MAX_MENTIONED = 6
@@ -55,6 +59,8 @@ class Meaning:
         self._answers = Answers(grounding)
         self._gathering = Gathering(grounding)
         self._teaching = Teaching(grounding)
+        self._going = Going(grounding)
+        self._returning = Returning(grounding, self._gathering, self.predicate)
 
     def of(self, readings: tuple[Step, ...], context: Context) -> Outcome:
         """The one meaning of a step, or why there is none.
@@ -65,7 +71,7 @@ class Meaning:
         """
         parallel = tuple(reading for reading in readings if isinstance(reading, Several))
         others = tuple(reading for reading in readings if reading not in parallel)
-        returned = [self._put_back(reading, context) for reading in others if isinstance(reading, PutBack)]
+        returned = [self._returning.of(reading, context) for reading in others if isinstance(reading, PutBack)]
         if len(returned) == 1 and isinstance(returned[0], Meant):
             return returned[0]
         outcomes = [self._step(reading, context) for reading in parallel]
@@ -113,11 +119,13 @@ class Meaning:
             case Find():
                 return self._find(step, context)
             case Go():
-                return self._go(step, context)
+                return self._going.to(step, context)
+            case Operate():
+                return self._going.operated(step, context)
             case PutDown():
                 return self._put_down(step, context)
             case PutBack():
-                return self._put_back(step, context)
+                return self._returning.of(step, context)
             case Perhaps() | Wanted() | Mention():
                 return self._said(step, context)
             case Teach():
@@ -163,7 +171,7 @@ class Meaning:
         thing = step.thing
         if isinstance(thing, NounPhrase) and thing.quantity is Quantity.A:
             thing = replace(thing, quantity=Quantity.THE, count=None)
-        found = self._grounding.things(thing, context)
+        found = self._gathering.all_of((thing, *step.more), context)
         if not isinstance(found, tuple):
             return found
         if all(isinstance(self._snapshot.get(i), PersonNode) for i in found):
@@ -173,6 +181,12 @@ class Meaning:
         return Meant(things=found, places=people, noun=noun_of((thing,), context), told=True)
 
     def _carry(self, step: Carry, context: Context) -> Outcome:
+        if step.destination is not None and step.destination.relation in SIDES:
+            sided = beside(step.destination, self._grounding, context)
+            if not isinstance(sided, tuple):
+                return sided
+            outcome = self._carry(replace(step, destination=sided[0]), context)
+            return replace(outcome, answer=sided[1]) if isinstance(outcome, Meant) else outcome
         if step.destination is not None and step.destination.relation not in ("to", "in", "on", "near"):
             relation = step.destination.relation
             spot = relation if relation.endswith("floor") else f"“{relation}” it"
@@ -187,7 +201,8 @@ class Meaning:
                 )
             names = " and ".join(name_of(i, self._snapshot) for i in things)
             return Ambiguous(question=f"Where should I {step.verb} {names}?", phrase="destination", candidates=())
-        place = self._destination(step.destination, step.things, self._with_said(step.things, context))
+        told = self._with_said(step.things, context)
+        place = self._destination(step.destination, step.things, self._around(step.things, told))
         if not isinstance(place, str):
             unmet = self._gathering.to_carry(step.things, context) if isinstance(place, Ambiguous) else None
             return unmet if isinstance(unmet, NoReferent) else place
@@ -216,12 +231,19 @@ class Meaning:
         said = tuple(i for found in (*things, *places) for i in found)
         return replace(context, mentioned=(*said, *context.mentioned)) if said else context
 
+    def _around(self, references: tuple[Reference, ...], context: Context) -> Context:
+        """*The cups on the kitchen table in the sink*: of several sinks, the one in the room that was named."""
+        told = [x for r in references if isinstance(r, NounPhrase) for x in r.restrictions]
+        rooms = {self._state.room_of(i) for x in told for i in self._grounding.targets(x, context)}
+        (room, *others) = rooms or {None}
+        return context if room is None or others or context.focus else replace(context, focus=room)
+
     def _several(self, step: Several, context: Context) -> Outcome:
         goals: tuple[Goal, ...] = ()
         things: tuple[str, ...] = ()
         places: tuple[str, ...] = ()
         for part in step.steps:
-            outcome = self._carry(part, context) if isinstance(part, Carry) else self._go(part, context)
+            outcome = self._carry(part, context) if isinstance(part, Carry) else self._going.to(part, context)
             if not isinstance(outcome, Meant):
                 return outcome
             goals, things, places = goals + outcome.goals, things + outcome.things, outcome.places + places
@@ -230,30 +252,6 @@ class Meaning:
         origins = {i: place for i in things if (place := self._grounding.origin(i)) is not None}
         doubt = step.verbless and all(holds(goal, self._state) for goal in goals)
         return Meant(goals=goals, things=things, places=places, noun=context.noun, origins=origins, doubt=doubt)
-
-    def _put_back(self, step: PutBack, context: Context) -> Outcome:
-        things = _moved_last(step.things, context) or self._moved_before(
-            self._gathering.to_carry(step.things, context), context
-        )
-        if not isinstance(things, tuple):
-            return things
-        unknown = next((i for i in things if i not in context.origins), None)
-        if unknown is not None:
-            name = name_of(unknown, self._snapshot)
-            return NoReferent(reason=f"I do not remember that I moved {name}. Tell me where to put it.")
-        places = tuple(context.origins[i] for i in things)
-        goals = tuple(
-            Goal(predicate=self.predicate("to", place), args=(i, place))
-            for i, place in zip(things, places, strict=True)
-        )
-        return Meant(goals=goals, things=things, places=places)
-
-    def _moved_before(self, found: tuple[str, ...] | Trouble, context: Context) -> tuple[str, ...] | Trouble:
-        """Of several that are asked about, the one that was moved is what is put back."""
-        if not isinstance(found, Ambiguous):
-            return found
-        moved = tuple(i for i in found.candidates if i in context.origins)
-        return moved if len(moved) == 1 else found
 
     def _destination(self, destination: Destination, things: tuple[Reference, ...], context: Context) -> str | Trouble:
         """One place; *it* is never the thing that is carried."""
@@ -318,23 +316,6 @@ class Meaning:
         )
         return Meant(goals=goals, implied=True, things=found, noun=noun_of(references, context))
 
-    def _go(self, step: Go, context: Context) -> Outcome:
-        found = self._grounding.place(step.target, context)
-        if not isinstance(found, tuple):
-            return found
-        found = tuple(room for i in found for room in self._rooms_of(i))
-        if len(found) > 1:
-            return Ambiguous(question="I can be in one place only. Which one?", phrase="", candidates=found)
-        (place,) = found
-        focus = place if isinstance(self._snapshot.get(place), RoomNode) else self._state.room_of(place)
-        things = (place,) if self._is_object(place) else ()
-        goals = (Goal(predicate=Predicate.ROBOT_AT, args=(place,)),)
-        return Meant(goals=goals, places=(place,), things=things, focus=focus)
-
-    def _rooms_of(self, node_id: str) -> tuple[str, ...]:
-        """A region's rooms; any other node itself."""
-        return self._snapshot.rooms_in(node_id) if isinstance(self._snapshot.get(node_id), RegionNode) else (node_id,)
-
     def _put_down(self, step: PutDown, context: Context) -> Outcome:
         things = self._gathering.all_of(step.things, context)
         if not isinstance(things, tuple):
@@ -351,15 +332,6 @@ class Meaning:
 
     def _is_object(self, node_id: str) -> bool:
         return isinstance(self._snapshot.get(node_id), ObjectNode)
-
-
-def _moved_last(references: tuple[Reference, ...], context: Context) -> tuple[str, ...]:
-    """*Put it back*: everything that the request before moved, if that was several things."""
-    if context.fresh or not context.earlier or not all(isinstance(r, Pronoun) for r in references):
-        return ()
-    goals = context.earlier[0].goals
-    moved = tuple(dict.fromkeys(i for goal in goals if (i := goal.object_id) is not None and i in context.origins))
-    return moved if len(moved) > 1 else ()
 
 
 def _clearest(troubles: list[Trouble]) -> Trouble:

@@ -15,7 +15,8 @@ class Meant:
     """What one step means: goals, or the answer to a question; and what it mentioned.
 
     ``doubt``: it was not said as a request, and is asked about first. ``told``: it is only what the next step is
-    about. ``origins``: where its things were before.
+    about. ``origins``: where its things were before. ``waiting``: what comes of *wait there*,
+    if nothing follows.
     """
 
     goals: tuple[Goal, ...] = ()
@@ -28,6 +29,7 @@ class Meant:
     noun: str = ""
     doubt: bool = False
     told: bool = False
+    waiting: str = ""
     lessons: tuple[Lesson, ...] = ()
     origins: Mapping[str, str] = field(default_factory=dict)
 

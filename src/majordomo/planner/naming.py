@@ -92,6 +92,8 @@ def goal_phrase(goal: Goal, snapshot: Snapshot) -> str:
             return f"I am {'in' if in_room else 'at'} {first}"
         case Predicate.GIVEN:
             return f"{last} has {first}"
+        case Predicate.OPEN:
+            return f"{first} is open"
         case Predicate.FOUND:
             return f"{first} is {whereabouts(goal.args[0], snapshot)}"
 
@@ -112,6 +114,8 @@ def aim_phrase(goal: Goal, snapshot: Snapshot) -> str:
             return f"give {first} to {last}"
         case Predicate.FOUND:
             return f"find {first}"
+        case Predicate.OPEN:
+            return f"open {first}"
 
 
 def listed(phrases: list[str]) -> str:

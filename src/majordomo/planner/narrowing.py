@@ -129,6 +129,8 @@ class Narrowing:
                 return [i for i in candidates if self._snapshot.support_of(i) is None]
             case "is" | "kind":
                 return [i for i in candidates if i in self._alike(candidates, restriction)]
+            case "sort":
+                return self._of_sort(candidates, restriction)
             case "held":
                 return [i for i in candidates if i == self._state.holding]
             case "here":
@@ -240,6 +242,12 @@ class Narrowing:
     def is_at(self, node_id: str, place: str) -> bool:
         """Whether a node is in a room or region, or on or in a thing, perhaps with others in between."""
         return place in self._places_of(node_id)
+
+    def _of_sort(self, candidates: list[str], restriction: Restriction) -> list[str]:
+        """Those that a noun may name, in its widest sense."""
+        noun = restriction.reference.head if isinstance(restriction.reference, NounPhrase) else ""
+        named = frozenset(self._grounding.names.named(noun, None, widely=True))
+        return [i for i in candidates if i in named]
 
     def _at_any(self, found: Iterable[str], places: Iterable[str]) -> list[str]:
         """Those that are at one of the places."""

@@ -30,6 +30,8 @@ class Operators:
 
     def __init__(self, skills: Mapping[str, Skill], goals: Sequence[Goal], start: PlanState) -> None:
         self._skills = skills
+        others = (skill for name, skill in skills.items() if name not in (GOTO, PICK, PLACE))
+        self._on_doors = tuple(s.name for s in others if len(s.parameters) == 1 and "door" in s.parameters[0].kinds)
         self._legs_s: dict[tuple[World, str, str], float] = {}
         self._needed = frozenset(arg for goal in goals for arg in goal.args)
         self._stops = Stops((node for goal in goals for node in (*goal.args, *self.places(goal, start))), start)
@@ -78,6 +80,8 @@ class Operators:
         moving = {goal.object_id for goal in goals}
         sent_s = 0.0
         for goal in goals:
+            if goal.predicate is Predicate.OPEN:
+                continue
             if goal.object_id is None or goal.predicate is Predicate.FOUND:
                 sent_s = max(sent_s, self._sent_s(goal, state))
             elif (goal.predicate is not Predicate.NEAR or goal.args[1] not in moving) and not _comes_along(goal, state):
@@ -106,7 +110,12 @@ class Operators:
         return not goto.conditions(state, (beside,)) and goto.effects(state, (beside,)).is_at(target)
 
     def _worth_trying(self, goal: Goal, state: PlanState, later: Sequence[Goal]) -> Iterator[Step]:
-        if goal.object_id is None or (goal.predicate is Predicate.FOUND and state.holding != goal.args[0]):
+        if goal.predicate is Predicate.OPEN:
+            yield from self._goto(state, goal.args[0])
+            yield from (Step(skill=name, args=goal.args) for name in self._on_doors)
+            if state.holding is not None:
+                yield from self._put_away(state, state.holding, goal, later)
+        elif goal.object_id is None or (goal.predicate is Predicate.FOUND and state.holding != goal.args[0]):
             yield from self._goto(state, goal.args[0])
             if state.holding is not None and (goal.predicate is Predicate.FOUND or state.holding in self._needed):
                 yield from self._put_away(state, state.holding, goal, later)

@@ -272,6 +272,8 @@ class _Export:
         match goal.predicate:
             case Predicate.HOLDING:
                 return [f"(holding {first})"]
+            case Predicate.OPEN:
+                return [f"(passable {first})"]
             case Predicate.IN if last in self._rooms:
                 return [f"(inside {first} {last})"]
             case Predicate.ROBOT_AT if last in self._rooms:

@@ -91,13 +91,13 @@ def place_phrase(object_id: str, snapshot: Snapshot) -> str:
 
 def which_question(ask: str, text: str, candidates: Sequence[str], snapshot: Snapshot) -> str:
     """A question that lists the candidates as a person would tell them apart; they can be answered by number, too."""
-    options = _told_apart(candidates[:MAX_LISTED], snapshot)
+    options = told_apart(candidates[:MAX_LISTED], snapshot)
     more = f", or one of {len(candidates) - MAX_LISTED} more" if len(candidates) > MAX_LISTED else ""
     lead = f"“{text}” could be several things. " if text != "you" else ""
     return f"{lead}{ask}: {_ored(options)}{more}?"
 
 
-def _told_apart(candidates: Sequence[str], snapshot: Snapshot) -> list[str]:
+def told_apart(candidates: Sequence[str], snapshot: Snapshot) -> list[str]:
     """Descriptions, with what is beside them where two are alike, and a count where that is alike as well."""
     told = [describe(i, snapshot) for i in candidates]
     told = [
@@ -132,11 +132,11 @@ def _bare(node: ObjectNode) -> str:
 def alternatives(phrase: NounPhrase, same: Sequence[str], snapshot: Snapshot) -> str:
     """Why a phrase names nothing, and what there is instead."""
     return _alternatives(phrase, same, snapshot) + (
-        " I have not seen the whole building yet." if _parts_unseen(snapshot) else ""
+        " I have not seen the whole building yet." if parts_unseen(snapshot) else ""
     )
 
 
-def _parts_unseen(snapshot: Snapshot) -> bool:
+def parts_unseen(snapshot: Snapshot) -> bool:
     """Whether exploration goes on: a door that nobody went through yet, something to look at, or not even a room."""
     doors, rooms = snapshot.of_type(DoorNode), snapshot.of_type(RoomNode)
     ahead = any(door.rooms[1] is None and door.crossing is CrossingStatus.UNCROSSED for door in doors)

@@ -17,7 +17,7 @@ from majordomo.planner.vocabulary import normal
 from majordomo.scene_graph.nodes import ObjectNode, PersonNode, RoomNode
 
 _COURTESY = r"(?:(?:sorry|oops|wait|hm+|um|ah|oh|hang on|hold on|excuse me|please|ok|okay|well|stop)\b[\s,.!]*)*"
-_TRAILING = re.compile(r"[\s,]+(?:instead|please|rather|i mean|i meant)[\s.!]*$")
+_TRAILING = re.compile(r"[\s,]+(?:instead|please|rather|actually|i mean|i meant)[\s.!]*$")
 _LED = re.compile(rf"^{_COURTESY}")
 _SAID = re.compile(r"^(?:i|we) (?:meant|mean|said)(?: to say)?[\s,:]+")
 _NO = re.compile(
@@ -37,7 +37,24 @@ _REPAIR = re.compile(
     r"that"
     r"|well|hang on|hold on)\b(?!\s+(?:matter|problem|rush|hurry|one|longer)))+[\s,.;:!…-]*(?P<rest>.+)$"
 )
-_RESUMED = re.compile(r"^(?P<said>.+?)\s*(?:\.\.\.+|…)\s*(?P<rest>(?:the|a|an|to|on|in|my|just)\b.+)$")
+_SLIP = (
+    r"(?:no|nope|wait|sorry|pardon(?: me)?|excuse me|i (?:do )?mean(?:t)?(?: to say)?|rather"
+    r"|better|actually|make (?:it|that)|scratch that|correction|not that|"
+    r"my (?:bad|mistake)|hang on|hold on|oops|whoops|what am i saying|forget (?:it|that)|(?:i )?should say|let us say)"
+)
+_BARE = re.compile(
+    rf"^(?P<said>.+?\w)[\s,.;:!…–-]+(?:(?:or|oh|ah|uh|um|er|hm+|and|but|well|hmm+)[\s,]+)*(?:no"
+    rf"(?=,? (?:the|an?|my|to|in|on|into|onto|at|next)\b)"
+    rf"|or no|or rather|pardon me|pardon|excuse me|no,? better|no,? rather|actually,? (?:no"
+    rf"|make (?:it|that))|make (?:it|that)|no,? make (?:it|that)|(?<=, )i mean|better)"
+    rf"(?:[\s,]+{_SLIP})*[\s,.;:!…–-]+(?P<rest>.+)$"
+)
+"""A slip taken back without a pause that is written, or by words that mean nothing else."""
+_RESUMED = re.compile(
+    r"^(?P<said>.+?)\s*(?:\.\.\.+|…)\s*(?P<rest>(?:the|a|an|to|on|in|my|just|two|three|four"
+    r"|five|all|both)\b.*)$"
+)
+_ONLY = re.compile(r"^(?:(?:just|only|simply|rather|well|put it|yes|yeah|make (?:it|that)|i mean)[\s,]+)+(?=\w)")
 _NOT_THAT = re.compile(r"^(?:not|wasn't|isn't) (?:the |a |to )?[\w ]{1,30}?(?:[,;.]+| but) *")
 _MEANT = re.compile(
     rf"^{_COURTESY}(?:actually|rather|make (?:it|that)|(?:i (?:have )?)?changed my mind"
@@ -60,12 +77,18 @@ _AGAIN = re.compile(
     r"\s.!]*$"
 )
 _TOO = re.compile(
-    r"^(?:and |also |now |then )+(?P<rest>.+?)(?:[\s,]+(?:too|as well|also))?(?:[\s,]+please)?[\s.!?]*$|"
+    r"^(?:and |also |now |then )+(?!do (?:the )?same)(?P<rest>.+?)(?:[\s,]+(?:too|as well"
+    r"|also))?(?:[\s,]+please)?[\s.!?]*$|"
     r"^(?P<rest2>.+?)[\s,]+(?:too|as well)(?:[\s,]+please)?[\s.!?]*$|"
-    r"^(?:do )?(?:the )?same (?:with|for|to) (?P<rest3>.+?)[\s.!?]*$|^what about (?P<rest4>.+?)[\s.!?]*$"
+    r"^(?:and |now |then |ok |okay |,|please |can you |could you |also )*(?:do )?(?:the )?"
+    r"(?:very |exact )?same (?:thing )?(?:again )?(?:with|for|to) (?P<rest3>.+?)[\s.!?]*$"
+    r"|^what about (?P<rest4>.+?)[\s.!?]*$"
 )
 
 
+_AMOUNT = r"\b(?:(?:all|the|just|only)(?: the)? )?(?:one|two|three|four|five|six|seven|eight|both|all|\d+)\b"
+_COUNTED = re.compile(rf"^(?P<amount>{_AMOUNT[2:]})(?: of them)?(?P<more>,? (?:to|in|on|into|onto|for|at|next)\b.*|)$")
+"""*Two cans, or rather all three, to the counter*: only the number is taken back."""
 MAX_REPLACED = 5
 _WHERE = frozenset({"to", "on", "onto", "in", "into", "at", "under", "beside", "near", "next", "by", "for"})
 """Words that a remark may stand for."""
@@ -104,10 +127,10 @@ def revision(text: str) -> Revision | None:
 def repair(text: str) -> tuple[str, str] | None:
     """What was said and what was meant instead, in one request: *bring me the cup, no sorry, the book*."""
     said = " ".join(text.casefold().replace("’", "'").split())
-    found = _REPAIR.match(said) or _RESUMED.match(said) if len(said) <= MAX_CHARACTERS else None
+    found = _BARE.match(said) or _REPAIR.match(said) or _RESUMED.match(said) if len(said) <= MAX_CHARACTERS else None
     if found is None:
         return None
-    rest = _NOT_THAT.sub("", _TRAILING.sub("", found["rest"])).strip(" .!?,")
+    rest = _NOT_THAT.sub("", _TRAILING.sub("", _ONLY.sub("", found["rest"]))).strip(" .!?,")
     return (found["said"].strip(" .,;:-"), rest) if rest else None
 
 
@@ -123,7 +146,10 @@ def restated(said: str, rest: str) -> Iterator[str]:
         yield " ".join(rest if word in NUMBERS or word.isdecimal() else word for word in words)
     if re.search(r" and (?!nothing else)", said) or " then " in said:
         return
-    for kept in range(len(words) - 1, max(len(words) - MAX_REPLACED - 1, 0), -1):
+    counted = _COUNTED.match(rest)
+    if counted:
+        yield re.sub(_AMOUNT, counted["amount"], said, count=1) + counted["more"].replace(",", "", 1)
+    for kept in range(len(words) - 1, max(len(words) - MAX_REPLACED - 1, -1), -1):
         if _sort_of(words[kept]) == _sort_of(rest.split(maxsplit=1)[0]):
             yield " ".join([*words[:kept], rest])
 

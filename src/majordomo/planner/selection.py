@@ -64,6 +64,24 @@ _ANY_WILL_DO = re.compile(
     r"|(?:it |that )?(?:really )?does not (?:really )?matter(?: which(?: one)?)?"
     r"|i (?:really )?do not (?:really )?(?:mind|care)(?: which(?: one)?)?)(?: |$))+$"
 )
+_ADDED = re.compile(
+    r"[\s,]+(?:of course|obviously|naturally|definitely|i (?:guess|think|suppose|mean)|please"
+    r"|then|instead|if possible|thanks?)"
+    r"(?=[\s.!]*$)"
+)
+_WHICHEVER = re.compile(
+    r"^(?:whichever|the one that|the one which|that which)(?: one)? is (?:the )?(nearest"
+    r"|closest|biggest|largest|smallest)\b"
+)
+_LIKED = re.compile(
+    r"^(?:i think |i guess |maybe |perhaps |let us say |make it |let us take |go for |i (?:want"
+    r"|would like|prefer|choose|pick|would prefer|will take|will have) |it is |that is )*"
+    r"(?P<which>.+?)"
+    r"(?:,? (?:would be|will be|is|would do|will do|sounds|seems|it is|i think|i guess|would suit me)"
+    r"(?: (?:best|fine|good|great|better|nice|lovely|perfect|ok|okay|right|the one|my "
+    r"(?:favou?rite|choice)|it|nicely|what i want|all right|alright|just fine))*)?[.! ]*$"
+)
+"""*The red one would be best*: which one, with the manner of choosing."""
 _REASON = re.compile(
     r"^(?P<which>[^,;.]+)[,;.]+ (?:because |since |as )?(?:he|she|it|they|i|we) "
     r"(?:is|are|am|was|likes?|loves?|wants?|needs?|prefers?)\b[^,;.]*[.!]*$"
@@ -106,6 +124,19 @@ def select(
         return rest if len(rest) == 1 and all(out) else ()
     reasoned = _REASON.match(answer.casefold())
     answer = reasoned["which"] if reasoned else answer
+    answer = _WHICHEVER.sub(r"the \1 one", _ADDED.sub("", answer.casefold()))
+    liked = _LIKED.match(answer.casefold())
+    if liked and liked["which"] != answer.casefold().strip(" .!"):
+        chosen = _chosen(liked["which"], candidates, snapshot, interpreter, grammar)
+        if chosen:
+            return chosen
+    return _chosen(answer, candidates, snapshot, interpreter, grammar)
+
+
+def _chosen(
+    answer: str, candidates: Sequence[str], snapshot: Snapshot, interpreter: Interpreter, grammar: CommandGrammar
+) -> tuple[str, ...]:
+    """As ``select``, for an answer that leaves nothing out and gives no reason."""
     words = [word.text for word in words_of(answer) if word.kind == "word"]
     said = " ".join(words)
     if said in candidates:

@@ -38,6 +38,9 @@ class Teaching:
             return resolve(step.target, context)
         if isinstance(step.target, Pronoun) and step.target.word == "me":
             return self._grounding.speaker(context)
+        spoken = [i for i in context.fresh if isinstance(self._snapshot.get(i), RoomNode)]
+        if isinstance(step.target, Pronoun) and step.target.word == "that" and len(spoken) == 1:
+            return tuple(spoken)
         here = self._snapshot.current_room
         if is_room_label(said) or (step.named and not step.mine and not is_known(said) and self._says_this(step)):
             return (here,) if here is not None else NoReferent(reason="I do not know which room I am in.")

@@ -235,6 +235,10 @@ def normal(label: str) -> str:
     return " ".join(label.lower().replace("_", " ").split())
 
 
+NO_KIND_OF_THEIRS = frozenset({"trash can", "garbage can", "watering can", "hot dog", "light bulb", "ping pong table"})
+"""Compounds that are no kind of what their last word says: a trash can is no can."""
+
+
 def is_room_label(word: str) -> bool:
     """Whether ``word`` names a kind of room."""
     return normal(word).rpartition(" ")[2] == "room" or bool(_ROOM_LABELS & words_for(word))

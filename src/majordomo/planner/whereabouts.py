@@ -40,10 +40,9 @@ class Whereabouts:
 
     def _room_place(self, room: RoomNode) -> str:
         if room.id == self._snapshot.current_room:
-            return f"where I am now ({room.id})"
+            return "where I am now"
         distance_m = self._state.distance_m(self._state.robot_at, room.id)
-        far = "and I know of no open way there" if distance_m is None else f"about {distance_m:.0f} m from me"
-        return f"{room.id}, {far}"
+        return "where I know of no open way to" if distance_m is None else f"about {distance_m:.0f} m from me"
 
     def _age(self, node: ObjectNode) -> str:
         return age_phrase(self._snapshot.stamp_s - node.last_seen_s)

@@ -49,7 +49,7 @@ class Skill(Protocol):
 
     An installed package adds a skill through the entry point group ``majordomo.skills``. One that takes a single node
     is planned for when that node is named by a ``final`` condition that keeps another skill from it, such as a closed
-    door. It may declare ``phrases``, what a person says for it: ``("open {door}",)``.
+    door. It may declare ``phrases``, what a person says for it: ``("open {door}",)``; those for doors are understood.
     """
 
     name: str

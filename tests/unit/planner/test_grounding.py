@@ -84,7 +84,7 @@ def test_while_a_room_is_being_measured_what_is_unknown_may_still_be_found():
 
 
 def test_a_short_misspelled_word_suggests_the_label():
-    assert "Did you mean apple?" in read("bring me the appl").reply
+    assert "Did you mean apple?" in read("bring me the aqple").reply
 
 
 def test_a_long_misspelled_word_is_taken_for_the_one_label_it_can_be():

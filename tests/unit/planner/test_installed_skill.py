@@ -7,11 +7,13 @@ from pathlib import Path
 
 import pytest
 
-from majordomo.planner.goals import goal
+from majordomo.planner.goals import goal, holds_in
+from majordomo.planner.grammar.parser import CommandGrammar
 from majordomo.planner.naming import step_phrase
-from majordomo.planner.plan import Impossible, Plan
+from majordomo.planner.plan import Dialogue, Impossible, Plan
 from majordomo.planner.sketch import Sketch
 from majordomo.planner.skill_planner import SkillPlanner, skill_lines
+from majordomo.planner.task_planner import TaskPlanner
 from majordomo.planner.verifier import Verifier
 from majordomo.scene_graph.nodes import DoorState
 from majordomo.skills.registry import load_registry
@@ -60,3 +62,44 @@ def test_schema_prompt_and_phrases_know_it(skills):
     assert described["OPEN"]["schema"]["required"] == ["door"]
     assert "- OPEN(door): open a closed door." in skill_lines(Verifier(skills).skills)
     assert skills.phrases() == {"OPEN": ("open {door}", "unlock {door}")}
+
+
+@pytest.mark.parametrize(
+    ("text", "goals"),
+    [
+        ("open the door between the hall and the office", ["open(door_2_0_1)"]),
+        ("please unlock the door between the kitchen and the hall", ["open(door_1_0_0)"]),
+        (
+            "open the door between the hall and the kitchen, then go to the kitchen",
+            ["open(door_1_0_0)", "robot_at(room_1)"],
+        ),
+        ("open both doors", ["open(door_1_0_0)", "open(door_2_0_1)"]),
+    ],
+)
+def test_what_a_package_can_do_is_asked_for_in_its_words(skills, text, goals):
+    snapshot, verifier = three_rooms(), Verifier(skills)
+    found = TaskPlanner(CommandGrammar(), verifier).read(text, snapshot, Dialogue())[1].interpretation
+    assert [str(goal) for goal in found.goals] == goals, found.reply
+    plan = verifier.plan_for(found.goals, snapshot)
+    assert isinstance(plan, Plan), plan
+    assert verifier.check_plan(plan, snapshot) == []
+    assert "OPEN" in {step.skill for step in plan.steps}
+
+
+def test_only_doors_are_opened_and_only_with_the_package(skills):
+    for known, said in ((skills, "doors only"), (load_registry([]), "cannot open")):
+        planner = TaskPlanner(CommandGrammar(), Verifier(known))
+        found = planner.read("open the cup", three_rooms(), Dialogue())[1].interpretation
+        assert not found.goals
+        assert said in found.reply
+    flaws = Verifier(load_registry([])).verify_goals([goal("open", "door_1_0_0")], three_rooms())
+    assert [flaw.message for flaw in flaws] == ["I cannot open doors."]
+    assert "doors only" in Verifier(skills).verify_goals([goal("open", "cup_1")], three_rooms())[0].message
+
+
+def test_a_door_is_found_open_in_the_graph(skills):
+    snapshot = three_rooms()
+    opened = Sketch().room("room_1", "kitchen", at=(0.0, 0.0)).room("room_2", "hall", at=(4.2, 0.0))
+    opened.door("room_1", "room_2", at=(2.1, 0.0))
+    assert not holds_in(goal("open", "door_1_0_0"), snapshot)
+    assert holds_in(goal("open", "door_1_0_0"), opened.snapshot(robot_in="room_1", at=(0.0, 0.0)))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from enum import StrEnum
 
 from majordomo.planner.grammar.tokens import words_of
@@ -64,6 +65,98 @@ _VAGUE = frozenset({"right", "a", "second", "moment", "minute", "sec", "just", "
     "everything",
                     "thanks", "then", "so", "well"})  # fmt: skip
 """Adds nothing after a control word, as in *hold on a second*."""
+_JOB = (
+    r"(?:(?:the|that|this|my|your|our|what you are doing|whatever you are doing)(?: (?:whole"
+    r"|entire|last|current|previous|latest|stupid))* ?"
+    r"(?:thing|job|task|request|order|mission|errand|plan|work|idea|instruction|command|trip|business|one)?s?"
+    r"|(?:what|whatever|everything|all)(?: that)? (?:i|we) (?:have |just |last )*(?:asked|said"
+    r"|wanted|told you|ordered|requested)"
+    r"(?: for| you| of you| you to do| before)*)"
+)
+_LEADS = (
+    r"(?:(?:on second thoughts?|actually|no|oh|well|sorry|you can|you may|could you|can you"
+    r"|let us|just|wait|please|robot|majordomo|hey|ok|okay|now|quick)[\s,]+)*"
+)
+_SHAPES: tuple[tuple[Control, re.Pattern[str]], ...] = tuple(
+    (control, re.compile(rf"{_LEADS}(?:{pattern})(?: please| now| robot| for now| thanks?(?: you)?)*"))
+    for control, pattern in (
+        (
+            Control.CANCEL,
+            (
+                rf"(?:cancel|abort|forget|scrap|scratch|abandon|ditch|call off|never ?mind|disregard|skip"
+                rf"|give up on|no need for)"
+                rf"(?: about)? (?:it|that|this|everything|all of (?:it|that)|{_JOB})(?: off)?"
+            ),
+        ),
+        (
+            Control.CANCEL,
+            (
+                rf"(?:drop|stop|leave|quit|end|kill|call) (?=(?:[\w ]+ )?(?:task|job|request|order|mission"
+                rf"|errand|plan|work)\b){_JOB}(?: off| alone| be)?"
+            ),
+        ),
+        (
+            Control.CANCEL,
+            (
+                r"(?:i (?:have )?changed my mind|do not bother(?: with (?:it|that))?|(?:that is|it is"
+                r"|this is) (?:no longer|not) (?:needed|necessary)(?: any ?more)?|(?:you )?(?:do not"
+                r"|need not) have to(?: any ?more)?)"
+            ),
+        ),
+        (Control.PAUSE, r"(?:take|have) a (?:short |little |quick |brief )?(?:break|rest|breather|pause|time ?out)"),
+        (
+            Control.PAUSE,
+            (
+                r"(?:hold your horses|bear with me|stand by|hang fire|hold fire|time ?out|give me (?:a|one"
+                r"|just a) (?:sec|second|moment|minute)|(?:just )?(?:wait|hold on|hang on|pause)(?: right"
+                r"| just)?"
+                r"(?: there| here| up| on| a while| a bit| for a bit| a little| for me| what you are doing| that| it)*)"
+            ),
+        ),
+        (
+            Control.STOP,
+            (
+                r"(?:stay|remain|stop|stand|hold)(?: exactly| right| just| there)* where you are(?:[\s,]+"
+                r"(?:and )?(?:do not|not) .{0,30})?"
+            ),
+        ),
+        (
+            Control.STOP,
+            (
+                r"(?:do not|not)(?: you)?(?: dare)?(?: move| budge| stir| go| take| drive)? ?(?:an other"
+                r"|one|a single|one more|a|any)(?: more)? (?:inch|step|muscle|further|centimeter|millimeter"
+                r"|meter|bit|wheel|finger)(?: further| more| closer| forward)?"
+            ),
+        ),
+        (
+            Control.STOP,
+            (
+                r"(?:do not (?:you )?(?:move|budge|stir)(?: a muscle)?|(?:hold|keep|stay|stand|be) (?:still"
+                r"|put)|stop (?:dead|in your tracks|driving|right now|this instant|at once|this second"
+                r"|everything|all of that|whatever you are doing))"
+            ),
+        ),
+        (
+            Control.RESUME,
+            (
+                r"(?:resume|continue|carry on|go on|go ahead|proceed|keep going|pick up|get on|go back|get back)"
+                r"(?: with| to)? ?(?:what you were (?:doing|up to|at)|where you (?:left off|stopped|were"
+                r"|paused)|(?:from )?where you (?:left off|stopped)|(?:your|the|that) (?:work|task|job"
+                r"|errand|mission|order|request|trip|plan)|as before|as you were|doing what you were doing)"
+            ),
+        ),
+        (
+            Control.RESUME,
+            (
+                r"(?:(?:resume|continue|carry on|proceed|get on with)(?: with)? (?:it|that)|as you were"
+                r"|back to (?:it|what you were doing|your (?:work|task|job))|(?:start|get) (?:moving"
+                r"|going) again|you may (?:move|go|proceed) (?:again|on|now)|unfreeze|"
+                r"(?:ok )?off you go again)"
+            ),
+        ),
+    )
+)
+"""Wordings of each control, beside the set phrases: a verb of ending with the word for a job, and the like."""
 _MEANING = {phrase: control for control, phrases in _PHRASES.items() for phrase in phrases}
 MAX_CHARACTERS = 200
 
@@ -76,7 +169,12 @@ def control_word(text: str) -> Control | None:
     if len(text) > MAX_CHARACTERS:
         return None
     words = [word.text for word in words_of(text) if word.kind == "word" and word.text not in _COURTESY]
-    return _one_control(words) or _one_control([word for word in words if word not in _VAGUE])
+    return _one_control(words) or _one_control([word for word in words if word not in _VAGUE]) or _shaped(text)
+
+
+def _shaped(text: str) -> Control | None:
+    said = " ".join(word.text for word in words_of(text) if word.kind == "word")
+    return next((control for control, shape in _SHAPES if shape.fullmatch(said)), None)
 
 
 def _one_control(words: list[str]) -> Control | None:

@@ -14,18 +14,53 @@ from majordomo.planner.grammar.tagging import tagged
 from majordomo.planner.grammar.terminals import ACTING, ASKING, Terminal
 from majordomo.planner.grammar.tokens import Word, words_of
 
+MAX_ROLE = 3
+"""Words that tell what a person is, before the name."""
+
 
 def sentences(text: str, lexicon: Lexicon) -> list[list[Terminal]]:
     """The sentences of a request, each as a list of terminals; courtesy is dropped."""
-    words = [Word(lexicon.meant(word.text), "word") if word.kind == "word" else word for word in words_of(text)]
-    words = [word for word in words if word.kind != "word" or word.text not in ADVERBS]
+    typed_words = [Word(part, word.kind) for word in words_of(text) for part in _parted(word, lexicon)]
+    words = [Word(lexicon.meant(word.text), "word") if word.kind == "word" else word for word in typed_words]
+    words = [word for word in _joined(words, lexicon) if word.kind != "word" or word.text not in ADVERBS]
     found: list[list[Terminal]] = [[]]
-    for token in _owned(settled_uses(tagged(words, lexicon), lexicon)):
+    for token in _owned(_by_name(settled_uses(tagged(words, lexicon), lexicon))):
         if token.type == "STOP":
             found.append([])
         elif token.type not in ("FILLER", "FRAME"):
             found[-1].append(token)
     return [trimmed(sentence) for sentence in found if trimmed(sentence)]
+
+
+def _joined(words: Sequence[Word], lexicon: Lexicon) -> list[Word]:
+    """Compounds that were typed apart as one word each."""
+    kept: list[Word] = []
+    for word in words:
+        whole = lexicon.joined(kept[-1].text, word.text) if kept and kept[-1].kind == word.kind == "word" else ""
+        kept[-1:] = [Word(whole, "word")] if whole else [*kept[-1:], word]
+    return kept
+
+
+def _parted(word: Word, lexicon: Lexicon) -> tuple[str, ...]:
+    return lexicon.parted(word.text) if word.kind == "word" else (word.text,)
+
+
+def _by_name(tokens: Sequence[Terminal]) -> list[Terminal]:
+    """*My wife Rosa*, *the old porter Ben*: the name says who it is."""
+    kept: list[Terminal] = []
+    for token in tokens:
+        if token.type == "NAME":
+            start = len(kept)
+            while (
+                start > 0
+                and len(kept) - start < MAX_ROLE
+                and kept[start - 1].type in ("WORD", "PERSON", "SMALL", "BIG")
+            ):
+                start -= 1
+            if start < len(kept) and start > 0 and kept[start - 1].type in ("THE", "MY", "HIS"):
+                del kept[start - 1 :]
+        kept.append(token)
+    return kept
 
 
 def _owned(tokens: Sequence[Terminal]) -> Iterator[Terminal]:

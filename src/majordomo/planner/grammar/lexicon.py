@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
-from majordomo.planner.grammar.spelling import closest
+from majordomo.planner.grammar.spelling import ORDINARY, closest, is_swapped, sound, sounding_alike, without_vowels
 from majordomo.planner.grammar.words import phrase_table
 from majordomo.planner.vocabulary import COLORS, known_nouns, normal, singular
 
@@ -27,14 +27,17 @@ def _by_letters() -> dict[tuple[str, str], tuple[str, ...]]:
 
 
 _SWAPPED = _by_letters()
-_UNDERSTOOD = KNOWN_WORDS | PHRASE_WORDS
+_SHORT = frozenset(word for word in PHRASE_WORDS if len(word) < 4)
+_SOUNDS = sounding_alike(word for word in PHRASE_WORDS | KNOWN_WORDS if len(word) > 2)
+_UNDERSTOOD = KNOWN_WORDS | PHRASE_WORDS | ORDINARY
 
 
 @dataclass(frozen=True)
 class Lexicon:
     """Names of the live graph as tuples of words: nouns (labels, taught names, rooms) and persons.
 
-    ``parts``: the words of all of them. ``last``: the last words of nouns of several.
+    ``parts``: the words of all of them. ``last``: the last words of nouns of several. ``verbs``: what
+    the skills of installed packages are for.
     """
 
     nouns: frozenset[tuple[str, ...]] = frozenset()
@@ -42,22 +45,44 @@ class Lexicon:
     longest: int = field(default=4)
     parts: frozenset[str] = frozenset()
     last: frozenset[str] = frozenset()
+    verbs: frozenset[str] = frozenset()
 
     @classmethod
-    def of(cls, nouns: Iterable[str], persons: Iterable[str] = ()) -> Lexicon:
-        """From labels and names as they stand in the graph."""
+    def of(cls, nouns: Iterable[str], persons: Iterable[str] = (), verbs: Iterable[str] = ()) -> Lexicon:
+        """From labels and names as they stand in the graph, and verbs for skills of installed packages."""
         split = frozenset(tuple(normal(noun).split()) for noun in nouns if normal(noun))
         people = frozenset(tuple(normal(person).split()) for person in persons if normal(person))
         longest = max((len(words) for words in split | people | KNOWN), default=1)
         parts = frozenset(part for words in split | people for part in words)
-        return cls(split, people, longest, parts, frozenset(noun[-1] for noun in split if len(noun) > 1))
+        return cls(
+            split, people, longest, parts, frozenset(noun[-1] for noun in split if len(noun) > 1), frozenset(verbs)
+        )
 
     def meant(self, word: str) -> str:
         """``word``, or the one name of the graph that it is a slip of."""
         if word in _UNDERSTOOD or self.is_noun((word,)) or word in self.parts or singular(word) in self.parts:
             return word
-        swapped = _SWAPPED.get((word[:1], "".join(sorted(word))), ()) if len(word) > 2 else ()
-        return swapped[0] if len(swapped) == 1 else closest(word, self.parts) or word
+        alike_letters = _SWAPPED.get((word[:1], "".join(sorted(word))), ()) if len(word) > 2 else ()
+        swapped = [other for other in alike_letters if is_swapped(word, other)]
+        if len(swapped) == 1:
+            return swapped[0]
+        alike = _SOUNDS.get(sound(word), frozenset()) | {part for part in self.parts if sound(part) == sound(word)}
+        if len(alike) == 1 and len(word) > 3:
+            return min(alike)
+        return closest(word, self.parts) or without_vowels(word, PHRASE_WORDS | self.parts) or word
+
+    def joined(self, one: str, other: str) -> str:
+        """*Hair brush* as *hairbrush*: two words typed apart that only together name something; else empty."""
+        whole = one + other
+        apart = self.is_noun((one, other)) or not self.is_noun((whole,)) or one in _SHORT
+        return "" if apart else whole
+
+    def parted(self, word: str) -> tuple[str, ...]:
+        """*Thegreen* as *the green*: an article typed together with a word that is known."""
+        rest = word.removeprefix("the")
+        known = rest in _UNDERSTOOD or rest in COLORS or self.is_noun((rest,)) if len(rest) > 2 else False
+        new = word not in _UNDERSTOOD and not self.is_noun((word,)) and word not in self.parts
+        return ("the", rest) if rest != word and known and new else (word,)
 
     def can_own(self, words: tuple[str, ...]) -> bool:
         """Whether *'s* may follow: the name of a person, of a thing or room, or the last word of a room's name."""

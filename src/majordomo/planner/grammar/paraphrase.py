@@ -8,17 +8,34 @@ from __future__ import annotations
 
 import re
 
+from majordomo.planner.grammar.wording.addressing import ADDRESSING
 from majordomo.planner.grammar.wording.asking import ASKING
 from majordomo.planner.grammar.wording.bringing import BRINGING
 from majordomo.planner.grammar.wording.choosing import CHOOSING
 from majordomo.planner.grammar.wording.conditions import CONDITIONS
 from majordomo.planner.grammar.wording.courtesy import COURTESY, SLIPS, UNDOING
+from majordomo.planner.grammar.wording.discarding import DISCARDING
 from majordomo.planner.grammar.wording.going import FINDING, GOING
 from majordomo.planner.grammar.wording.naming import NAMING
 from majordomo.planner.grammar.wording.returning import BACK
+from majordomo.planner.grammar.wording.wishing import WISHING
 
 RULES: tuple[tuple[str, str], ...] = (
-    *(*SLIPS, *COURTESY, *UNDOING, *BRINGING, *CHOOSING, *NAMING, *ASKING, *FINDING, *GOING, *CONDITIONS),
+    *(
+        *ADDRESSING,
+        *SLIPS,
+        *COURTESY,
+        *UNDOING,
+        *WISHING,
+        *DISCARDING,
+        *BRINGING,
+        *CHOOSING,
+        *NAMING,
+        *ASKING,
+        *FINDING,
+        *GOING,
+        *CONDITIONS,
+    ),
 )
 """Pattern and replacement, in the order in which they are tried."""
 _MAX_CHARACTERS = 600

@@ -13,12 +13,13 @@ from lark.lexer import Lexer
 from lark.visitors import CollapseAmbiguities
 
 from majordomo.planner.grammar.agreement import is_sensible
+from majordomo.planner.grammar.background import is_told, spoken_of
 from majordomo.planner.grammar.lexer import asks, clauses, sentences, typed
 from majordomo.planner.grammar.lexicon import Lexicon
 from majordomo.planner.grammar.lookahead import LookaheadParser
 from majordomo.planner.grammar.reading import Reader
 from majordomo.planner.grammar.sentences import Clause, Forbidden, Fork, Part, Structure, Unclear
-from majordomo.planner.grammar.syntax import Ask, Carry, NounPhrase, Step
+from majordomo.planner.grammar.syntax import Ask, Carry, Mention, NounPhrase, Perhaps, Step, Teach, Wanted, leans
 from majordomo.planner.grammar.terminals import ACTING, Terminal
 
 MAX_STEPS = 20
@@ -72,7 +73,15 @@ class Choice:
     otherwise: tuple[ParsedStep, ...]
 
 
-ParsedStep = Understood | NotUnderstood | Unable | Refrain | Choice
+@dataclass(frozen=True, kw_only=True)
+class Background:
+    """What is only told: its words, and the readings of each thing that it speaks of, with whether it is a place."""
+
+    text: str
+    spoken: tuple[tuple[bool, tuple[Mention, ...]], ...] = ()
+
+
+ParsedStep = Understood | NotUnderstood | Unable | Refrain | Choice | Background
 
 
 def flattened(steps: Iterable[ParsedStep]) -> Iterator[ParsedStep]:
@@ -115,7 +124,7 @@ class CommandGrammar:
         structure = Structure(_parses)
         for sentence in found:
             structure.add(sentence)
-        return [_parsed(part) for part in structure.parts]
+        return _linked(structure.parts, [_parsed(part) for part in structure.parts])
 
     def phrase(self, text: str, lexicon: Lexicon) -> tuple[NounPhrase, ...]:
         """Readings of ``text`` as a single noun phrase (*the blue one*), for answers to a question."""
@@ -124,6 +133,55 @@ class CommandGrammar:
             return ()
         readings = _readings("referred", found[0])
         return tuple(reading for reading in readings if isinstance(reading, NounPhrase))
+
+
+def _linked(parts: Sequence[Part], steps: list[ParsedStep]) -> list[ParsedStep]:
+    """The steps with statements set aside, and with what *the key, bring it to Ben* begins with as what it is about."""
+    told = [
+        isinstance(part, Clause) and _asks_nothing(step) and is_told(part.tokens)
+        for part, step in zip(parts, steps, strict=True)
+    ]
+    if any(isinstance(step, Understood | Choice) and not aside for step, aside in zip(steps, told, strict=True)):
+        steps = [
+            _background(part.tokens) if aside and isinstance(part, Clause) else step
+            for part, step, aside in zip(parts, steps, told, strict=True)
+        ]
+    for index, (part, step) in enumerate(zip(parts, steps, strict=True)):
+        after = next((other for other in steps[index + 1 :] if not isinstance(other, Background)), None)
+        if after is None or not _refers_back(after):
+            continue
+        if isinstance(part, Clause) and isinstance(step, Understood | NotUnderstood):
+            steps[index] = _topic(part.tokens, step)
+    return steps
+
+
+def _asks_nothing(step: ParsedStep) -> bool:
+    """Whether a step means nothing by itself, or only *the desk is a mess*."""
+    if isinstance(step, Understood):
+        return all(isinstance(r, Teach) and not r.named and not r.mine for r in step.readings)
+    return isinstance(step, NotUnderstood | Unable)
+
+
+def _background(tokens: Sequence[Terminal]) -> Background:
+    spoken = []
+    for is_place, span in spoken_of(tokens):
+        ends = range(len(span), 0, -1)
+        readings = next((found for end in ends if (found := tuple(_readings("topic", span[:end])))), ())
+        spoken.append((is_place, readings))
+    return Background(text=typed(tokens), spoken=tuple(spoken))
+
+
+def _refers_back(step: ParsedStep) -> bool:
+    steps = (step,) if not isinstance(step, Choice) else (*step.then, *step.otherwise)
+    return any(isinstance(each, Understood) and any(map(leans, each.readings)) for each in steps)
+
+
+def _topic(tokens: Sequence[Terminal], step: Understood | NotUnderstood) -> ParsedStep:
+    """A noun phrase without a verb as what the next step is about."""
+    if isinstance(step, Understood) and not all(isinstance(r, Wanted | Perhaps) for r in step.readings):
+        return step
+    topics = tuple(_readings("topic", tokens))
+    return Understood(text=step.text, readings=topics) if topics else step
 
 
 def _parsed(part: Part) -> ParsedStep:
@@ -179,7 +237,7 @@ def _lark() -> LookaheadParser:
         parser="earley",
         lexer=_TokenStream,
         ambiguity="explicit",
-        start=["command", "deed", "question", "condition", "referred", "narrated"],
+        start=["command", "deed", "question", "condition", "referred", "narrated", "topic"],
         maybe_placeholders=False,
     )
     return LookaheadParser(lark)

@@ -253,6 +253,13 @@ class PhraseReader(Transformer[Token, Any]):
     def restricted_is_not(self, children: Children) -> Restriction:
         return replace(self.restricted_is(children), negated=True)
 
+    def sort(self, children: Children) -> NounPhrase:
+        return NounPhrase(words=tuple(str(token) for token in children if token.type != "A"))
+
+    def restricted_sort(self, children: Children) -> Restriction:
+        """*Everything that is a can*, *a fruit that is not a banana*."""
+        return Restriction(relation="sort", reference=values_of(children)[0], negated=_has(children, "NOT"))
+
     def restricted_kind(self, children: Children) -> Restriction:
         return Restriction(relation="kind", reference=values_of(children)[0])
 

@@ -15,6 +15,7 @@ from majordomo.planner.grammar.syntax import (
     Go,
     Mention,
     NounPhrase,
+    Operate,
     Perhaps,
     Pick,
     Pronoun,
@@ -30,6 +31,7 @@ from majordomo.planner.grammar.syntax import (
     Wanted,
 )
 
+_WAITING = frozenset({"wait", "stay", "remain"})
 NONSENSE = NounPhrase(words=())
 """Stands where words would be dropped; no reading with it is kept."""
 
@@ -56,7 +58,8 @@ class Reader(QuestionReader):
         return Destination(relation="to", reference=Pronoun(word="there"))
 
     def dest_beside(self, children: Children) -> Destination:
-        return Destination(relation=str(tokens_of(children)[0]), reference=values_of(children)[0])
+        reference, *other = values_of(children)
+        return Destination(relation=str(tokens_of(children)[0]), reference=reference, other=other[0] if other else None)
 
     def dest_spot(self, children: Children) -> Destination:
         return Destination(relation="to", reference=values_of(children)[0])
@@ -128,6 +131,14 @@ class Reader(QuestionReader):
         destination = Destination(relation="to", reference=person)
         return Carry(things=values_of(children)[0], destination=destination, verb="bring")
 
+    def wants_there(self, children: Children) -> Carry:
+        """*Tom needs a spoon in the lab*: where he is."""
+        carry = self.wants(children)
+        person = NounPhrase(words=(str(tokens_of(children)[0]),), quantity=Quantity.THE, person=True)
+        where = Restriction(relation="in", reference=values_of(children)[1])
+        destination = Destination(relation="to", reference=replace(person, restrictions=(where,)))
+        return replace(carry, destination=destination)
+
     def bring(self, children: Children) -> Carry:
         values = values_of(children)
         things = next(_as_things(value) for value in values if isinstance(value, tuple) or value is values[-1])
@@ -178,11 +189,21 @@ class Reader(QuestionReader):
     def past_spot(self, children: Children) -> Spot:
         return Spot(thing=Pronoun(word="it"), past=str(tokens_of(children)[-1]) in ("was", "were"))
 
+    def operate(self, children: Children) -> Operate:
+        return Operate(verb=_verb(children), thing=values_of(children)[0])
+
     def put_down(self, children: Children) -> PutDown:
         return PutDown(things=values_of(children)[0])
 
     def go(self, children: Children) -> Go:
-        return Go(target=values_of(children)[0])
+        return Go(target=values_of(children)[0], stays=_stays(children))
+
+    def stay(self, _: Children) -> Go:
+        """*… and wait for me*: where the step before led."""
+        return Go(target=None, stays=True)
+
+    def stay_there(self, _: Children) -> Go:
+        return Go(target=Pronoun(word="there"), stays=True)
 
     def go_there(self, _: Children) -> Go:
         return Go(target=Pronoun(word="there"))
@@ -190,7 +211,7 @@ class Reader(QuestionReader):
     def come(self, children: Children) -> Go:
         """Whoever comes *back* may do so without knowing where the speaker is."""
         back = any(token.type in ("BACK", "RETURN") for token in tokens_of(children))
-        return Go(target=Pronoun(word="here" if back else "me"))
+        return Go(target=Pronoun(word="here" if back else "me"), stays=_stays(children))
 
     def find(self, children: Children) -> Find:
         return Find(things=values_of(children)[0])
@@ -240,6 +261,15 @@ class Reader(QuestionReader):
         who = whose[0] if whose else None
         return Mention(thing=replace(thing, colors=(*thing.colors, *colors)), who=who, lost=bool(states))
 
+    def topic(self, children: Children) -> Mention:
+        """*The key*, before *bring it to Ben*."""
+        thing, *more = map(generic, values_of(children)[0])
+        return Mention(thing=thing, more=tuple(more))
+
+    def narrated_lost(self, children: Children) -> Mention:
+        """*The phone is missing*."""
+        return Mention(thing=values_of(children)[0], lost=True)
+
     def narrated_person(self, children: Children) -> Mention:
         """*Ben is hungry*: what follows is about him."""
         return Mention(thing=self.recipient([children[0]]))
@@ -262,7 +292,13 @@ class Reader(QuestionReader):
         return replace(_teach(children), target=values_of(children)[0])
 
 
+def _stays(children: Children) -> bool:
+    return any(token.type == "STAND" and _WAITING & set(str(token).split()) for token in tokens_of(children))
+
+
 def _carried(one: Any, other: Any, verb: str) -> Carry:
+    if isinstance(one, tuple) and not isinstance(other, Destination | tuple):
+        other = Destination(relation="to", reference=other)
     if isinstance(other, Destination):
         return Carry(things=_as_things(one), destination=other, verb=verb)
     return Carry(things=_as_things(other), destination=Destination(relation="to", reference=one), verb=verb)

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
+from majordomo.planner.grammar.background import is_told
 from majordomo.planner.grammar.lexer import asks, clauses, trimmed
-from majordomo.planner.grammar.terminals import ACTING, Terminal
+from majordomo.planner.grammar.terminals import ACTING, RELATING, Terminal
 
 Tokens = Sequence[Terminal]
 Parses = Callable[[str, Tokens], bool]
@@ -75,11 +76,14 @@ class Structure:
                 otherwise=self._inner(otherwise),
             )
         elif first in ("OTHERWISE", "IF_NOT") and isinstance(before, Fork) and not before.otherwise:
+            done = before.then[-1].tokens if before.then and isinstance(before.then[-1], Clause) else ()
+            instead = self._inner(self._with_verb(rest, done))
             self.parts[-1] = Fork(
-                condition=before.condition, negated=before.negated, then=before.then, otherwise=self._inner(rest)
+                condition=before.condition, negated=before.negated, then=before.then, otherwise=instead
             )
         elif first in ("OTHERWISE", "IF_NOT") and isinstance(before, Clause):
-            self.parts[-1] = Fork(condition=(), then=(before,), otherwise=self._inner(rest))
+            instead = self._inner(self._with_verb(rest, before.tokens))
+            self.parts[-1] = Fork(condition=(), then=(before,), otherwise=instead)
         elif first == "BUT_FIRST" and before is not None:
             self.parts[-1:] = [*self._inner(rest), before]
         else:
@@ -173,7 +177,7 @@ class Structure:
                 found.append(Forbidden(tokens=tuple(step)))
                 continue
             going = not self.parts or _goes(self.parts[-1])
-            whither = step[0].type == "TO" and not (verb or found) and going
+            whither = step[0].type in ("TO", "INTO") and not (verb or found) and going
             full = [_GO, *step] if whither else self._completed(step, verb)
             verb = _verb_of(full) or verb
             found += [Clause(tokens=tuple(part)) for part in self._parted(full, verb)]
@@ -183,9 +187,17 @@ class Structure:
         """*Cups in the sink, books on the shelf*: steps that no verb tells apart, each of which makes sense."""
         if asks(step) or self.parses("command", step) or self.parses("narrated", step):
             return [step]
+        if not RELATING & {token.type for token in step} and self.parses("topic", step):
+            return [step]
         for index, token in enumerate(step):
-            if token.type not in ("COMMA", "AND") or not self.parses("command", step[:index]):
+            if index == 0 or not (token.type in ("COMMA", "AND") or token.type in ACTING):
                 continue
+            if token.type == "COMMA" and is_told(step[:index]) and self.parses("command", trimmed(step[index:])):
+                return [step[:index], trimmed(step[index:])]
+            if not (self.parses("command", step[:index]) or self.parses("topic", step[:index])):
+                continue
+            if token.type == "COMMA" and is_told(trimmed(step[index:])):
+                return [step[:index], trimmed(step[index:])]
             rest = self._completed(trimmed(step[index:]), verb)
             parts = self._parted(rest, verb) if rest else []
             if parts and all(self.parses("command", part) for part in parts):

@@ -27,6 +27,8 @@ _SIDES = {"left": "LEFTMOST", "leftmost": "LEFTMOST", "left-hand": "LEFTMOST", "
           "rightmost": "RIGHTMOST", "right-hand": "RIGHTMOST"}  # fmt: skip
 _AHEAD = 8
 """Words that the use of a word depends on."""
+_OBJECTS = frozenset({"IT", "ME", "HIM", "THE", "MY", "EVERYTHING"})
+"""What begins the object of a verb, and never follows a noun within a noun phrase."""
 _LEADING = frozenset({"FRAME", "AFTER", "BEFORE", "WHEN"})
 _PRESENT = {phrase: terminal for phrase, (terminal, _) in PHRASES.items() if terminal in VERBS}
 
@@ -72,6 +74,8 @@ def _in_phrase(token: Terminal, before: str, following: Sequence[Terminal], lexi
         kind = "HIS"
     elif token.typed in LYING and before in NOMINAL | {"BE"} and after in RELATING:
         kind = "FILLER"
+    elif kind == "UNABLE" and before in BEFORE_NOUN and after == "NOUN":
+        kind, value = "FILLER", token.typed
     elif kind not in CLOSED_THAT_STAY and before in BEFORE_NOUN and lexicon.is_noun((token.typed,)):
         kind, value = "NOUN", token.typed
     else:
@@ -86,7 +90,9 @@ def _choose(token: Terminal, before: str, following: Sequence[Terminal], lexicon
         kind = "TELL"
     elif kind == "TELL" and after not in ASKED:
         return Terminal("UNABLE", token.typed.split()[0], token.typed)
-    elif token.typed == "first" and before in NOMINAL and after in END:
+    elif kind == "UNABLE" and token.typed in lexicon.verbs:
+        kind = "OPERATE"
+    elif token.typed == "first" and before in NOMINAL | {"THERE", "HERE", "OVER_THERE"} and after in END:
         kind = "FILLER"
     elif token.typed == "first" and (before in ("", "THEN", "STOP", "AND", "COMMA")):
         kind = "THEN"
@@ -100,7 +106,7 @@ def _choose(token: Terminal, before: str, following: Sequence[Terminal], lexicon
         kind = "RETURN"
     elif (
         kind in ACTING
-        and token.typed in NOUNLIKE
+        and (token.typed in NOUNLIKE or (kind == "UNABLE" and (token.typed,) in lexicon.nouns))
         and (_is_thing_here(token, before, after, lexicon) or not _is_verb_here(before, after))
     ):
         kind = "NOUN"
@@ -133,10 +139,22 @@ def _is_phrase(following: Sequence[Terminal]) -> bool:
 
 
 def _is_thing_here(token: Terminal, before: str, after: str, lexicon: Lexicon) -> bool:
-    """*markers and glue in the cabinet*: a thing of the graph, before what tells where."""
-    return lexicon.is_noun((token.typed,)) and before in ("AND", "COMMA") and after in RELATING | {"TO", "INTO", "ONTO"}
+    """*markers and glue in the cabinet*, *tape to me*: a thing of the graph, before what tells where."""
+    where = after in RELATING | {"TO", "INTO", "ONTO", "FROM"}
+    if (
+        token.type == "UNABLE"
+        and (token.typed,) in lexicon.nouns
+        and (where or (after in END and before in NO_NOUN_BEFORE))
+    ):
+        return True
+    return lexicon.is_noun((token.typed,)) and before in ("AND", "COMMA") and where
 
 
 def _is_verb_here(before: str, after: str) -> bool:
-    """A verb that is a noun as well starts a step, and something follows it, unless it is the whole request."""
+    """A verb that is a noun as well starts a step, and something follows it, unless it is the whole request.
+
+    After a noun it is one as well, if its object follows: *on my counter hand it to Ben*.
+    """
+    if before in NOMINAL and after in _OBJECTS:
+        return True
     return before in NO_NOUN_BEFORE and (after not in END or before in ("", "THEN", "STOP"))

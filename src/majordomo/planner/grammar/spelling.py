@@ -2,12 +2,80 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
+from functools import lru_cache
 
 MIN_LETTERS = 5
 MIN_REPLACED = 7
 """A replaced letter makes another word more often than a lost one does."""
 MIN_TWICE = 8
+
+
+ORDINARY = frozenset(
+    {"acre", "angel", "ate", "bare", "bat", "bean", "beard", "been", "best", "boat", "bond", "bone", "book",
+     "boot", "bored", "brain", "bread", "break", "bride", "cap", "cape", "card", "care", "cart", "cat", "coat",
+     "cone", "cook", "cord", "dairy", "dart", "dear", "diary", "done", "drain", "earth", "east", "eat", "eats",
+     "felt", "fine", "fond", "food", "foot", "form", "forms", "gap", "goat", "gone", "good", "grain", "hat",
+     "hate", "hated", "hates", "heart", "hood", "hook", "lame", "lap", "late", "least", "left", "line", "listen",
+     "look", "loop", "lots", "male", "map", "mat", "meal", "mine", "moat", "nap", "nest", "night", "nine", "nook",
+     "pain", "part", "party", "pasta", "paste", "pets", "phone", "pine", "plain", "plan", "plane", "play", "pond",
+     "pool", "post", "pots", "pray", "pride", "quiet", "quite", "race", "rain", "rat", "read", "rest", "robed",
+     "rook", "root", "rose", "sacred", "sale", "save", "scared", "seal", "seat", "silent", "slate", "slot",
+     "sore", "speak", "spot", "stale", "steak", "steal", "step", "stone", "tale", "tales", "tap", "tape", "taste",
+     "tea", "teas", "test", "thing", "tone", "took", "tops", "trail", "train", "tray", "trial", "united", "vase",
+     "vest", "waste", "west", "wine", "wood", "zone"}
+)  # fmt: skip
+"""English words that are nobody's slip of another word, though letters or sounds would allow it."""
+_HARD_C = re.compile(r"c(?![eihky])")
+_SPELLINGS = (("ph", "f"), ("sc", "s"), ("ck", "k"), ("z", "s"), ("gh", "g"), ("wh", "w"), ("qu", "kw"), ("y", "i"))
+
+
+@lru_cache(maxsize=8192)
+def sound(word: str) -> str:
+    """Roughly how a word sounds: *sizzors* and *scissors*, *farmacy* and *pharmacy* are the same."""
+    word = _HARD_C.sub("k", word)
+    for spelled, heard in _SPELLINGS:
+        word = word.replace(spelled, heard)
+    return "".join(letter for index, letter in enumerate(word) if index == 0 or letter != word[index - 1])
+
+
+def sounding_alike(words: Iterable[str]) -> dict[str, frozenset[str]]:
+    """Words by their ``sound``."""
+    found: dict[str, frozenset[str]] = {}
+    for word in words:
+        found[sound(word)] = found.get(sound(word), frozenset()) | {word}
+    return found
+
+
+def without_vowels(word: str, words: Iterable[str]) -> str | None:
+    """*Frm*, *kitchn*: the one of ``words`` that is ``word`` with vowels put back in; None of several."""
+    bare = _VOWELS.sub("", word)
+    if len(word) < 3 or len(bare) < 2 or (len(word) == 3 and bare != word):
+        return None
+    found = {
+        other
+        for other in words
+        if other[:1] == word[:1]
+        and len(word) < len(other) <= len(word) + 3
+        and _VOWELS.sub("", other) == bare
+        and _is_within(word, other)
+    }
+    return min(found) if len(found) == 1 else None
+
+
+_VOWELS = re.compile(r"(?<=.)[aeiou]")
+
+
+def _is_within(word: str, other: str) -> bool:
+    letters = iter(other)
+    return all(letter in letters for letter in word)
+
+
+def is_swapped(word: str, other: str) -> bool:
+    """Whether one letter has moved: *teh*, *pare* for *pear*."""
+    moved = (word[:k] + word[k + 1 :] for k in range(1, len(word)))
+    return any(rest == other[:k] + other[k + 1 :] for rest in moved for k in range(1, len(other)))
 
 
 def closest(word: str, words: Iterable[str]) -> str | None:

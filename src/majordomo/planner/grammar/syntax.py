@@ -82,10 +82,11 @@ Reference = NounPhrase | Pronoun | Spot
 
 @dataclass(frozen=True, kw_only=True)
 class Destination:
-    """Where something goes. ``relation``: to, on, in, near."""
+    """Where something goes. ``relation``: to, on, in, near, or as typed. ``other``: the second one of *between*."""
 
     relation: str
     reference: Reference
+    other: Reference | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -144,6 +145,14 @@ class PutDown:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Operate:
+    """*Open the door*, when an installed package has a skill for it; ``verb`` as it was typed."""
+
+    verb: str
+    thing: Reference
+
+
+@dataclass(frozen=True, kw_only=True)
 class PutBack:
     """Put things back where they were."""
 
@@ -152,9 +161,10 @@ class PutBack:
 
 @dataclass(frozen=True, kw_only=True)
 class Go:
-    """Drive to a room, a thing or a person."""
+    """Drive to a room, a thing or a person, and wait if it ``stays``; ``target`` None: where the step before led."""
 
-    target: Reference
+    target: Reference | None
+    stays: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -189,11 +199,29 @@ class Ask:
 
 @dataclass(frozen=True, kw_only=True)
 class Mention:
-    """*There is a mug on the desk*: what the next step is about. ``lost``: *my phone is gone*. ``who``: who lost it."""
+    """*There is a mug on the desk*: what the next step is about. ``lost``: *my phone is gone*. ``who``: who lost it.
+
+    ``more``: other things beside it.
+    """
 
     thing: Reference
+    more: tuple[Reference, ...] = ()
     who: Reference | None = None
     lost: bool = False
 
 
-Step = Carry | Several | Perhaps | Wanted | Mention | PutDown | PutBack | Go | Find | Pick | Teach | Ask
+LEANING = frozenset({"it", "them", "that", "him"})
+"""Pronouns that stand for what was spoken of."""
+
+
+def leans(value: object) -> bool:
+    """Whether a reading has a pronoun, or *one*, that needs something spoken of before."""
+    if isinstance(value, Pronoun):
+        return value.word in LEANING
+    if isinstance(value, NounPhrase) and value.words in (("one",), ("ones",)):
+        return True
+    parts = value if isinstance(value, tuple) else tuple(vars(value).values()) if hasattr(value, "__dict__") else ()
+    return any(leans(part) for part in parts if not isinstance(part, str))
+
+
+Step = Carry | Several | Perhaps | Wanted | Mention | Operate | PutDown | PutBack | Go | Find | Pick | Teach | Ask

@@ -39,7 +39,8 @@ def _same_letters(typed: str, verb: str) -> bool:
     if len(typed) < 3 or len(verb) < 4:
         return False
     lost = len(typed) == len(verb) - 1 and any(verb[:k] + verb[k + 1 :] == typed for k in range(len(verb)))
-    return lost or (sorted(typed) == sorted(verb) and len(typed) == len(verb))
+    one_off = len(typed) == len(verb) > 4 and sum(a != b for a, b in zip(typed, verb, strict=True)) == 1
+    return lost or one_off or (sorted(typed) == sorted(verb) and len(typed) == len(verb))
 
 
 def _longest(words: Sequence[Word], index: int, lexicon: Lexicon) -> tuple[int, Terminal]:
@@ -69,6 +70,14 @@ def _match(words: tuple[str, ...], lexicon: Lexicon) -> Terminal | None:
     owner = tuple(typed.removesuffix("'s").removesuffix("s'").split())
     if typed.endswith(("'s", "s'")) and lexicon.can_own(owner) and not lexicon.is_noun(words):
         return Terminal("POSSESSIVE", typed, typed)
+    if (
+        len(words) == 1
+        and typed.endswith("s")
+        and (typed[:-1],) in lexicon.persons
+        and phrase is None
+        and not lexicon.is_noun(words)
+    ):
+        return Terminal("POSSESSIVE", f"{typed[:-1]}'s", typed)
     if typed in _DOOR:
         return Terminal("DOOR", typed, typed)
     if lexicon.is_noun(words) and (phrase is None or len(words) > 1):

@@ -43,7 +43,7 @@ ASKED = frozenset(
         "WHEN",
     }
 )
-ACTING = frozenset(VERBS) | {"UNABLE", "CALL"}
+ACTING = frozenset(VERBS) | {"UNABLE", "CALL", "OPERATE"}
 """Terminals that begin a command."""
 NOMINAL = frozenset(
     {"NOUN", "WORD", "NAME", "PERSON", "IDENTIFIER", "ONE", "IT", "ME", "HIM", "DOOR", "ORANGE", "NUMBER"}

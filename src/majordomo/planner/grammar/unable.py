@@ -16,7 +16,7 @@ UNABLE: tuple[str, ...] = (
     "switch off", "rotate", "spin", "flip", "shake", "stir", "mix", "squeeze", "break", "crush", "smash", "destroy",
     "hit",
     "attack", "kill", "hurt", "fly", "jump", "climb", "swim", "crawl", "scrub", "polish", "rinse", "dry", "hide",
-    "explain",
+    "explain", "tell", "inform", "notify", "warn", "announce",
     "translate", "remind", "schedule", "book", "record", "photograph", "film", "scan", "unpack", "pack", "wrap",
     "unwrap",
     "load", "unload", "empty", "drain", "light", "ignite", "burn", "dial", "answer", "speak", "talk", "whisper",

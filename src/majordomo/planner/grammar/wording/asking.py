@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from majordomo.planner.grammar.wording.questions import SHAPES
+
 ASKING: tuple[tuple[str, str], ...] = (
+    *SHAPES,
     (r"^((?:how (?:do|can|would|could|should) i|what is the) .+?) from here(?=[?.]*$)", r"\1"),
     (r"^(how many [^?]+?)(?: are there)? (?:in total|in all|altogether|overall|all in all)(?=[?.]*$)", r"\1 are there"),
     (r"^in (?:which|what) room (?:would|might|could|should) (.+?) be(?=$|[?.!])", r"where is \1"),
@@ -64,7 +67,6 @@ ASKING: tuple[tuple[str, str], ...] = (
         r"^what (?:do|have) (?:we|you|i) (?:have|got)(?: got)?(?: here| left)? to (?:eat|snack on|nibble)\b",
         "which food is there",
     ),
-    (r"^(?:what|which) color (?:does|do|did) (.+?) have\b", r"what color is \1"),
     (
         (
             r"^(?:does|do|has) ([\w ]+?) (?:have|got|own)(?: got)? (an? .+?|any .+?) (on|in|at) (?:her|his"
@@ -126,7 +128,6 @@ ASKING: tuple[tuple[str, str], ...] = (
         ),
         r"where is \1",
     ),
-    ("^where (?:do|does|did) (.+?) (?:live|stand|go|belong|stay|lie|hang out)(?=$|[.!?])", r"where is \1"),
     ("^where (?:has|have) (.+?) (?:gone|got to|ended up|disappeared(?: to)?|gotten to)(?=$|[.!?])", r"where is \1"),
     ("^where(?: on earth| in the world| exactly| the hell|abouts) ", "where "),
     (
@@ -179,7 +180,6 @@ ASKING: tuple[tuple[str, str], ...] = (
         ),
         "how many ",
     ),
-    (r"^(?:please )?count (?:up )?(?=(?:the|all|my|our)\b)", "how many "),
     ("^how many (?:the|all the|of the|all|my|our) ", "how many "),
     (
         (
@@ -188,7 +188,6 @@ ASKING: tuple[tuple[str, str], ...] = (
         ),
         r"how many \1 are there",
     ),
-    (r"^how many (.+?) (?:does|do) (the .+?|\w+) (?:have|contain|hold)(?=$|[.!?])", r"how many \1 are in \2"),
     (
         "^how many (.+?) (?:exist|remain|are left|are around|are here|are there here)(?=$|[.!?])",
         r"how many \1 are there",
@@ -208,7 +207,6 @@ ASKING: tuple[tuple[str, str], ...] = (
     (r"^(?:what|which) (?:people|persons) are (?:there )?(?=in\b)", "who is "),
     ("^what (?:place|room) are (?:we|you) in(?: now| right now| currently)?", "where are you"),
     ("^(?:where|in which room|which room) are we(?: now| at| in)?(?=$|[.!?])", "where are you"),
-    ("^(?:what is )?your (?:current )?(?:location|position|whereabouts)(?=$|[.!?])", "where are you"),
     ("^(?:tell me )?where you are(?: now| right now| at)?(?=$|[.!?])", "where are you"),
     ("^where are you (?:now|right now|currently|at|at the moment|standing|located)(?=$|[.!?])", "where are you"),
     (
@@ -261,6 +259,5 @@ ASKING: tuple[tuple[str, str], ...] = (
     ),
     (r"^(?:which way|how far away|how far) is it to\b", "how far is it to"),
     (r"^how (?:far|long) is (?:it|the way) (?:from here )?to\b", "how far is it to"),
-    ("^(?:is|are) there more (.+?) (?:or more|or|than) (.+)", r"are there more \1 than \2"),
 )
 """In the order in which they are tried."""

@@ -5,12 +5,50 @@ from __future__ import annotations
 BRINGING: tuple[tuple[str, str], ...] = (
     (
         (
+            r"\b(the \w+ (?:\w+ )?(?:in|on|at|from|by|near|next to) [^,.;]+?), (?:and )?not the (?:one|other)s? "
+            r"(?:in|on|at|from|by|near|next to) [^,.;]+(?=[.!]*$)"
+        ),
+        r"\1",
+    ),
+    (r"^((?:can|could|may) \w+ (?:please )?(?:have|get) (?:his|her|their|the|my) [\w ]+?) back(?=[.!?]*$)", r"\1"),
+    (
+        (
+            r"\b(it|that|this|they|those|the [\w ]+?) (?:goes?|can go|should go|belongs?|needs to go"
+            r"|wants to go|has to go"
+            r"|may go|must go) back(?: (?:to|in|into|on|onto|at) (?:its|their|the) (?:\w+ )?(?:place|spot|home|position"
+            r"|location))?(?=$|[.,!])"
+        ),
+        r"put \1 back",
+    ),
+    (r"^(?:and |now |then |ok |,)*back (?:it|they|that|this) goes?(?=[.!]*$)", "put it back"),
+    (
+        (
+            r"(?:\b(?:can|could|would|will) you (?:please )?)?\b(?:make sure|see to it|ensure|take care"
+            r"|(?:see|check)(?= that\b))(?: that)? ([^,.;]+?) (?:gets|comes"
+            r"|makes it|makes its way"
+            r"|ends up|winds up|finds its way|lands|arrives|get|end up|makes it back|is (?:put|placed"
+            r"|taken|moved|brought"
+            r"|delivered|returned)) (?=(?:to|on|in|at|into|onto|back|next)\b)"
+        ),
+        r"\1 should go ",
+    ),
+    (
+        (
+            r"\b(?:needs?|wants?|requires?) (?:moving|putting|taking|bringing|carrying|returning|placing|delivering"
+            r"|transferring|shifting|transporting)(?: over| back)? (?=(?:to|on|in|at|into|onto|next)\b)"
+        ),
+        "should go ",
+    ),
+    (r"\b(bring|take|carry)( [^,.;]+?) (?:along )?with you\b", r"\1\2"),
+    (
+        (
             r"^do not (?:put|take|bring|move|carry|leave) ((?:the|my|his|her|that|those|these) [^,.;]+?) (?:in|on|to"
             r"|into|onto|at|next to) [^,.;]+[,.;]+ (?:but |just |instead |please |rather )*(?:put|take|bring|move"
             r"|carry|leave) (?:it|them) (?=(?:in|on|to|into|onto|at|next)\b)"
         ),
         r"put \1 ",
     ),
+    (r"(^|[.;!] )(the [\w ]+?) (?:could|can|might|may) go (?=(?:on|in|to|into|onto|at|next)\b)", r"\1put \2 "),
     (r"^(?:can|could|may|might) (the [\w ]+?) go (?=(?:on|in|to|into|onto|at|next)\b)", r"put \1 "),
     (r"\b(?:shove|stick|chuck|plonk|plop|slide|tuck) (.+?) (in|into|onto|on) (?=(?:the|a|my)\b)", r"put \1 \2 "),
     (
@@ -55,7 +93,7 @@ BRINGING: tuple[tuple[str, str], ...] = (
     (
         (
             r"^(?:can|could|may|might) (?!i\b|you\b|we\b|it\b|the\b|this\b|that\b|someone\b|somebody\b)(\w+)"
-            r" (?:please )?(?:have|get|borrow|use) (?=(?:the|a|an|my|some|one|two|any|that)\b)"
+            r" (?:please )?(?:have|get|borrow|use) (?=(?:the|a|an|my|some|one|two|any|that|his|her|their)\b)"
         ),
         r"bring \1 ",
     ),
@@ -98,7 +136,10 @@ BRINGING: tuple[tuple[str, str], ...] = (
         ),
         r"put \1 in ",
     ),
-    (r"\b(?:toss|chuck|dump|sling|bin) (.+?) (in|into|onto|on) (?=(?:the|a|my)\b)", r"put \1 \2 "),
+    (
+        r"(?<!the )(?<!a )(?<!my )\b(?:toss|chuck|dump|sling|bin) (.+?) (in|into|onto|on) (?=(?:the|a|my)\b)",
+        r"put \1 \2 ",
+    ),
     (
         r"\b(put|set|place|lay|stow|store|tidy|clear|pack|drop|move|take) (.+?) away (?=(?:in|into|on|onto|to)\b)",
         r"\1 \2 ",
@@ -145,10 +186,15 @@ BRINGING: tuple[tuple[str, str], ...] = (
         "",
     ),
     (r"\bcould i (?:trouble|bother) you for\b", "can i have"),
-    (r"\b(?:i am|we are) (?:dying|longing) for\b", "i want"),
     (r"\bgo(?: and)? (?:bring|get|fetch) \b", "fetch "),
     (r"\b(?:over )?to where i am(?: now| standing| sitting)?\b", "to me"),
-    (r"\b(?:back )?to where you (?:were|started|came from|came)(?: from)?(?: before| at)?\b", "back"),
+    (
+        (
+            r"\b(?:back )?(?:again )?to where you (?:were|started|came from|came|began|set off)"
+            r"(?: from)?(?: before| at| out)?\b"
+        ),
+        "to your starting point",
+    ),
     (r"^(?:and |ok |okay |then |now )*(?:and )?then (?=\w)", "then "),
     (r",? from there (?=(?:to|go|on|drive|head)\b)", ", then "),
     (r"\b(?:after|having done|once done with) that\b,?", "then"),
@@ -190,13 +236,6 @@ BRINGING: tuple[tuple[str, str], ...] = (
         r"where is \1",
     ),
     (r",? (?:but |and )?only (?:the |an? )?(\w+) ones?(?=$|[.!?])", r" that is \1"),
-    (
-        (
-            r"^((?:the|my|that) (?!.*\b(?:is|are|belongs?|should|goes|needs?)\b[^,]*,)[\w ]+?), (?:can you "
-            "|could you |please )*(bring|take|put|get|fetch|carry) (?:it|them) "
-        ),
-        r"\2 \1 ",
-    ),
     (
         (
             r"^(?:i|we) do not (?:want|need) [\w ]+?[,.;]+ (?:just |but |so |please )*(?=(?:bring|take|put|get"

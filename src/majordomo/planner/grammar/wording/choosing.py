@@ -5,6 +5,156 @@ from __future__ import annotations
 CHOOSING: tuple[tuple[str, str], ...] = (
     (
         (
+            r"\b(except|but not|other than|apart from|besides|excluding) (?:those|the ones|that|any"
+            r"|anything) (?=(?:on|in|at|from|next|near|by|under)\b)"
+        ),
+        r"\1 the ones ",
+    ),
+    (
+        (
+            r"\b((?:all )?(?:the|my|our) \w+s), (?:other than|except(?: for)?|apart from|excluding|bar|save for|without"
+            r"|minus|but not|all but) (the \w+(?: ones?)?), (?=(?:in|on|to|into|onto|go|goes|should)\b)"
+        ),
+        r"\1 except \2 ",
+    ),
+    (
+        (
+            r", (?:both|all|each|every one|each and every one|every single one|the (?:whole )?lot)"
+            r"(?: of (?:them|these|those))?,? (?=(?:for|to|in|on|into|onto) )"
+        ),
+        " ",
+    ),
+    (
+        (
+            r"\bthe (red|green|blue|yellow|black|white|brown|pink|purple|gray|grey|gold|silver) "
+            r"(\w+) or (?:the |an? )?(red|green|blue|yellow|black|white|brown|pink|purple|gray|grey"
+            r"|gold|silver) ones?\b"
+        ),
+        r"a \1 or \3 \2",
+    ),
+    (r"\b(that|those) (\w+(?: \w+)?) there(?=,)", r"\1 \2"),
+    (
+        (
+            r"^(\w+),? (?:the )?(red|green|blue|yellow|black|white|brown|pink|purple|gray|grey|gold"
+            r"|silver) one,? (?:2 |to |for )(?=\w)"
+        ),
+        r"the \2 \1 to ",
+    ),
+    (
+        (
+            r",?(?: but| and)? not (?:the )?(\w+)(?: ones?)?(?:,| and|, and|,? or)? (?:and )?not "
+            r"(?:the )?(\w+)(?: ones?)?(?: either)?(?=[.!]*$)"
+        ),
+        r", neither \1 nor \2",
+    ),
+    (
+        (
+            r",? (?:bar|save(?: for)?|barring|minus|all bar|leaving out|leaving aside|omitting|ignoring"
+            r"|skipping|but for|not counting|"
+            r"with the exclusion of|to the exclusion of) (?=(?:the|any|my|his|her|that|those|anything)\b)"
+        ),
+        " except ",
+    ),
+    (
+        (
+            r",? (?:and |but |though |just |only |please )*(?:leave|keep|spare|skip|ignore|omit"
+            r"|not touch|do not touch|do not take|do not move|"
+            r"leave out|leave behind|let) (the [\w ]+?)(?: alone| behind| out| be| there| here| stay| "
+            r"(?:where|as) (?:it|they) (?:is|are)|"
+            r" in (?:its|their) place| untouched| in place)(?=[.!]*$)"
+        ),
+        r" except \1",
+    ),
+    (
+        (
+            r"(?:,? (?:something|anything|whichever|whatever)|, (?:any|one|an other))(?: one| color"
+            r"| kind| sort)?(?: you like)?(?:,)? "
+            r"(?:other than|but|except(?: for)?|apart from|besides|bar|that is not) (?:the |an? )?(\w+)"
+            r"(?: ones?)?(?=$|[.!?,])"
+        ),
+        r" that is not \1",
+    ),
+    (
+        (
+            r"^(?:anything|any|whatever|all)(?: of them| one)? (?:but|except(?: for)?|other than"
+            r"|apart from) the (\w+) (\w+)[,:;] (.+? an?) \2(?=[.!]*$)"
+        ),
+        r"\3 \2 that is not \1",
+    ),
+    (
+        (
+            r"^not the (\w+) (\w+),? (?:but )?(?:(?:please )?(?:take|bring|get|give|use) )?(?:me )?the "
+            r"(\w+) ones?,? (?:please )?(bring|fetch|get|take|give)(?: me)?(?: it| that)?(?=[.!]*$)"
+        ),
+        r"\4 me the \3 \2",
+    ),
+    (r"\b(the [\w ]+?), (?:and )?not the [\w ]+?, (?=(?:in|on|to|into|onto|at|next|for|goes|should)\b)", r"\1 "),
+    (
+        (
+            r"\b(the [\w ]+?), (?:the one (?:that|which) is )?not (?:the )?(\w+)(?: ones?)?, (?=(?:in"
+            r"|on|to|into|onto|at|next|for|goes|should|bring|take|put)\b)"
+        ),
+        r"\1 that is not \2, ",
+    ),
+    (
+        (
+            r"\b(the [\w ]+?),? (?:other than|except(?: for)?|apart from|excluding|but not|bar|without"
+            r"|save for|all but) the (\w+)(?: ones?)? (?:and|or|nor) (?:the )?(\w+)(?: ones?)?,? (?="
+            r"(?:in|on|to|into|onto)\b)"
+        ),
+        r"\1 that is neither \2 nor \3 ",
+    ),
+    (
+        (
+            r"(?:,|,? (?:and |but )?(?:i|we)) (?:really )?(?:do not|does not) (?:care|mind|matter"
+            r"|bother|fuss)(?: about| at all)?(?: which| what)?(?: one| color| of them)?(?=$|[.!?,])"
+        ),
+        "",
+    ),
+    (
+        (
+            r",? (?:it |that )?(?:does not|makes no|no) (?:really )?(?:matter|difference)(?: which"
+            r"| what)?(?: one| color| of them)?(?: to me)?(?=$|[.!?,])"
+        ),
+        "",
+    ),
+    (
+        (
+            r"(?:,| and| but) (?:i|we) (?:do not|really do not) (?:know|remember|recall|care"
+            r"|mind) which(?: one| of them)?(?=$|[.!?,])"
+        ),
+        "",
+    ),
+    (
+        (
+            r"(?:,|(?= (?:whichever|whatever|you))) (?:whichever|whatever|either|any|you choose"
+            r"|your choice|you pick|you decide|dealer's choice|take your pick)(?: one| of them"
+            r"| you like| you want| is (?:fine|closer|closest|handy|easiest)| will do| works)?(?=[.!]*$)"
+        ),
+        "",
+    ),
+    (r"\bany (two|three|four|five|six) of the (?:two |three |four |five |six )?(?=\w)", r"\1 of the "),
+    (
+        (
+            r"\bwhichever (\w+) (?:is|are|happens to be) (red|green|blue|yellow|black|white|brown|pink"
+            r"|purple|gray|grey|orange|gold|silver)\b"
+        ),
+        r"the \1 that is \2",
+    ),
+    (
+        (
+            r"^(?:(?:out )?of|from(?: among)?|among|between) (?:the|all the|both|those|these|my) "
+            r"(?:two |three |four |five )?((?:\w+ )*?\w+?)s((?: (?:in|on|at|from) [\w' ]+?)?),? "
+            r"(?:please )?"
+            r"((?:i (?:want|need|would like|prefer|would prefer)|(?:could|can) i have|bring|take|get"
+            r"|give|fetch|hand|pick|put|grab|carry|move|choose)\b[^,.;]*?) the ([\w ]+?) one\b"
+        ),
+        r"\3 the \4 \1\2",
+    ),
+    (r"\b(?:which|what) (\w+)\?+ (?:the one|that one) ", r"the \1 "),
+    (r"\b(?:all )?(?:by itself|on its own|all alone|alone)(?: there)? (?=(?:in|on|at)\b)", ""),
+    (
+        (
             r"\b((?:an?|any|one|some) [\w ]+?), (?:(?:any|either|whichever)(?: one)?(?: of (?:them|those|the two))?"
             r"(?: (?:will|would) do| (?:is|are) (?:fine|ok|okay|good|all right|alright))?"
             r"|(?:i do not (?:care|mind)|(?:it )?does not matter) which(?: one)?)(?=$|[.!?,]),?"

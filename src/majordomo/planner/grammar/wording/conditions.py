@@ -5,6 +5,47 @@ from __future__ import annotations
 CONDITIONS: tuple[tuple[str, str], ...] = (
     (
         (
+            r"\bif (\w+) (?:has left|is out of|is no longer in|has gone from|has gone out of"
+            r"|is away from) (?=(?:the|my)\b)"
+        ),
+        r"unless \1 is in ",
+    ),
+    (
+        (
+            r",? or(?: else)?,? ((?:the|an?|some|my) [\w ]+?) if (?:there (?:is|are) (?:none|no \w+|not any)(?: left)?"
+            r"|you (?:can not|do not) (?:find|see) (?:it|any|one|them)|(?:it|that|they) (?:is|are) "
+            r"(?:gone|not there|missing)"
+            r"|not)(?=$|[.!])"
+        ),
+        r", otherwise \1",
+    ),
+    (r",? or,? failing that,? (?=\w)", ", otherwise "),
+    (r"\b(has|have|holds|contains|got) ([^,.;]+?) (?:in|on|inside) (?:it|them)\b", r"\1 \2"),
+    (
+        r"\bif you (?:happen to )?(?:see|find|come across|spot|notice|have|discover) (?=(?:an?|any|some|the|one)\b)",
+        "if there is ",
+    ),
+    (
+        r"\bif you (?:happen to )?(?:see|find|come across|spot|notice|have|discover) (?!it\b|them\b|him\b|her\b)(?=\w)",
+        "if there are ",
+    ),
+    (
+        (
+            r"^((?!where|what|which|who|how|is|are|any)(?:the [\w ]+?|\w+)) (in|on|at) ((?:the|my"
+            r"|our) [\w' ]+?)\? (?=(?:if|then|in that case)\b)"
+        ),
+        r"is \1 \2 \3? ",
+    ),
+    (r"\bif there is nothing (?=(?:in|on|at|under)\b)", "unless there is anything "),
+    (
+        (
+            r"\b(if there (?:is|are) (?:still )?(?:an?|any|some) [\w ]+?) (?:left|remaining|over"
+            r"|available|to be found|to be had|anywhere)(?=,| (?:bring|take|put|go|get|give|fetch)\b)"
+        ),
+        r"\1",
+    ),
+    (
+        (
             "^either (.+?),? or,? (?:else,? )?(?:if (?:it|they|that) (?:is|are) (?:gone|missing|not there|lost"
             r"|unavailable|not available),? )(?=\w)"
         ),
@@ -27,13 +68,6 @@ CONDITIONS: tuple[tuple[str, str], ...] = (
         r"\1if ",
     ),
     (r"^should (there|the [\w ]+?|\w+) be (.+?),", r"if \1 is \2,"),
-    (
-        (
-            r"\bif you (?:happen to )?(?:see|find|come across|spot|notice|have|discover) (a|an|any|some"
-            r"|the) (.+?)(?= (?:in|on|at)\b|,)"
-        ),
-        r"if there is \1 \2",
-    ),
     (r"\bif there (?:is|are) (?:any|some|one|a few)(?: left)?(?=$|[.!?,])", ""),
     (r"\bgo to (the [\w ]+?) if (\w+|the [\w ]+?) is there\b", r"go to \1 if \2 is in \1"),
     (

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 SLIPS: tuple[tuple[str, str], ...] = (
+    (r"\btoo (?=(?:the|my|his|her|our)\b)", "to "),
+    (r"\bhwo\b", "how"),
+    (r"\b(?:thee|thyself)\b", "yourself"),
     (r"\b(the|an?|to|in|on|my|of|and)(?: (?:uh+|um+|er+),?)?(?: \1\b)+", r"\1"),
     (r"(?<=\w)\.\.(?=\w)", " "),
     (r"\b(the|a|that|my) read (?=\w)", r"\1 red "),
@@ -22,7 +25,10 @@ SLIPS: tuple[tuple[str, str], ...] = (
     (
         (
             r"\b([^\W\d]+)'s (?=(?:in|on|at|not|here|there|under|near|next|home|asleep|gone|open|closed|shut"
-            r"|locked|missing|lost|still|inside|with)\b)"
+            r"|locked|missing|lost|still|inside|with|an?|the|so|too|very|been|gone|all|getting|being|got|asking|waiting"
+            r"|looking|calling|hiding|sitting|standing|lying|sleeping|hungry|thirsty|tired|ill|sick|busy|ready|out|away"
+            r"|broken|dirty|empty|full|disappeared|vanished|fallen|dropped|rolled|turned|moved|left"
+            r"|come|become|found|run)\b)"
         ),
         r"\1 is ",
     ),
@@ -35,11 +41,90 @@ SLIPS: tuple[tuple[str, str], ...] = (
     (r"\byuo\b", "you"),
     (r"^(?:wher|whre|were)(?= (?:is|are)\b)", "where"),
     (r"\b(?:fo|4|fro)(?= (?:me|you|her|him)\b)", "for"),
-    (r"\bhw many\b", "how many"),
+    (r"\bhow? m[an]?[an]?y\b", "how many"),
 )
 """Words that are no English, and what was meant."""
 
 COURTESY: tuple[tuple[str, str], ...] = (
+    (r"^would it (?:kill|hurt|bother|trouble|be too much for|be possible for) you (?:too much )?to (?=\w)", ""),
+    (
+        (
+            r"^(?:please )?(?:do|there are|i have|here are|i have got) (?:these |the following |just )?"
+            r"(?:two|three|four|five|some|a few|several|a couple of) (?:things|jobs|tasks|chores|errands)"
+            r"(?: for you| to do| for you to do)?[:,.-]+ (?=\w)"
+        ),
+        "",
+    ),
+    (
+        (
+            r"^(?:somebody|someone|anyone|anybody|one of you),? (?:please )?(?=(?:get|bring|take|fetch"
+            r"|put|give|go|come|find|carry|move)\b)"
+        ),
+        "",
+    ),
+    (r"(?<=\w), (?:and )?(?:no|not|nothing) more(?: than that)?(?=[.!]*$)", ""),
+    (
+        (
+            r"^(?:the |my |our )?([\w' ]+?) (?:needs|wants|could do with|requires|is due) (?:some "
+            r"|a good |a bit of |a )?"
+            r"(?:tidying|cleaning|clearing|sorting|sorted|tidy|clean|clearing)(?: up| out)?[:;,.]+ "
+        ),
+        r"tidy the \1: ",
+    ),
+    (
+        (
+            r"\b(?:be |being )?(?:so )?(?:good|kind|nice|sweet|gracious|obliging|lovely) (?:as|enough) to "
+            r"(?=(?:bring|take|put|go|come|get|fetch|give|carry|move|find|look|tell|pick|drive|pop|head|return)\b)"
+        ),
+        "",
+    ),
+    (r"^(?:it is )?(?:about |high )?time (?:for you |you )?(?:to )?(?=\w)(?!is\b)", ""),
+    (r"\s*(?:-+>|=+>|→)\s*", " to "),
+    (r"^first(?:ly)?[,:]? (.+?)(?:,|;|\.| and|, and)+ second(?:ly)?[,:]? (?=\w)", r"\1, then "),
+    (r"^(?:maybe|perhaps|possibly)[, ]+(?=\w)", ""),
+    (r"^(?:tidy|clean|clear|pick) up after (?:the |your |our |my )?[\w ]+?[:,;.]+ ", ""),
+    (
+        (
+            r"^(?:(?:so|like|well|ok|okay|yeah|right|now)[, ]+)*(?:i was (?:just )?(?:thinking"
+            r"|wondering|hoping)|i have been thinking|i (?:think|guess|figure|reckon|suppose))(?: that"
+            r"| maybe| perhaps)*,? (?=(?:the|my|it|we|you|can|could|would)\b)"
+        ),
+        "",
+    ),
+    (r",? (?:yeah|yes|ok|okay),? (?:please )?do that(?=[.!]*$)", ""),
+    (
+        (
+            r"(?<=\w)(?<! or)(?<! if),? (?:and )?so (?:please |can you |could you |then |now |just "
+            r"|if you could )*(?=(?:the|my|his|her|go|bring|take|put|get"
+            r"|fetch|give|find|come|move|carry|drop|return|look|hand|pick)\b)(?!(?:it|they|my \w+"
+            r"|the \w+) (?:can|could|will|may|is|are|does)\b)"
+        ),
+        ". ",
+    ),
+    (
+        (
+            r"(?<=\w)(?<! or)(?<! if),? so (?=(?:the|my|his|her) [\w ]+? (?:can|could|may|should|must"
+            r"|has to|needs to) (?:go|be|return)\b)"
+        ),
+        ". ",
+    ),
+    (r",? i mean,? (?=(?:she|he|they|it|we) (?:needs?|wants?|is|are|has|have)\b)", ", "),
+    (
+        (
+            r",? if you (?:can |could |happen to |manage to |are able to |ever )*(?:find|see|spot"
+            r"|locate|get hold of|track down|come across|have) (?:it|them|one|any|some|him|her)"
+            r"(?: somewhere| anywhere)?(?=$|[.!?,])"
+        ),
+        "",
+    ),
+    (
+        (
+            r"((?:^|[.,;!] |\band |\bthen ))you (?:may|might|shall|are free to|are welcome to|can now"
+            r"|may now|can)(?: now| then)? (?=(?:return|put|take|bring|go|carry|move|get|fetch|give"
+            r"|come|drive|leave|drop|place)\b)"
+        ),
+        r"\1",
+    ),
     (
         (
             r"\bbe an? (?:\w+ )?(?:dear|darling|love|pal|sweetheart|angel|lad|boy|girl|sport|robot|star|friend|gem"
@@ -141,15 +226,9 @@ COURTESY: tuple[tuple[str, str], ...] = (
     (" (?:at the moment|at present|right now|as we speak|these days)(?=[?.!]*$)", ""),
     (
         (
-            ",? (?:both|all|each|every one)(?: (?:two|three|four))? of (?:them|these|those)(?=$|,| (?:go|goes"
+            ",? (?:both|all|each and every one|each|every one)(?: (?:two|three|four))? of (?:them"
+            "|these|those)(?=$|,| (?:go|goes"
             r"|should|must|can|belong|belongs)\b),?"
-        ),
-        "",
-    ),
-    (
-        (
-            "^(?:so,? )?(?:i was (?:just )?(?:thinking|wondering|hoping)|i have been thinking)[,.]* (?=it|can"
-            "|could|would)"
         ),
         "",
     ),

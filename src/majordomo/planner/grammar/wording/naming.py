@@ -2,7 +2,81 @@
 
 from __future__ import annotations
 
+_OURS = (
+    r"(?:we|i|you|they|people|everyone|everybody|the \w+|\w+s|\w+ people|us \w+|my \w+|our \w+"
+    r"|children|folks|staff|locals)"
+)
+_HABIT = (
+    r"(?: (?:all|both|usually|always|normally|often|just|now|like to|tend to|will|would|shall|also|still|have always))*"
+)
+
 NAMING: tuple[tuple[str, str], ...] = (
+    (r"^(?:the |that |this )((?:\w+ )*?)(\w+) is mine(?=[.!]*$)", r"call the \1\2 my \2"),
+    (
+        (
+            rf"^{_OURS}{_HABIT} (?:call|calls|called|name|named|refer to|label|nickname|dub|know)"
+            rf"(?: the)? ((?:the |this |my |our )?[\w' ]+?)(?: as| by the name)? (the|my|our|a|an) "
+            rf"([\w' ]+?)"
+            r"(?:[,.;]* (?:so |and |please )*(?:remember|note|keep|know|mind) (?:that|it|this)"
+            r"(?: in mind)?| now| from now on| around here| here)*(?=[.!]*$)"
+        ),
+        r"call the \1 \2 \3",
+    ),
+    (
+        (
+            rf"^{_OURS}{_HABIT} (?:call|calls|name|label|nickname|dub) (the [\w' ]+?) (\w+)(?: now"
+            rf"| from now on| around here| here| these days)*(?=[.!]*$)"
+        ),
+        r"call \1 the \2",
+    ),
+    (
+        (
+            r"^(?:when|if|whenever|every time) (?:i|we|you|someone|people|anyone) (?:say|says|mention"
+            r"|mentions|talk about|speak of|ask for|write) (?:the )?([\w' ]+?),? (?:i|we|it|that|they"
+            r"|then i) (?:mean|means|meant|am talking about|refer to|refers to|is) (?=the|this|that)"
+            r"(.+?)(?=[.!]*$)"
+        ),
+        r"call \2 the \1",
+    ),
+    (r"^(?:by|with) (?:the )?([\w' ]+?),? (?:i|we) (?:mean|refer to) (?=the|this)(.+?)(?=[.!]*$)", r"call \2 the \1"),
+    (
+        (
+            r"^(?:the )?[\"']?([\w' ]+?)[\"']? (?:means|stands for|refers to|is short for|is an other "
+            r"(?:name|word) for|is what (?:we|i) call) (?=the|this)(.+?)(?=[.!]*$)"
+        ),
+        r"call \2 the \1",
+    ),
+    (
+        (
+            r"^((?:this|the) [\w' ]+?)[?,:;]+ (?:we|i|they|people)(?: all)? (?:say|call it|call this"
+            r"|name it|know it as|use|refer to it as) (?:the |our )?([\w' ]+?)(?: (?:for|to) it"
+            r"| instead)?(?=[.!]*$)"
+        ),
+        r"call \1 the \2",
+    ),
+    (
+        (
+            r"^(?:let us |we will |you can |please |you should |you may )*(?:baptize|christen|dub"
+            r"|nickname|title|term|entitle|designate|tag) "
+        ),
+        "call ",
+    ),
+    (r"^call the (the|this|my|our) ", r"call \1 "),
+    (
+        (
+            r"^(?:the )?(?:proper |right |correct |new |official )?(?:name|label|word|term) (?:for|of) "
+            r"((?:the|this) [\w' ]+?) (?:is|will be|shall be|should be) (?:the )?"
+        ),
+        r"call \1 the ",
+    ),
+    (
+        (
+            r"^((?:the|this) [\w' ]+?) (?:is|shall be|should be|will be|is to be|gets) (?:now "
+            r"|henceforth |hereby )*(?:known|called|named|labeled|renamed|christened|dubbed|nicknamed)"
+            r"(?: as| to)? "
+        ),
+        r"call \1 ",
+    ),
     ("^(?:we|i|you|they) (?:are|will be) (?:calling|naming) ", "call "),
     (r"^(the .+?) belongs to \w+[,;.]+ (?:and |so )?(?:it|that|this) is (?=(?:my|\w+'s|our)\b)", r"call \1 "),
     ("^this (?:here|room here|place here|one here) is ", "this is "),
@@ -19,13 +93,6 @@ NAMING: tuple[tuple[str, str], ...] = (
     (r"^you are (?:now )?in (?=(?:the|my) [\w ]+$)", "this room is "),
     (
         (
-            "^(?:this room|the room (?:we|you) are in|where (?:we|you) are(?: now)?|this place"
-            "|the room you are in now) (?:should be|will be|shall be|is) (?:known as|called|named) "
-        ),
-        "this room is called ",
-    ),
-    (
-        (
             "^(?:let us|we|i|people|they|everyone|everybody|you (?:can|should|may|must))(?: all)?(?: will"
             r"| always)? (?:call|name|refer to) (.+?)(?: as)? (the|my|our|\w+'s) "
         ),
@@ -34,8 +101,6 @@ NAMING: tuple[tuple[str, str], ...] = (
     ("^(?:please )?(?:name|title|label|refer to|treat|think of|regard|know|remember|learn) (.+?) as ", r"call \1 "),
     (r"^(?:please )?name (?=(?:this|that|the|it)\b)(?!the rooms)", "call "),
     ("^(?:the |this )?(.+?)'s name is ", r"\1 is called "),
-    ("^(?:the )?name of (.+?) is ", r"\1 is called "),
-    (r"\b(?:should|shall|will|is to|must|can) be (?:called|named|known as) ", "is called "),
     (r"\b(?:is|are) (?:now |also |actually |really |always )+(?=(?:the|my|our|called|\w+'s)\b)", "is "),
     (r"\bgoes by(?: the name(?: of)?)? ", "is called "),
     (

@@ -19,6 +19,11 @@ _RESTORING = r"\b(?:put|return|take|bring|carry|move|place|set|leave|drop|get|gi
 
 _ORIGIN = (
     (
+        rf"back (?:to|in|into|on|onto|at) (?:the|its|their|that) [\w ]{{2,40}}? (?:where|that"
+        rf"|which) {_THEY}(?: originally| just)?(?: had| have| has)?"
+        rf" {_PLACED}(?: it| them| that)?(?: up)?(?: from| off| out of)?{_ADDED}"
+    ),
+    (
         rf"(?:back )?(?:(?:to|in|into|at|on|from) )?(?:exactly |right |just )?(?:(?:the|its|their) )?(?:{_OLD} )?"
         rf"(?:{_SPOT} )?(?:from where|where|wherever|from which)"
         rf" {_THEY}(?: originally| first| just)?(?: had| have| has)?"
@@ -32,6 +37,7 @@ _ORIGIN = (
         rf"(?:back )?(?:to|in|into|on|at) (?:its|their|the|his|her|it is) (?:{_OLD},? )*{_SPOT}{_ADDED}"
         r"(?! (?:of|where|in|on|at)\b)"
     ),
+    rf"back (?:to|in|into|on|onto|at) (?:its|their) (?!{_OLD}\b|{_SPOT}\b)\w+(?! (?:of|in|on|next|at|where)\b)",
     rf"back (?:to|in|into|on|onto) (?:the|its|their) [\w ]{{2,40}}? where {_THEY} (?:was|were|came from){_ADDED}",
 )
 BACK = re.compile(rf"({_RESTORING}[^.;?!]*?) (?:{'|'.join(_ORIGIN)})(?=$|[\s.,;!?])")

@@ -1,0 +1,119 @@
+"""What is only told around a request: *the art room's a mess, put the glue away*; *a kid was playing with it*.
+
+A statement asks for nothing. It is kept out of what is to be done if it says neither what is wanted nor what is not,
+and what it speaks of is what *it* and *him* in the request mean.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from majordomo.planner.grammar.terminals import ACTING, Terminal
+
+Tokens = Sequence[Terminal]
+
+_SUBJECTS = frozenset({"LOST", "I", "IT", "HIM", "THIS", "THAT", "THERE", "EVERYTHING", "ANYTHING", "HERE"})
+_VERBS_OF_BEING = frozenset({"BE", "HAVE", "LOSES", "BELONG"})
+_SAID = frozenset(
+    {"looks", "look", "seems", "seem", "smells", "sounds", "feels", "got", "went", "came", "left", "made",
+     "broke", "keeps", "dropped", "forgot", "found", "bought", "put", "saw", "loves", "likes", "lives", "works",
+     "said", "says", "gets", "becomes", "fell", "spilled", "finished", "called", "started", "stopped", "asked",
+     "cooked", "ate", "drank", "belongs", "comes", "goes", "just"}
+)  # fmt: skip
+"""Finite verbs of a statement, beside *is* and *has*."""
+_ASKING_FOR = frozenset(
+    {"YOU", "WANT", "WANTS", "ENSURE", "NEEDED", "EXCEPT", "WHETHER", "UNLESS", "PROVIDED", "IF_SO", "IF_NOT",
+     "BEFORE", "AFTER", "OTHERWISE", "CALLED", "CALL", "MY_NAME", "ONE", "SHOULD", "LET", "SUPPLY", "CAN_YOU",
+     "WHEN", "BUT_FIRST"}
+)  # fmt: skip
+"""What asks for something, or makes it depend on something: nothing like that is left aside."""
+_DENYING = frozenset({"NOT", "NO", "NEITHER", "NOR"})
+_CHOOSING = frozenset(
+    {"COLOR", "ORANGE", "LARGEST", "SMALLEST", "NEAREST", "FARTHEST", "ORDINAL", "LEFTMOST", "RIGHTMOST", "OTHER"}
+)
+_WILLING = frozenset(
+    {"want", "wants", "wanted", "need", "needs", "prefer", "prefers", "hate", "hates", "must", "allergic", "only",
+     "rather", "wish", "wishes", "better", "best", "favorite", "favourite", "forbidden", "allowed", "instead",
+     "never", "nothing", "nobody", "none", "until", "while", "because", "dislike", "dislikes", "mean",
+     "means", "meant", "say", "why", "how", "what", "which", "who", "later", "tomorrow", "minutes", "every",
+     "always", "whenever", "please"}
+)  # fmt: skip
+_LANDMARK = frozenset({"ON", "IN", "NEAR", "AT", "FROM", "BESIDE", "BETWEEN", "INTO", "ONTO", "OFF", "TO", "WITH"})
+_IN_PHRASE = frozenset(
+    {"THE", "MY", "A", "THIS", "THAT", "POSSESSIVE", "HIS", "ALL", "BOTH", "NUMBER", "COLOR", "ORANGE", "BIG", "SMALL",
+     "STATE", "OTHER"}
+)  # fmt: skip
+_NAMES = frozenset({"NOUN", "NAME", "PERSON", "WORD", "IDENTIFIER", "DOOR"})
+_ANYBODY = frozenset({"somebody", "someone", "anybody", "anyone", "everybody", "everyone", "people"})
+MAX_SUBJECT = 7
+MAX_PHRASES = 4
+
+
+def is_told(clause: Tokens) -> bool:
+    """Whether a clause states something and asks for nothing: a subject, a finite verb, no wish, rule or condition."""
+    kinds = [token.type for token in clause]
+    words = {token.typed for token in clause}
+    verb = _verb(clause)
+    if verb is None or _ASKING_FOR & set(kinds) or _WILLING & words or words & {"n't"}:
+        return False
+    if any(kind in ACTING for kind in kinds) and not _is_going_on(clause, verb):
+        return False
+    denied = bool(_DENYING & set(kinds))
+    return not (denied and (_CHOOSING | {"NOUN"}) & set(kinds))
+
+
+def _is_going_on(clause: Tokens, verb: int) -> bool:
+    """*A kid was playing with it*, *I am done washing*: what people do, not what the robot is asked for."""
+    return all(
+        token.type not in ACTING or index == verb or (index > verb and token.typed.split()[0].endswith("ing"))
+        for index, token in enumerate(clause)
+    )
+
+
+def _verb(clause: Tokens) -> int | None:
+    """Where the finite verb is: after a pronoun or a noun phrase that begins the clause."""
+    for index, token in enumerate(clause[: MAX_SUBJECT + 1]):
+        if token.type == "LOST":
+            return index
+        if index and (token.type in _VERBS_OF_BEING or token.typed in _SAID or _is_inflected(token)):
+            return index
+        if index == 0 and token.type in _SUBJECTS:
+            continue
+        if token.type not in _IN_PHRASE | _NAMES | {"AND", "OF"} | _SUBJECTS | (_LANDMARK if index else frozenset()):
+            return None
+    return None
+
+
+def _is_inflected(token: Terminal) -> bool:
+    return token.type in ("WORD", "PAST", "MEANING") and token.typed.endswith("ed") and len(token.typed) > 4
+
+
+def _tells_how(clause: Tokens, start: int, end: int) -> bool:
+    """*Clutter* in *they are clutter*, *mess* in *it is a mess*: what is said of a thing, and no other thing."""
+    return start > 0 and clause[start - 1].type == "BE" and (start == end or clause[start].type == "A")
+
+
+def spoken_of(clause: Tokens) -> list[tuple[bool, list[Terminal]]]:
+    """The noun phrases of a statement as spans up to its end, each with whether it only tells of a place."""
+    found: list[tuple[bool, list[Terminal]]] = []
+    verb = _verb(clause) or 0
+    index = 0
+    while index < len(clause) and len(found) < MAX_PHRASES:
+        head = _past(clause, index, _IN_PHRASE)
+        names = head < len(clause) and clause[head].type in _NAMES and not (index <= verb <= head and verb)
+        end = _past(clause, head, _NAMES, verb) if names else index + 1
+        if names and clause[head].typed not in _ANYBODY and not _tells_how(clause, index, head):
+            before = clause[index - 1].type if index else ""
+            found.append((before in _LANDMARK, list(clause[index : verb if index < verb else None])))
+            while before not in _LANDMARK and end + 1 < len(clause) and clause[end].type in ("AND", "COMMA"):
+                end = _past(clause, _past(clause, end + 1, _IN_PHRASE), _NAMES, verb)
+        index = max(end, index + 1)
+    return found
+
+
+def _past(clause: Tokens, index: int, kinds: frozenset[str], stop: int = 0) -> int:
+    """Where the terminals of ``kinds`` that begin at ``index`` end; ``stop`` is never passed, if it lies ahead."""
+    end = index
+    while end < len(clause) and clause[end].type in kinds and (end != stop or not stop):
+        end += 1
+    return end

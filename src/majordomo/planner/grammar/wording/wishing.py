@@ -1,0 +1,62 @@
+"""Idioms of wanting something, and of saying what for: *I could murder an apple*, *I'd like to read it*."""
+
+from __future__ import annotations
+
+_USES = (
+    r"(?:have|read|use|eat|drink|see|look at|hold|borrow|try|get|wear|check|drink from|write with|play with|sit with|"
+    r"take|enjoy|keep|work with|draw with|study|watch|taste|finish)"
+)
+
+WISHING: tuple[tuple[str, str], ...] = (
+    (
+        (
+            r"\b(?:i|we) (?:could (?:really |just |so )?(?:murder|eat|drink|go for|do with|use|kill for|handle|manage)|"
+            r"(?:am|are) (?:gasping|dying|longing|desperate|craving|itching|yearning|keen)(?: for| on| to have)?|"
+            r"would not (?:say no to|mind|object to|refuse)|feel like(?: having)?|(?:am|are) in "
+            r"(?:the mood|need) (?:for|of)|"
+            r"would (?:really |just )?(?:kill|die) for|have a craving for|(?:really |just |only )+(?:want|need|fancy))"
+            r" (?=(?:an?|the|some|one|my|that|two|another)\b)"
+        ),
+        "i want ",
+    ),
+    (
+        (
+            rf"\b(?:i|we) (?:would (?:like|love)|want|need|wish|am going|are going|am about"
+            rf"|have) to {_USES} (it|them|that|those)\b"
+        ),
+        r"bring me \1",
+    ),
+    (
+        (
+            rf"^(the [^.;!?]+?)[,;] (?:could|can|may|might) (?:i|we) (?:please )?{_USES} (?:it|them)"
+            rf"(?: please)?(?=[.!?]*$)"
+        ),
+        r"bring me \1",
+    ),
+    (rf"\b(?:could|can|may|might) (?:i|we) (?:please )?{_USES} (it|them)(?: please)?(?=$|[.!?,])", r"bring me \1"),
+    (r"\b(\w+) (?:fancies|craves|desires|requests|demands|is (?:gasping|dying|craving|desperate) for) ", r"\1 wants "),
+    (r"\b(\w+) (?:has been|is|was) (?:asking|begging|longing|clamou?ring) for (?!you\b|me\b|us\b)", r"\1 wants "),
+    (
+        (
+            r"\b(?:a|an|the|one|some|two|another) ([^,.;!?]+?) (?:would be (?:splendid|great|lovely"
+            r"|nice|perfect|good|super|"
+            r"wonderful|fantastic|much appreciated|welcome|appreciated|awesome|ideal|brilliant|just the thing)"
+            r"|would (?:hit the spot|go down (?:well|a treat)|do nicely|not go amiss))(?:[,]? (?:now"
+            r"|please|thanks))*(?=$|[.!?])"
+        ),
+        r"i want a \1",
+    ),
+    (
+        (
+            r"^(?!nobody|noone|who|what|never|not|if|when)(?:mum|mom|dad|mother|father|granny|grandma"
+            r"|grandpa|\w+) (?:says|said|asks|wants|told me"
+            r"|tells me)(?: that| to tell you)?"
+            r"(?: you)?(?: should| must| are| need| have)?(?: please)?(?: to)?:? (?=(?:bring|take|put"
+            r"|go|fetch|get|carry|move|give|find|come|pick)\b)"
+        ),
+        "",
+    ),
+    (r"\b(?:how about|what about) (?:bringing|fetching|getting|giving) ", "bring "),
+    (r"\b(?:how about|what about) (?:taking|putting|moving|carrying) ", "put "),
+)
+"""In the order in which they are tried."""

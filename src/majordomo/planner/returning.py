@@ -1,0 +1,53 @@
+"""What *put it back where it was* means on a graph: what was moved goes to where it was before."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from majordomo.planner.gathering import Gathering, Trouble
+from majordomo.planner.goals import Goal, Predicate
+from majordomo.planner.grammar.syntax import Pronoun, PutBack, Reference
+from majordomo.planner.grounding import Ambiguous, Context, Grounding, NoReferent
+from majordomo.planner.meant import Meant
+from majordomo.planner.naming import name_of
+
+
+class Returning:
+    """Gives ``PutBack`` its meaning; ``predicate`` says what putting something to a place means there."""
+
+    def __init__(self, grounding: Grounding, gathering: Gathering, predicate: Callable[[str, str], Predicate]) -> None:
+        self._snapshot, self._gathering, self._predicate = grounding.snapshot, gathering, predicate
+
+    def of(self, step: PutBack, context: Context) -> Meant | Trouble:
+        """The things at the places that they were moved from."""
+        things = _moved_last(step.things, context) or self._moved_before(
+            self._gathering.to_carry(step.things, context), context
+        )
+        if not isinstance(things, tuple):
+            return things
+        unknown = next((i for i in things if i not in context.origins), None)
+        if unknown is not None:
+            name = name_of(unknown, self._snapshot)
+            return NoReferent(reason=f"I do not remember that I moved {name}. Tell me where to put it.")
+        places = tuple(context.origins[i] for i in things)
+        goals = tuple(
+            Goal(predicate=self._predicate("to", place), args=(i, place))
+            for i, place in zip(things, places, strict=True)
+        )
+        return Meant(goals=goals, things=things, places=places)
+
+    def _moved_before(self, found: tuple[str, ...] | Trouble, context: Context) -> tuple[str, ...] | Trouble:
+        """Of several that are asked about, the one that was moved is what is put back."""
+        if not isinstance(found, Ambiguous):
+            return found
+        moved = tuple(i for i in found.candidates if i in context.origins)
+        return moved if len(moved) == 1 else found
+
+
+def _moved_last(references: tuple[Reference, ...], context: Context) -> tuple[str, ...]:
+    """*Put it back*: everything that the request before moved, if that was several things."""
+    if context.fresh or not context.earlier or not all(isinstance(r, Pronoun) for r in references):
+        return ()
+    goals = context.earlier[0].goals
+    moved = tuple(dict.fromkeys(i for goal in goals if (i := goal.object_id) is not None and i in context.origins))
+    return moved if len(moved) > 1 else ()

@@ -241,6 +241,7 @@ def test_an_object_that_is_gone_is_looked_for_everywhere_and_then_reported_hones
         (BRING, "vase", 0.95, TaskStatus.FAILED),
         (BRING, "vase", 0.6, TaskStatus.FAILED),
         (BRING, "flask", 0.95, TaskStatus.SUCCEEDED),
+        (BRING, "unknown", 0.95, TaskStatus.SUCCEEDED),
         ("tidy up", "vase", 0.95, TaskStatus.SUCCEEDED),
     ],
 )

@@ -60,8 +60,15 @@ async def test_things_are_fetched_wherever_they_stand(stage, make_house, categor
     assert built.where(f"{category}_1")["on"] == "table_2"
 
 
-@pytest.mark.parametrize("height_m", [0.5, 0.75])
-@pytest.mark.parametrize("category", ["bottle", "can", "cup"])
+@pytest.mark.parametrize(
+    ("category", "height_m"),
+    [
+        ("bottle", 0.5),
+        pytest.param("bottle", 0.75, marks=pytest.mark.slow),
+        pytest.param("can", 0.75, marks=pytest.mark.slow),
+        pytest.param("cup", 0.5, marks=pytest.mark.slow),
+    ],
+)
 async def test_what_is_put_on_the_floor_stands_there(stage, make_house, category, height_m):
     table = {"id": "table_1", "category": "table", "pose": [1.4, 1.4, 0.0], "size": [1.2, 0.8, height_m]}
     thing = {"id": f"{category}_1", "category": category, "on": "table_1", "offset": [0.0, -0.2]}

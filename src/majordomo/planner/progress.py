@@ -46,12 +46,14 @@ class Progress:
 
     @property
     def checked(self) -> Plan:
-        """What symbolic execution has to prove: the rest of the plan, from where the last step has brought the robot.
+        """What symbolic execution has to prove: the rest of the plan, from where the last step has brought the robot;
+        of a search its next place alone, since none depends on another.
 
         The graph tells where the robot is only roughly; that it stands *at* something is what a confirmed GOTO says.
         """
         came = [step for step in self.plan.steps[max(0, self._index - 1) : self._index] if step.skill == "GOTO"]
-        return replace(self.plan, steps=(*came, *self.rest.steps))
+        rest = self.rest.steps if self.plan.seeking is None else self.rest.steps[:1]
+        return replace(self.plan, steps=(*came, *rest))
 
     def expect(self, snapshot: Snapshot) -> Expectation:
         """What the rest of the plan counts on, now that a step begins."""

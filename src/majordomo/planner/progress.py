@@ -51,9 +51,10 @@ class Progress:
 
         The graph tells where the robot is only roughly; that it stands *at* something is what a confirmed GOTO says.
         """
+        if self.plan.seeking is not None:
+            return replace(self.plan, steps=self.rest.steps[:1])
         came = [step for step in self.plan.steps[max(0, self._index - 1) : self._index] if step.skill == "GOTO"]
-        rest = self.rest.steps if self.plan.seeking is None else self.rest.steps[:1]
-        return replace(self.plan, steps=(*came, *rest))
+        return replace(self.plan, steps=(*came, *self.rest.steps))
 
     def expect(self, snapshot: Snapshot) -> Expectation:
         """What the rest of the plan counts on, now that a step begins."""

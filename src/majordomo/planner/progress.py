@@ -46,10 +46,13 @@ class Progress:
 
     @property
     def checked(self) -> Plan:
-        """What symbolic execution has to prove: the rest of the plan, from where the last step has brought the robot.
+        """What symbolic execution has to prove: the rest of the plan, from where the last step has brought the robot;
+        of a search its next place alone, since none depends on another.
 
         The graph tells where the robot is only roughly; that it stands *at* something is what a confirmed GOTO says.
         """
+        if self.plan.seeking is not None:
+            return replace(self.plan, steps=self.rest.steps[:1])
         came = [step for step in self.plan.steps[max(0, self._index - 1) : self._index] if step.skill == "GOTO"]
         return replace(self.plan, steps=(*came, *self.rest.steps))
 

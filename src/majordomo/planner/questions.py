@@ -152,13 +152,19 @@ class DoIKnowWhereIAm:
 
 @dataclass(frozen=True, kw_only=True)
 class WasIPushed:
-    """The robot's pose does not jump: between looks it moves no farther than ``speed_mps`` allows, plus ``jump_m``."""
+    """The robot's pose does not jump: between looks it moves no farther than ``speed_mps`` allows, plus ``jump_m``, and
+    into another room only through a door of its way.
+    """
 
     jump_m: float = 0.5
     speed_mps: float = 1.0
 
     def ask(self, situation: Situation) -> Failure | None:
         """Compare with the pose of the tick before."""
+        carried = _carried_into(situation)
+        if carried is not None:
+            message = f"I was carried into {name_of(carried, situation.snapshot)}."
+            return _failure(FailureCode.ROBOT_MOVED, message, situation, ROBOT_ID, carried)
         moved = robot_jump_m(situation.previous, situation.snapshot) if situation.previous is not None else None
         if moved is None or moved[0] <= self.jump_m + self.speed_mps * max(moved[1], 0.0):
             return None
@@ -183,6 +189,19 @@ class IsThereTime:
 def _expected_place(expected: ExpectedObject, situation: Situation) -> str:
     place = expected.support or expected.room
     return at(place, situation.snapshot) if place is not None else "where I had seen it"
+
+
+def _carried_into(situation: Situation) -> str | None:
+    """The room that the robot is in now and was not a tick ago, unless a door of its way, or one being crossed, leads
+    there.
+    """
+    before = situation.previous.current_room if situation.previous is not None else None
+    now = situation.snapshot.current_room
+    if before is None or now is None or before == now or situation.status.startswith("crossing"):
+        return None
+    doors = (situation.snapshot.get(door) for door in situation.expected.doors)
+    through = any(isinstance(door, DoorNode) and {before, now} == set(door.rooms) for door in doors)
+    return None if through else now
 
 
 def _is_closed(door_id: str, situation: Situation) -> bool:

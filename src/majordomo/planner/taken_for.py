@@ -15,9 +15,12 @@ from majordomo.skills.failures import Evidence, Failure, FailureCode
 SURE, RULED_OUT = 0.8, 0.1
 """Probability of the new label, and of the old one, at which the robot was mistaken; less is flicker."""
 
+NAMELESS = "unknown"
+"""What perception calls a thing that it has no name for: that is no other kind."""
+
 
 class TakenFor:
-    """Remembers by which kinds a request called its objects.
+    """Remembers by which kinds a request called what it is to move.
 
     Args:
         request: in a person's words.
@@ -27,7 +30,7 @@ class TakenFor:
 
     def __init__(self, request: str, goals: Sequence[Goal], snapshot: Snapshot) -> None:
         spoken = {form for word in re.findall(r"[a-z]+", request.casefold()) for form in (word, singular(word))}
-        nodes = [snapshot.get(arg) for arg in dict.fromkeys(arg for goal in goals for arg in goal.args)]
+        nodes = [snapshot.get(node_id) for node_id in dict.fromkeys(goal.object_id or "" for goal in goals)]
         self._labels = {
             node.id: normal(node.label)
             for node in nodes
@@ -40,7 +43,7 @@ class TakenFor:
         """
         for object_id, called in self._labels.items():
             node = snapshot.get(object_id)
-            if not isinstance(node, ObjectNode) or normal(node.label) in _names(called):
+            if not isinstance(node, ObjectNode) or normal(node.label) in _names(called) | {NAMELESS}:
                 continue
             chances = {normal(label): probability for label, probability in node.label_distribution}
             old, new = chances.get(called, 0.0), chances.get(normal(node.label), 0.0)

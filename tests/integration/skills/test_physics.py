@@ -7,6 +7,7 @@ from math import hypot
 import numpy as np
 import pytest
 
+from majordomo.simulation.catalog import CATEGORIES
 from majordomo.skills.actions.grasp import CloseGripper
 from majordomo.skills.failures import FailureCode
 from majordomo.skills.registry import load_registry
@@ -57,6 +58,26 @@ async def test_things_are_fetched_wherever_they_stand(stage, make_house, categor
     built = await stage(furnished(make_house, category, seed), seed=seed, noise_m=0.004)
     assert await fetch(built, f"{category}_1") is None
     assert built.where(f"{category}_1")["on"] == "table_2"
+
+
+@pytest.mark.parametrize(
+    ("category", "height_m"),
+    [
+        ("bottle", 0.5),
+        pytest.param("bottle", 0.75, marks=pytest.mark.slow),
+        pytest.param("can", 0.75, marks=pytest.mark.slow),
+        pytest.param("cup", 0.5, marks=pytest.mark.slow),
+    ],
+)
+async def test_what_is_put_on_the_floor_stands_there(stage, make_house, category, height_m):
+    table = {"id": "table_1", "category": "table", "pose": [1.4, 1.4, 0.0], "size": [1.2, 0.8, height_m]}
+    thing = {"id": f"{category}_1", "category": category, "on": "table_1", "offset": [0.0, -0.2]}
+    built = await stage(make_house([table], [thing], [0.0, 0.0, 0.5]))
+    assert await built.carry_out(("GOTO", thing["id"]), ("PICK", thing["id"])) is None
+    assert await built.carry_out(("GOTO", "room_2"), ("PLACE", thing["id"], "room_2")) is None
+    half_m = CATEGORIES[category].size_m[2] / 2
+    assert built.where(thing["id"])["room"] == "room_2"
+    assert built.where(thing["id"])["position_m"][2] == pytest.approx(half_m, abs=0.01)
 
 
 async def test_a_door_of_80_cm_is_crossed_without_touching_anything(stage, make_house):

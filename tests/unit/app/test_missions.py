@@ -140,6 +140,7 @@ def test_who_is_asked_back_says_which_thing_or_room_is_meant_and_nothing_where_i
     assert meant(("cup_7", "cup_9", "cup_8"), cup, here, known) == 2
     assert meant(("cup_7",), cup, here, known) is None
     assert meant(("room_1", "room_3"), cup, here, known) == 1
+    assert meant(("cup_7", "cup_2"), cup, scene(CUP_ON_TABLE, holding="cup_1"), known, held="cup_2") == 1
 
 
 def test_a_thing_is_called_by_its_kind_or_a_plain_color_or_its_place_never_by_words_that_fit_two():

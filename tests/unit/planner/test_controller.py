@@ -199,11 +199,20 @@ def test_a_robot_that_was_pushed_notices_the_jump(jump_m, code):
     assert scene.code is code
 
 
-def test_going_through_a_door_is_no_jump():
-    scene = Scene()
+def test_going_through_a_door_of_ones_way_is_no_jump():
+    scene = Scene(first=2)
     scene.fields = {"previous": scene.memory.snapshot()}
     scene.stage.stand_at("desk_1", 1.0)
     assert scene.code is None
+
+
+@pytest.mark.parametrize(("status", "code"), [("driving to x", FailureCode.ROBOT_MOVED), ("crossing door_1", None)])
+def test_a_robot_that_is_in_another_room_without_having_gone_there_was_carried(status, code):
+    scene = Scene()
+    scene.put(id="robot", status=status)
+    scene.fields = {"previous": scene.memory.snapshot()}
+    scene.stage.stand_at("desk_1", 1.0)
+    assert scene.code is code
 
 
 def test_a_step_that_takes_too_long_times_out():

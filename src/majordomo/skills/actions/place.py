@@ -177,7 +177,7 @@ class LowerToPlace(ArmAction):
         return Status.SUCCESS if progress is ArmProgress.THERE else Status.RUNNING
 
     def _plan(self) -> tuple[ArmTarget, ...]:
-        """Up, out, and down, with the wrist as it is."""
+        """Up, out, and down, with the wrist as it is; down only when it is out: drawn in, the hand is over the base."""
         context, arm = self.context, self.context.body.arm
         x_m, y_m, z_m = self._placement.anchor().in_base(context)
         inside = self._placement.spot is not None and self._placement.spot.inside
@@ -188,7 +188,9 @@ class LowerToPlace(ArmAction):
         self._standing_lift_m = final.lift_m
         above_m = min(final.lift_m + HOVER_M, context.limits.lift_m[1])
         steps = [replace(final, lift_m=final.lift_m + k * STEP_M) for k in range(int(SLOW_M / STEP_M), -1, -1)]
-        return replace(arm, lift_m=above_m), replace(final, lift_m=above_m), *steps
+        highest_m = max(above_m, arm.lift_m)
+        way = replace(arm, lift_m=highest_m), replace(final, lift_m=highest_m), replace(final, lift_m=above_m)
+        return *way, *steps
 
 
 def above_bottom_m(context: RobotContext) -> float:

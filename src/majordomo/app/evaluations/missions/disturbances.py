@@ -237,6 +237,9 @@ _ALL = (
         reasons=frozenset({FailureCode.SUPPORT_FULL}),
         furniture=True,
     ),
+    Disturbance(name="person_in_way", due=_on_the_way, deeds=_stroll),
+    Disturbance(name="pushed", due=_driving, deeds=_push),
+    Disturbance(name="kidnapped", due=_driving, deeds=_carry_off),
     Disturbance(
         name="door_closed",
         due=_on_the_way,
@@ -251,9 +254,6 @@ _ALL = (
         reasons=frozenset({FailureCode.WAY_BLOCKED}),
         blocks=True,
     ),
-    Disturbance(name="person_in_way", due=_on_the_way, deeds=_stroll),
-    Disturbance(name="pushed", due=_driving, deeds=_push),
-    Disturbance(name="kidnapped", due=_driving, deeds=_carry_off),
     Disturbance(
         name="support_gone",
         due=lambda moment: _onto_furniture(moment) and _carrying(moment),
@@ -264,4 +264,4 @@ _ALL = (
 )
 
 DISTURBANCES: Mapping[str, Disturbance] = MappingProxyType({each.name: each for each in _ALL})
-"""All of them by name; what leaves least behind comes first."""
+"""All of them by name; what leaves least behind comes first, in the house and in what the robot believes of it."""

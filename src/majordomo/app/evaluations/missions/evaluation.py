@@ -148,7 +148,7 @@ def _invented(houses: Sequence[str], requests: int, disturb: Sequence[str]) -> l
 
 
 def _table(title: str, rows: Sequence[Row], key: str) -> Table:
-    caption = "why, other: of what became impossible, for the right reason or another"
+    caption = "why, other: impossible, for the right reason or another; ref: refused"
     table = Table(title=title, caption=caption, box=SIMPLE_HEAD, padding=(0, 1, 0, 0))
     columns: Mapping[str, Callable[[Sequence[Row]], str]] = {
         "n": lambda group: str(len(group)),
@@ -157,8 +157,9 @@ def _table(title: str, rows: Sequence[Row], key: str) -> Table:
         "other": lambda group: str(_count(group, Verdict.OTHER_REASON)),
         "phantom": lambda group: str(_count(group, Verdict.PHANTOM)),
         "wrong": lambda group: str(_count(group, Verdict.WRONG_ANSWER)),
-        "failed": lambda group: str(_count(group, Verdict.HONEST_FAILURE)),
-        "asked": lambda group: str(_count(group, Verdict.ASKED)),
+        "fail": lambda group: str(_count(group, Verdict.HONEST_FAILURE)),
+        "ref": lambda group: str(_count(group, Verdict.REFUSED)),
+        "ask": lambda group: str(_count(group, Verdict.ASKED)),
         "hits": lambda group: str(sum(row["collisions"] for row in group)),
         "s": lambda group: f"{sum(row['seconds'] for row in group) / len(group):.0f}",
     }

@@ -46,7 +46,9 @@ class Resident:
         """Which of the candidates is meant, *the second one*; None where none of those that the robot offers is."""
         if self.answers >= MOST_ANSWERS:
             return None
-        number = meant(task.candidates[: len(_ORDINALS)], mission, scene, self._contents())
+        robot = self._runtime.memory.snapshot().robot
+        held = robot.holding if robot is not None else None
+        number = meant(task.candidates[: len(_ORDINALS)], mission, scene, self._contents(), held=held)
         self.answers += number is not None
         return None if number is None else f"the {_ORDINALS[number]} one"
 
@@ -54,12 +56,16 @@ class Resident:
         return graph_contents(self._runtime.scene_document("map"), self._house)
 
 
-def meant(candidates: Sequence[str], mission: Mission, scene: Scene, contents: GraphContents) -> int | None:
-    """Index of the candidate that is what the mission is about."""
+def meant(
+    candidates: Sequence[str], mission: Mission, scene: Scene, contents: GraphContents, *, held: str | None = None
+) -> int | None:
+    """Index of the candidate that is what the mission is about; ``held``: the node that the robot has in its hand."""
     at = {thing.id: (float(thing.position_m[0]), float(thing.position_m[1])) for thing in contents.things}
     for name in (*mission.things, *mission.places):
         if contents.rooms.get(name) in candidates:
             return candidates.index(contents.rooms[name])
+        if held in candidates and scene.holding == name:
+            return candidates.index(held)
         where = scene.where(name)
         near = [(math.dist(where, at[node]), node) for node in candidates if node in at] if where is not None else []
         if near and min(near)[0] <= SAME_M:

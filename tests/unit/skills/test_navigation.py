@@ -229,10 +229,10 @@ def test_a_wall_that_was_only_guessed_is_not_in_the_way(flat, status, free):
     memory = flat().memory
     with memory.edit("test", 0.0) as tx:
         tx.put(replace(tx.snapshot.room("room_1"), status=status))
-    snapshot, spots = memory.snapshot(), [(0.0, 0.0), (2.0, 0.0)]
+    snapshot, spots = memory.snapshot(), [(0.0, 0.0), (-2.0, 0.0)]
     walls = Walls.of(snapshot, "room_1")
     grid = draw_map(snapshot, "room_1", np.zeros((0, 2)), spots, walls=walls, stamp_s=0.0, believe_furniture=False)
-    beyond = [max(x for x, _ in snapshot.room("room_1").polygon_m) + 0.3, -1.0]
+    beyond = [min(x for x, _ in snapshot.room("room_1").polygon_m) - 0.3, -1.0]
     assert bool(grid.clearance_at(np.array([beyond]))[0] > 0.15) is free
 
 
@@ -247,6 +247,25 @@ def test_no_way_leads_back_through_a_room_that_was_left_to_a_place_behind_its_wa
     assert away.clearance_at(np.array([in_the_gap])) > 0.0
     back = draw_map(snapshot, "room_1", nothing, [robot, inside, behind], walls=walls, stamp_s=0.0)
     assert back.clearance_at(np.array([inside])) > 0.5
+
+
+def test_no_way_between_two_places_of_a_room_leads_through_another(flat):
+    memory = flat().memory
+    with memory.edit("test", 0.0) as tx:  # of room_1, much is guessed; room_2 behind its door is known
+        tx.put(replace(tx.snapshot.room("room_1"), status=RoomStatus.PARTIAL))
+    snapshot, spots = memory.snapshot(), [(2.0, 1.0), (2.0, -1.0)]
+    grid = draw_map(
+        snapshot,
+        "room_1",
+        np.zeros((0, 2)),
+        spots,
+        walls=Walls.of(snapshot, "room_1"),
+        stamp_s=0.0,
+        believe_furniture=False,
+    )
+    in_the_gap, behind = (2.95, 0.0), (3.9, 1.0)
+    assert grid.clearance_at(np.array([behind])) == 0.0
+    assert grid.clearance_at(np.array([in_the_gap])) > 0.0
 
 
 def test_a_robot_sent_back_and_forth_between_two_ways_is_astray_though_each_time_it_comes_further():

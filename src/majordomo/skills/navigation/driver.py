@@ -17,7 +17,7 @@ from majordomo.skills.navigation.pursuit import Pursuit, deviation_m, point_ahea
 from majordomo.skills.navigation.route import path_length_m
 from majordomo.skills.navigation.safety import FAR_M, admissible
 
-SAFETY_MARGIN_M = 0.02
+SAFETY_MARGIN_M = 0.01
 """How much less than the planning radius must stay free while driving; that radius already exceeds the body's."""
 PASSED_RAD = 1.2
 

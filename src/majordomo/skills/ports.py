@@ -118,6 +118,10 @@ class FloorReturns:
     spots_m: NDArray[np.float64]
     points_m: NDArray[np.float64]
 
+    def where(self, chosen: NDArray[np.bool_]) -> FloorReturns:
+        """Those that are ``chosen``, (N,)."""
+        return FloorReturns(spots_m=self.spots_m[chosen], points_m=self.points_m[chosen])
+
 
 NO_FLOOR = FloorReturns(spots_m=np.zeros((0, 2)), points_m=np.zeros((0, 3)))
 

@@ -231,6 +231,15 @@ def test_what_is_low_stays_in_place_when_the_frame_changes():
     assert len(around.points()) == 0
 
 
+def test_an_arm_that_reaches_down_is_nothing_on_the_floor():
+    rng, hand = np.random.default_rng(2), Box2(Pose2(0.95, 0.0), 0.15, 0.1)
+    for reach_m in (0.0, 1.1):
+        around = Surroundings(frame="room_1")
+        for _ in range(40):
+            around.observe_floor(floor_returns(rng, (hand, 0.03)), SE3.identity(), 0.0, reach_m)
+        assert (len(around.points()) > 0) is (reach_m == 0.0)
+
+
 def test_a_thing_that_was_taken_away_is_forgotten_once_the_floor_is_seen_again():
     rng, around, thing = np.random.default_rng(2), Surroundings(frame="room_1"), Box2(Pose2(2.05, 0.0), 0.2, 0.2)
     for height_m, scans in ((0.024, 40), (0.0, 60)):

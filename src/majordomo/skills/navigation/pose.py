@@ -59,7 +59,7 @@ def look_around(context: RobotContext) -> None:
     reach_m = arm_reach_m if context.body.arm.extension_m > 0.08 else 0.0
     T_frame_base = snapshot.transform(frame, ROBOT_ID)
     around.observe(context.obstacles_base, T_frame_base, context.stamp_s, reach_m)
-    around.observe_floor(context.floor_base, T_frame_base, context.stamp_s)
+    around.observe_floor(context.floor_base, T_frame_base, context.stamp_s, reach_m)
 
 
 def footprint_radius_m(context: RobotContext) -> float:

@@ -81,16 +81,17 @@ class Surroundings:
         fade_s = np.where(self._cells["tall"], self.config.fade_tall_s, low_s)
         self._cells = self._cells[stamp_s - self._cells["seen_s"] <= fade_s]
 
-    def observe_floor(self, returns: FloorReturns, T_frame_base: SE3, stamp_s: float) -> None:
+    def observe_floor(self, returns: FloorReturns, T_frame_base: SE3, stamp_s: float, arm_reach_m: float = 0.0) -> None:
         """Take in what should have been the floor, but beside tall things: a person's feet soon step on."""
         if returns is self._last_floor or not len(returns.spots_m):
             return
         self._last_floor = returns
+        returns = returns.where(~_on_arm(returns.spots_m, arm_reach_m))
         spots = returns.spots_m @ T_frame_base.rotation()[:2, :2].T + T_frame_base.translation_m[:2]
         tall = self._cells["at_m"][self._cells["tall"]]
         if len(tall):
             far = np.isinf(cKDTree(tall).query(spots, distance_upper_bound=BESIDE_M)[0])
-            returns = FloorReturns(spots_m=returns.spots_m[far], points_m=returns.points_m[far])
+            returns = returns.where(far)
         self.relief.observe(returns, T_frame_base, stamp_s)
 
     def move_to(self, frame: str, T_new_old: SE3 | None) -> None:
@@ -117,9 +118,7 @@ class Surroundings:
         range_m = np.hypot(x, y)
         keep = (z > config.min_height_m) & (z < config.max_height_m)
         keep &= (range_m > config.body_radius_m) & (range_m < config.max_range_m)
-        if arm_reach_m > 0:
-            keep &= ~((x > 0) & (x < arm_reach_m) & (np.abs(y) < 0.12))
-        points = points[keep]
+        points = points[keep & ~_on_arm(points, arm_reach_m)]
         if not len(points):
             return np.zeros(0, dtype=_CELL)
         placed = points @ T_frame_base.rotation()[:2].T + T_frame_base.translation_m[:2]
@@ -149,6 +148,12 @@ class Surroundings:
         self._cells[at] = seen[known]
         self._cells["at_m"][at], self._cells["scans"][at] = after_m, scans
         self._cells = np.insert(self._cells, place[~known], seen[~known])
+
+
+def _on_arm(points_base: Points, arm_reach_m: float) -> NDArray[np.bool_]:
+    """Which of (N, 2 or 3) points may be the arm itself, or what it holds."""
+    x, y = points_base[:, 0], points_base[:, 1]
+    return np.asarray((x > 0) & (x < arm_reach_m) & (np.abs(y) < 0.12))
 
 
 def _beside_tall(cells: NDArray[np.int64], tall: NDArray[np.bool_]) -> NDArray[np.bool_]:

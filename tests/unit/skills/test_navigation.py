@@ -19,7 +19,7 @@ from majordomo.skills.navigation.grid import CELL_M, EXACT_M, Canvas
 from majordomo.skills.navigation.local_map import draw_map
 from majordomo.skills.navigation.pursuit import point_ahead
 from majordomo.skills.navigation.route import find_routes, path_length_m, sampled
-from majordomo.skills.navigation.safety import admissible
+from majordomo.skills.navigation.safety import admissible, retreat
 from majordomo.skills.navigation.surroundings import Surroundings
 from majordomo.skills.navigation.walls import Walls
 from majordomo.skills.ports import BodyLimits, FloorReturns
@@ -162,6 +162,13 @@ def test_a_robot_that_stands_too_close_may_back_away_but_not_advance():
     assert admissible(-0.3, 0.0, ahead, 0.26, LIMITS)[0] == -0.3
 
 
+def test_a_robot_that_came_too_close_backs_away_where_that_leads_off_and_stays_where_it_does_not():
+    ahead, behind = np.array([[0.2, 0.1]]), np.array([[-0.24, 0.0]])
+    assert retreat(ahead, 0.28, LIMITS) < 0.0
+    assert retreat(np.concatenate([ahead, behind]), 0.28, LIMITS) == 0.0
+    assert retreat(np.array([[0.5, 0.0]]), 0.28, LIMITS) == 0.0
+
+
 def ring_points(x, y, z, count=40):
     angles = np.linspace(0, 2 * pi, count, endpoint=False)
     return np.array([[x + 0.02 * cos(a), y + 0.02 * sin(a), z] for a in angles])
@@ -174,7 +181,20 @@ def test_low_obstacles_are_remembered_and_tall_ones_fade():
     around.observe(np.zeros((0, 3)), SE3.identity(), 5.0)
     remembered = around.points()
     np.testing.assert_allclose(remembered.mean(axis=0), [1.0, 0.0], atol=0.04)
-    around.observe(np.zeros((1, 3)), SE3.identity(), 30.0)
+    around.observe(np.zeros((1, 3)), SE3.identity(), 70.0)
+    assert len(around.points()) == 0
+
+
+def test_a_low_obstacle_that_was_taken_away_is_gone_as_soon_as_the_floor_is_seen_there():
+    rng, around, thing = np.random.default_rng(2), Surroundings(frame="room_1"), Box2(Pose2(2.05, 0.0), 0.1, 0.1)
+    around.observe(ring_points(2.05, 0.0, 0.3), SE3.identity(), 0.0)
+    for scan in range(20):  # seen together with it, the floor before it means nothing
+        around.observe(ring_points(2.05, 0.0, 0.3), SE3.identity(), 0.1 * scan)
+        around.observe_floor(floor_returns(rng, (thing, 0.0)), SE3.identity(), 0.1 * scan)
+    assert len(around.points()) > 0
+    for scan in range(50, 150):  # while the robot backs away, the rings sweep the place
+        base = SE3.from_xyz_yaw(0.002 * (100 - scan), 0.0, 0.0, 0.0)
+        around.observe_floor(floor_returns(rng, (thing, 0.0)), base, 0.1 * scan)
     assert len(around.points()) == 0
 
 

@@ -76,6 +76,12 @@ class FloorRelief:
         self._merge(seen)
         self._spots = self._spots[stamp_s - self._spots["seen_s"] <= self.config.fade_s]
 
+    def flat_among(self, keys: NDArray[np.int64], stamp_s: float) -> NDArray[np.bool_]:
+        """Which of the cells ``keys`` (N,) were seen at ``stamp_s`` to be bare floor."""
+        now = self._spots[self._spots["seen_s"] == stamp_s]
+        bare = (now["returns"] >= self.config.returns) & (now["height_m"] < self.config.raised_m)
+        return np.isin(keys, now["key"][bare])
+
     def move_to(self, T_new_old: SE3 | None) -> None:
         """Carry the memory into another frame, or drop it when the frames are not connected."""
         old = self._spots

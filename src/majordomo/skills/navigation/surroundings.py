@@ -41,11 +41,12 @@ class SurroundingsConfig:
     max_range_m: float = 6.0
     body_radius_m: float = 0.20
     blind_m: float = 0.95
-    fade_low_s: float = 20.0
+    fade_low_s: float = 60.0
     fade_blind_s: float = 120.0
     fade_tall_s: float = 0.7
     min_hits: int = 2
     averaged: int = 5
+    settled_s: float = 2.0
 
 
 @dataclass(kw_only=True)
@@ -93,6 +94,8 @@ class Surroundings:
             far = np.isinf(cKDTree(tall).query(spots, distance_upper_bound=BESIDE_M)[0])
             returns = returns.where(far)
         self.relief.observe(returns, T_frame_base, stamp_s)
+        flat = self.relief.flat_among(self._cells["key"], stamp_s)
+        self._cells = self._cells[~flat | (stamp_s - self._cells["seen_s"] < self.config.settled_s)]
 
     def move_to(self, frame: str, T_new_old: SE3 | None) -> None:
         """Carry the memory into another frame, or drop it when the frames are not connected."""

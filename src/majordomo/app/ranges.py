@@ -7,11 +7,15 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from majordomo.perception.ports import LidarScan
 from majordomo.perception.range_noise import calmed
-from majordomo.perception.sensing import SensorBuffer, scan_points_between
+from majordomo.perception.sensing import SensorBuffer, ray_directions_base, scan_points_between
+from majordomo.skills.ports import NO_FLOOR, FloorReturns
 
 USUAL_NOISE_M = 0.015
 """Noise of the ranges up to which they are taken as they are; more would fill doorways and floors with obstacles."""
+FLOOR_REACH_M = 2.6
+"""Rays that should meet the floor beyond this tell its height badly."""
 FLOOR_M = 0.06
 """Returns below this height are floor: three standard deviations of range noise at a steep ring."""
 
@@ -23,7 +27,8 @@ class ScanRanges:
         self._buffer = buffer
         self._robot_height_m = robot_height_m
         self._reach_m = reach_m
-        self._stamp_s = -np.inf
+        self._stamp_s = self._floor_stamp_s = -np.inf
+        self._floor = NO_FLOOR
         self._points: NDArray[np.float64] = np.zeros((0, 3))
 
     def points_base(self) -> NDArray[np.float64]:
@@ -35,3 +40,23 @@ class ScanRanges:
             self._points = points[np.hypot(points[:, 0], points[:, 1]) < self._reach_m]
             self._stamp_s = scan.stamp_s
         return self._points
+
+    def floor_base(self) -> FloorReturns:
+        """Rays of the newest scan that should have met the floor nearby, and ended near it."""
+        scan = self._buffer.scan
+        if scan is not None and scan.stamp_s != self._floor_stamp_s:
+            self._floor, self._floor_stamp_s = _floor_returns(scan), scan.stamp_s
+        return self._floor
+
+
+def _floor_returns(scan: LidarScan) -> FloorReturns:
+    directions, origin = ray_directions_base(scan), scan.T_base_lidar.translation_m
+    steep = directions[..., 2] < -origin[2] / np.hypot(origin[2], FLOOR_REACH_M)
+    directions, ranges_m = directions[steep], scan.ranges_m[steep].astype(np.float64)
+    with np.errstate(invalid="ignore"):
+        near = np.abs(origin[2] + ranges_m * directions[:, 2]) < FLOOR_M
+    directions = directions[near]
+    return FloorReturns(
+        spots_m=(origin - directions * (origin[2] / directions[:, 2:]))[:, :2],
+        points_m=origin + directions * ranges_m[near][:, None],
+    )

@@ -105,7 +105,7 @@ class Executor:
             )
         context = self.context
         context.body, context.stamp_s = state, stamp_s
-        context.obstacles_base = self._ranges.points_base()
+        context.obstacles_base, context.floor_base = self._ranges.points_base(), self._ranges.floor_base()
         return context
 
     def _work(self, context: RobotContext, dt_s: float) -> None:

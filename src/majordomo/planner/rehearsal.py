@@ -30,7 +30,7 @@ from majordomo.scene_graph.nodes import (
 )
 from majordomo.scene_graph.se3 import SE3
 from majordomo.scene_graph.snapshot import Snapshot
-from majordomo.skills.ports import ArmGeometry, ArmTarget, BodyLimits, BodyState
+from majordomo.skills.ports import NO_FLOOR, ArmGeometry, ArmTarget, BodyLimits, BodyState, FloorReturns
 
 ROOMS = {"room_1": ("kitchen", 2.0), "room_2": ("office", 6.2)}
 SUPPORTS = {"table_1": "room_1", "shelf_1": "room_1", "desk_1": "room_2"}
@@ -211,6 +211,10 @@ class StillBody:
     def points_base(self) -> NDArray[np.float64]:
         """No obstacles; the body serves as range source, too."""
         return np.zeros((0, 3))
+
+    def floor_base(self) -> FloorReturns:
+        """Nor anything low."""
+        return NO_FLOOR
 
     def _answer(self) -> None:
         if self.silent:

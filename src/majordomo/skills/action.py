@@ -20,7 +20,7 @@ from majordomo.scene_graph.se3 import SE3
 from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.skills.failures import Evidence, Failure, FailureCode
 from majordomo.skills.navigation.surroundings import Surroundings
-from majordomo.skills.ports import ArmGeometry, ArmTarget, BodyLimits, BodyPort, BodyState
+from majordomo.skills.ports import NO_FLOOR, ArmGeometry, ArmTarget, BodyLimits, BodyPort, BodyState, FloorReturns
 
 CARRY_SHARE = 0.6
 """Share of the body's speed limits that is used with something in the hand."""
@@ -65,9 +65,9 @@ class Grip:
 class RobotContext:
     """What actions share: the graph, the body as measured at this tick, raw obstacle points, and the commands to send.
 
-    ``obstacles_base``: (N, 3), base frame. ``path_room``: the path being followed, for display, current room's frame.
-    ``surroundings`` remembers obstacle points, ``grip`` what the fingers hold, ``blocked_doors`` in which doors
-    something stood, and when; they outlive a single action.
+    ``obstacles_base``: (N, 3), base frame; ``floor_base``: what may rise a little from the floor. ``path_room``: the
+    path being followed, for display, current room's frame. ``surroundings`` remembers obstacle points, ``grip`` what
+    the fingers hold, ``blocked_doors`` in which doors something stood, and when; they outlive a single action.
     """
 
     memory: WorkingMemory
@@ -76,6 +76,7 @@ class RobotContext:
     body: BodyState
     stamp_s: float = 0.0
     obstacles_base: NDArray[np.float64] = field(default_factory=lambda: np.zeros((0, 3)))
+    floor_base: FloorReturns = NO_FLOOR
     commands: Commands = field(default_factory=Commands)
     path_room: tuple[tuple[float, float], ...] = ()
     surroundings: Surroundings = field(default_factory=Surroundings)

@@ -108,9 +108,31 @@ class BodyPort(Protocol):
         ...
 
 
+@dataclass(frozen=True, kw_only=True, eq=False)
+class FloorReturns:
+    """Rays of one scan that should have met the floor, base frame, and did not end far from it.
+
+    ``spots_m``: (N, 2), where they would have met it. ``points_m``: (N, 3), where they ended.
+    """
+
+    spots_m: NDArray[np.float64]
+    points_m: NDArray[np.float64]
+
+    def where(self, chosen: NDArray[np.bool_]) -> FloorReturns:
+        """Those that are ``chosen``, (N,)."""
+        return FloorReturns(spots_m=self.spots_m[chosen], points_m=self.points_m[chosen])
+
+
+NO_FLOOR = FloorReturns(spots_m=np.zeros((0, 2)), points_m=np.zeros((0, 3)))
+
+
 class RangeSource(Protocol):
     """Raw proximity for obstacle avoidance: no beliefs, only what the ranging sensors hit last."""
 
     def points_base(self) -> NDArray[np.float64]:
         """(N, 3) points in the base frame of the newest scan, floor and ceiling excluded."""
+        ...
+
+    def floor_base(self) -> FloorReturns:
+        """What the newest scan says about the floor around the base."""
         ...

@@ -31,6 +31,7 @@ def things(*labels):
         (("desk", "chair", "laptop"), "office"),
         (("sofa", "tv"), "living room"),
         (("couch", "coffee table", "shelf"), "living room"),
+        (("tv stand", "shelf"), "living room"),
         (("toilet", "sink"), "bathroom"),
         (("bathtub",), "bathroom"),
         (("table", "chair", "chair", "chair"), "dining room"),
@@ -46,6 +47,11 @@ def test_an_empty_room_says_nothing_unless_it_is_shaped_like_a_hall():
     assert room_label([], polygon_m=SQUARE, doors=1)[0] == ""
     assert room_label([], polygon_m=NARROW, doors=4)[0] == "hall"
     assert room_label(things("wardrobe", "table"), polygon_m=NARROW, doors=2)[0] == "hall"
+
+
+def test_what_usually_stands_in_halls_tells_one_that_is_not_narrow_and_has_few_doors():
+    assert room_label([], polygon_m=SQUARE, doors=3)[0] == ""
+    assert room_label(things("bench", "cabinet", "plant"), polygon_m=SQUARE, doors=3)[0] == "hall"
 
 
 BENT = ((0.0, 0.0), (6.0, 0.0), (6.0, 5.0), (4.4, 5.0), (4.4, 1.6), (1.6, 1.6), (1.6, 5.0), (0.0, 5.0))

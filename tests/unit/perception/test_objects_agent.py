@@ -15,7 +15,7 @@ from majordomo.perception.ports import JointState
 from majordomo.perception.sensing import SensorBuffer
 from majordomo.scene_graph.edges import ConnectsEdge, IntentionAction, IntentionStatus, RtEdge
 from majordomo.scene_graph.edits import PutEdge, PutNode, RemoveNode
-from majordomo.scene_graph.nodes import DoorNode, ObjectNode, ObjectState
+from majordomo.scene_graph.nodes import DoorNode, ObjectNode, ObjectState, RoomStatus
 from majordomo.scene_graph.se3 import SE3
 
 TABLE = Solid(label="table", center=(0.0, 0.0, 0.375), size_m=(1.2, 0.8, 0.75), color=(120.0, 75.0, 40.0))
@@ -170,6 +170,14 @@ def test_rooms_are_looked_around_then_supports_and_only_those_not_seen_from_near
     assert graph.object("desk_1").inspected_s == story.now_s
     assert "desk_1" not in {e.target for e in graph.intentions()}
     assert graph.intentions(IntentionStatus.DONE)[0].target == "room_1"
+
+
+@pytest.mark.parametrize(("status", "looked_around"), [(RoomStatus.PARTIAL, True), (RoomStatus.TEMPORARY, False)])
+def test_a_room_is_looked_around_once_it_stands_though_a_part_of_it_is_only_guessed(status, looked_around):
+    story = Story([TABLE])
+    room = story.memory.snapshot().room("room_1")
+    story.memory.commit([PutNode(replace(room, status=status))], agent="room_concept", stamp_s=0.0)
+    assert ("room_1" in {edge.target for edge in story.run(2).intentions()}) is looked_around
 
 
 def test_a_support_seen_from_near_counts_as_inspected():

@@ -127,7 +127,9 @@ class Inspection:
             elif isinstance(node, ObjectNode) and edge.status is IntentionStatus.PROPOSED and not _worth_a_look(node):
                 edits.append(RemoveEdge(edge.key))
         rooms = [
-            room for room in snapshot.of_type(RoomNode) if room.status is RoomStatus.PERMANENT and room.id not in ours
+            room
+            for room in snapshot.of_type(RoomNode)
+            if room.status is not RoomStatus.TEMPORARY and room.id not in ours
         ]
         edits += [PutEdge(_look(room.id, 0.0, stamp_s)) for room in rooms]
         supports = [node for node in snapshot.of_type(ObjectNode) if self._ready(node, snapshot, ours)]

@@ -15,9 +15,9 @@ from majordomo.skills.navigation.plan import Goal, GoalSource, Plan, make_plan
 from majordomo.skills.navigation.pose import look_around, planar_pose, robot_frame
 from majordomo.skills.navigation.pursuit import Pursuit, deviation_m, point_ahead, turn_rate
 from majordomo.skills.navigation.route import path_length_m
-from majordomo.skills.navigation.safety import FAR_M, admissible
+from majordomo.skills.navigation.safety import FAR_M, admissible, retreat
 
-SAFETY_MARGIN_M = 0.02
+SAFETY_MARGIN_M = 0.0
 """How much less than the planning radius must stay free while driving; that radius already exceeds the body's."""
 PASSED_RAD = 1.2
 
@@ -130,7 +130,10 @@ class Driver:
         near = context.surroundings.points_near(pose.point, FAR_M)
         obstacles_base = pose.inverse_apply(plan.walls.explain(near))
         radius_m = plan.radius_m - SAFETY_MARGIN_M
-        context.commands.drive = admissible(*wanted, obstacles_base, radius_m, context.limits)
+        linear, angular = admissible(*wanted, obstacles_base, radius_m, context.limits)
+        if linear == 0.0 < wanted[0]:
+            linear = retreat(obstacles_base, radius_m, context.limits)
+        context.commands.drive = (linear, angular if linear >= 0.0 else 0.0)
         return self._judge(plan, pose)
 
     def _judge(self, plan: Plan, pose: Pose2) -> Progress:

@@ -6,7 +6,7 @@ from collections.abc import Collection, Sequence
 
 import numpy as np
 
-from majordomo.scene_graph.nodes import ObjectNode, ObjectState, PersonNode
+from majordomo.scene_graph.nodes import ObjectNode, ObjectState, PersonNode, RoomNode
 from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.skills.geometry import Box2, Point2, Points, Pose2, inside_polygon
 from majordomo.skills.navigation.grid import Canvas, Grid
@@ -34,8 +34,8 @@ def draw_map(
     """The grid in ``frame`` that holds all ``spots`` (the robot first, then goals).
 
     The walls of a room count when it was seen all around and all spots lie within it; else only ``obstacles``, (N, 2),
-    do. A room that was left, for a goal outside it, is no way there: its walls, no longer in view, would look open.
-    ``ignore``: nodes whose footprint is left out.
+    do. A known room that holds neither the robot nor the first goal is then no way: its walls, out of view, would look
+    open. ``ignore``: nodes whose footprint is left out.
     """
     polygon = _walls_around(snapshot, frame, spots)
     outline = np.array(polygon or spots)
@@ -45,7 +45,7 @@ def draw_map(
     if polygon:
         _draw_walls(canvas, snapshot, frame, polygon)
     else:
-        _draw_room_left(canvas, snapshot, frame, spots)
+        _draw_rooms_elsewhere(canvas, snapshot, frame, spots)
     canvas.block_points(walls.explain(obstacles) if polygon else obstacles)
     if believe_furniture:
         for box in furniture(snapshot, frame, ignore):
@@ -94,18 +94,20 @@ def _draw_walls(canvas: Canvas, snapshot: Snapshot, frame: str, polygon: Sequenc
     canvas.block(~free)
 
 
-def _draw_room_left(canvas: Canvas, snapshot: Snapshot, frame: str, spots: Sequence[Point2]) -> None:
-    """Block the inside of a room that was seen all around, but for its door gaps, when neither the robot nor the first
-    of its goals is there.
-    """
-    room = whole_room(snapshot, frame)
-    if room is None or len(spots) < 2 or inside_polygon(room.polygon_m, np.array(spots[:2])).any():
+def _draw_rooms_elsewhere(canvas: Canvas, snapshot: Snapshot, frame: str, spots: Sequence[Point2]) -> None:
+    """Block rooms that were seen all around, but for their door gaps, where neither the robot nor its first goal is."""
+    if snapshot.robot is None or not snapshot.robot.localized or len(spots) < 2:
         return
-    centers = canvas.centers()
-    behind = inside_polygon(room.polygon_m, centers)
-    for gap in door_gaps(snapshot, frame):
-        behind &= ~gap.contains(centers)
-    canvas.block(behind)
+    for room in snapshot.of_type(RoomNode):
+        T_frame_room = Pose2.of(snapshot.transform(frame, room.id))
+        ends = T_frame_room.inverse_apply(np.array(spots[:2]))
+        if whole_room(snapshot, room.id) is None or inside_polygon(room.polygon_m, ends).any():
+            continue
+        centers = T_frame_room.inverse_apply(canvas.centers())
+        behind = inside_polygon(room.polygon_m, centers)
+        for gap in door_gaps(snapshot, room.id):
+            behind &= ~gap.contains(centers)
+        canvas.block(behind)
 
 
 def _stands_in_way(snapshot: Snapshot, node: ObjectNode, frame: str) -> bool:

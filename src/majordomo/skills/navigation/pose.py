@@ -57,7 +57,9 @@ def look_around(context: RobotContext) -> None:
         around.move_to(name, snapshot.transform(frame, around.frame) if known else None)
     arm_reach_m = context.body.T_base_gripper.x_m + 0.15
     reach_m = arm_reach_m if context.body.arm.extension_m > 0.08 else 0.0
-    around.observe(context.obstacles_base, snapshot.transform(frame, ROBOT_ID), context.stamp_s, reach_m)
+    T_frame_base = snapshot.transform(frame, ROBOT_ID)
+    around.observe(context.obstacles_base, T_frame_base, context.stamp_s, reach_m)
+    around.observe_floor(context.floor_base, T_frame_base, context.stamp_s, reach_m)
 
 
 def footprint_radius_m(context: RobotContext) -> float:

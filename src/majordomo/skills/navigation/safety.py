@@ -14,6 +14,7 @@ from majordomo.skills.ports import BodyLimits
 REACTION_S = 0.30
 SHARES = (1.0, 0.75, 0.5, 0.3, 0.15)
 _STEPS = 8
+RETREAT_MPS = 0.08
 FAR_M = 2.0
 """What is farther away cannot be reached before the next tick."""
 
@@ -35,6 +36,13 @@ def admissible(
         if _arc_clearance_m(share * linear_mps, share * angular_radps, near, limits) >= floor_m:
             return share * linear_mps, share * angular_radps
     return 0.0, angular_radps
+
+
+def retreat(points_base: Points, radius_m: float, limits: BodyLimits) -> float:
+    """Linear velocity that leads away backwards where a point is closer than ``radius_m``; zero where none does."""
+    if not len(points_base) or (here_m := float(np.hypot(*points_base.T).min())) >= radius_m:
+        return 0.0
+    return -RETREAT_MPS if _arc_clearance_m(-RETREAT_MPS, 0.0, points_base, limits) >= here_m else 0.0
 
 
 def _arc_clearance_m(linear: float, angular: float, points: Points, limits: BodyLimits) -> float:

@@ -1,7 +1,7 @@
 """A short memory of raw obstacle points around the robot, kept in the frame the robot is placed in.
 
 A ring LiDAR on a mast does not see low things near the robot, so low points stay for a while; tall things are always in
-view, so their points (a person walking by) fade at once.
+view, so their points (a person walking by) fade at once. What is too low for a single return is in ``floor_relief``.
 """
 
 from __future__ import annotations
@@ -10,13 +10,16 @@ from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial import cKDTree
 
 from majordomo.scene_graph.se3 import SE3
 from majordomo.skills.geometry import Point2, Points
+from majordomo.skills.navigation.cells import CELL_M, found, keys_of, packed
+from majordomo.skills.navigation.floor_relief import FloorRelief
+from majordomo.skills.ports import FloorReturns
 
-CELL_M = 0.04
 PATCH_CELLS = 3
-_OFFSET = 1 << 20
+BESIDE_M = 0.2
 _CELL = np.dtype(
     [("key", np.int64), ("at_m", np.float64, 2), ("scans", np.int64), ("seen_s", np.float64), ("tall", "?")]
 )
@@ -38,11 +41,12 @@ class SurroundingsConfig:
     max_range_m: float = 6.0
     body_radius_m: float = 0.20
     blind_m: float = 0.95
-    fade_low_s: float = 20.0
+    fade_low_s: float = 60.0
     fade_blind_s: float = 120.0
     fade_tall_s: float = 0.7
     min_hits: int = 2
     averaged: int = 5
+    settled_s: float = 2.0
 
 
 @dataclass(kw_only=True)
@@ -54,12 +58,14 @@ class Surroundings:
 
     config: SurroundingsConfig = field(default_factory=SurroundingsConfig)
     frame: str = ""
+    relief: FloorRelief = field(default_factory=FloorRelief)
     _cells: Cells = field(default_factory=lambda: np.zeros(0, dtype=_CELL))
     _last_scan: object = None
+    _last_floor: object = None
 
     def points(self) -> Points:
-        """Where the occupied cells were hit, (N, 2), in ``frame``: the mean of the hits in each."""
-        return np.array(self._cells["at_m"])
+        """Where cells were hit, (N, 2), in ``frame``: the mean of the hits in each; and where the floor is not flat."""
+        return np.concatenate([self._cells["at_m"], self.relief.points()])
 
     def points_near(self, point: Point2, reach_m: float) -> Points:
         """Those within ``reach_m`` of ``point``."""
@@ -76,21 +82,37 @@ class Surroundings:
         fade_s = np.where(self._cells["tall"], self.config.fade_tall_s, low_s)
         self._cells = self._cells[stamp_s - self._cells["seen_s"] <= fade_s]
 
+    def observe_floor(self, returns: FloorReturns, T_frame_base: SE3, stamp_s: float, arm_reach_m: float = 0.0) -> None:
+        """Take in what should have been the floor, but beside tall things: a person's feet soon step on."""
+        if returns is self._last_floor or not len(returns.spots_m):
+            return
+        self._last_floor = returns
+        returns = returns.where(~_on_arm(returns.spots_m, arm_reach_m))
+        spots = returns.spots_m @ T_frame_base.rotation()[:2, :2].T + T_frame_base.translation_m[:2]
+        tall = self._cells["at_m"][self._cells["tall"]]
+        if len(tall):
+            far = np.isinf(cKDTree(tall).query(spots, distance_upper_bound=BESIDE_M)[0])
+            returns = returns.where(far)
+        self.relief.observe(returns, T_frame_base, stamp_s)
+        flat = self.relief.flat_among(self._cells["key"], stamp_s)
+        self._cells = self._cells[~flat | (stamp_s - self._cells["seen_s"] < self.config.settled_s)]
+
     def move_to(self, frame: str, T_new_old: SE3 | None) -> None:
         """Carry the memory into another frame, or drop it when the frames are not connected."""
         old = self._cells
-        self.frame = frame
-        self.forget()
+        self.frame, self._cells = frame, old[:0]
+        self.relief.move_to(T_new_old)
         if T_new_old is not None and len(old):
             moved = old.copy()
             moved["at_m"] = T_new_old.apply(np.column_stack([old["at_m"], np.zeros(len(old))]))[:, :2]
-            keys, first = np.unique(_keys(moved["at_m"]), return_index=True)
+            keys, first = np.unique(keys_of(moved["at_m"]), return_index=True)
             self._cells = moved[first]
             self._cells["key"] = keys
 
     def forget(self) -> None:
         """Drop everything, for instance after the robot was carried away."""
         self._cells = self._cells[:0]
+        self.relief.move_to(None)
 
     def _seen(self, points: Points, T_frame_base: SE3, stamp_s: float, arm_reach_m: float) -> Cells:
         """What one scan hit, by key: cells with enough hits, and those known already."""
@@ -99,9 +121,7 @@ class Surroundings:
         range_m = np.hypot(x, y)
         keep = (z > config.min_height_m) & (z < config.max_height_m)
         keep &= (range_m > config.body_radius_m) & (range_m < config.max_range_m)
-        if arm_reach_m > 0:
-            keep &= ~((x > 0) & (x < arm_reach_m) & (np.abs(y) < 0.12))
-        points = points[keep]
+        points = points[keep & ~_on_arm(points, arm_reach_m)]
         if not len(points):
             return np.zeros(0, dtype=_CELL)
         placed = points @ T_frame_base.rotation()[:2].T + T_frame_base.translation_m[:2]
@@ -114,16 +134,16 @@ class Surroundings:
         cells = np.stack([hit // rows, hit % rows], axis=1) + corner
         tall = np.bincount(index[points[:, 2] > config.tall_m], minlength=columns * rows)[hit] > 0
         seen = np.zeros(len(hit), dtype=_CELL)
-        seen["key"], seen["scans"], seen["seen_s"] = _packed(cells), 1, stamp_s
+        seen["key"], seen["scans"], seen["seen_s"] = packed(cells), 1, stamp_s
         for axis in (0, 1):
             seen["at_m"][:, axis] = np.bincount(index, placed[:, axis], minlength=columns * rows)[hit] / count[hit]
-        solid = (count[hit] >= config.min_hits) | _found(seen["key"], self._cells["key"])[1]
+        solid = (count[hit] >= config.min_hits) | found(seen["key"], self._cells["key"])[1]
         seen["tall"][solid] = _beside_tall(cells[solid], tall[solid])
         return np.asarray(seen[solid])
 
     def _merge(self, seen: Cells) -> None:
         """Take in what was seen, sorted by key and each once."""
-        place, known = _found(seen["key"], self._cells["key"])
+        place, known = found(seen["key"], self._cells["key"])
         at = place[known]
         scans = np.minimum(self._cells["scans"][at] + 1, self.config.averaged)
         before_m = self._cells["at_m"][at]
@@ -131,6 +151,12 @@ class Surroundings:
         self._cells[at] = seen[known]
         self._cells["at_m"][at], self._cells["scans"][at] = after_m, scans
         self._cells = np.insert(self._cells, place[~known], seen[~known])
+
+
+def _on_arm(points_base: Points, arm_reach_m: float) -> NDArray[np.bool_]:
+    """Which of (N, 2 or 3) points may be the arm itself, or what it holds."""
+    x, y = points_base[:, 0], points_base[:, 1]
+    return np.asarray((x > 0) & (x < arm_reach_m) & (np.abs(y) < 0.12))
 
 
 def _beside_tall(cells: NDArray[np.int64], tall: NDArray[np.bool_]) -> NDArray[np.bool_]:
@@ -151,21 +177,3 @@ def _beside_tall(cells: NDArray[np.int64], tall: NDArray[np.bool_]) -> NDArray[n
     around[:, 1:] |= rows[:, :-1]
     around[:, :-1] |= rows[:, 1:]
     return np.asarray(tall | around[*patches.T])
-
-
-def _found(keys: NDArray[np.int64], among: NDArray[np.int64]) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:
-    """Where ``keys`` belong in sorted others, and which are there already."""
-    place = np.searchsorted(among, keys)
-    known = place < len(among)
-    known[known] = among[place[known]] == keys[known]
-    return place, known
-
-
-def _keys(points: Points) -> NDArray[np.int64]:
-    return _packed(np.floor(points / CELL_M).astype(np.int64))
-
-
-def _packed(cells: NDArray[np.int64]) -> NDArray[np.int64]:
-    """One integer for each cell (N, 2), sorted by x then y."""
-    cells = cells + _OFFSET
-    return np.asarray((cells[:, 0] << 21) | cells[:, 1])

@@ -87,13 +87,23 @@ def test_what_looks_like_nothing_known_stays_unknown_and_one_lucky_frame_does_no
     assert belief.best == "unknown"
 
 
-def test_the_same_cupboard_under_two_names_is_one_and_a_chair_under_a_table_is_not():
-    def seen(label, size_m, number):
-        track = Track(number, "room_1", settings=TrackSettings(), random=np.random.default_rng(0))
-        track.label.update(((label, 0.95),))
-        track.place = SurfaceBelief.of(Box(np.array((0.0, 0.0, size_m[2] / 2)), size_m, 0.0))
-        return track
+def seen(label, size_m, number):
+    track = Track(number, "room_1", settings=TrackSettings(), random=np.random.default_rng(0))
+    track.label.update(((label, 0.95),))
+    track.place = SurfaceBelief.of(Box(np.array((0.0, 0.0, size_m[2] / 2)), size_m, 0.0))
+    track.seen_whole = True
+    return track
 
+
+def test_a_part_that_looks_like_something_else_from_near_is_a_part_until_it_is_seen_as_a_whole():
+    toilet, part = seen("toilet", (0.7, 0.4, 0.8), 1), seen("bin", (0.3, 0.3, 0.5), 2)
+    part.seen_whole = False
+    assert is_fragment(part, toilet)
+    part.seen_whole = True
+    assert not is_fragment(part, toilet)
+
+
+def test_the_same_cupboard_under_two_names_is_one_and_a_chair_under_a_table_is_not():
     cabinet, sideboard = seen("cabinet", (0.9, 0.5, 0.9), 1), seen("sideboard", (0.95, 0.48, 0.85), 2)
     assert is_double(cabinet, sideboard)
     assert is_fragment(sideboard, cabinet)

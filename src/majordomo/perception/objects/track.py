@@ -170,8 +170,8 @@ class Track:
             self.place.put_at(position, sigma_m, yaw_rad)
 
     def change_room(self, room: str, T_new_old: SE3) -> None:
-        """Express it in the frame of another room, which is the one it is in."""
-        self.room, self.homeless = room, False
+        """Express it in the frame of another room."""
+        self.room = room
         if self.place is not None:
             self.place.change_frame(T_new_old)
 

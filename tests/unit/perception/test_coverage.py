@@ -23,10 +23,10 @@ def picture(solids, eye, target):
     return View.of(frame, room="room_1", T_room_base=SE3.identity(), pose_covariance=np.zeros((6, 6)))
 
 
-def coverage_of(box, solids, *eyes, target=None):
+def coverage_of(box, solids, *eyes, target=None, inside=False):
     coverage = Coverage(pixels_per_m2=FINE, frames=1)
     for eye in eyes:
-        coverage.add(box, SeenSurface.of(picture(solids, eye, target or tuple(box.center))))
+        coverage.add(box, SeenSurface.of(picture(solids, eye, target or tuple(box.center))), inside=inside)
     return coverage
 
 
@@ -58,7 +58,9 @@ def test_a_seat_is_seen_from_the_front_and_not_through_its_backrest():
 
 def test_the_bottom_of_a_basin_is_seen_from_over_its_rim_and_not_from_afar():
     far, near = ((0.0, -1.4), (0.0, -0.7))
-    assert coverage_of(SINK, SINK_PARTS, far).share < coverage_of(SINK, SINK_PARTS, near).share - 0.2
+    shares = [coverage_of(SINK, SINK_PARTS, eye, inside=True).share for eye in (far, near)]
+    assert shares[0] < shares[1] - 0.2
+    assert coverage_of(SINK, SINK_PARTS, near, (0.0, 0.7), inside=True).share > shares[1]
 
 
 def test_what_is_too_far_for_the_smallest_things_is_not_seen():

@@ -11,10 +11,13 @@ from majordomo.perception.objects.color import PALETTE, color_votes, named_color
 from majordomo.perception.objects.confirmation import is_double, is_fragment
 from majordomo.perception.objects.identity import IdentitySettings, departed, likeness, same_thing_moved
 from majordomo.perception.objects.membership import Surroundings, outside_distance_m
-from majordomo.perception.objects.raycast import Solid, look_at, render
+from majordomo.perception.objects.projection import View
+from majordomo.perception.objects.raycast import Solid, look_at, render, rgbd_frame
 from majordomo.perception.objects.scripted import furnished_memory
+from majordomo.perception.objects.sight import Sight
 from majordomo.perception.objects.surface import Box, SurfaceBelief
 from majordomo.perception.objects.track import Track, TrackSettings
+from majordomo.perception.objects.tracker import Tracker, TrackerSettings
 from majordomo.scene_graph.edges import ConnectsEdge, RtEdge
 from majordomo.scene_graph.edits import PutEdge, PutNode
 from majordomo.scene_graph.nodes import DoorNode, ObjectState
@@ -87,13 +90,23 @@ def test_what_looks_like_nothing_known_stays_unknown_and_one_lucky_frame_does_no
     assert belief.best == "unknown"
 
 
-def test_the_same_cupboard_under_two_names_is_one_and_a_chair_under_a_table_is_not():
-    def seen(label, size_m, number):
-        track = Track(number, "room_1", settings=TrackSettings(), random=np.random.default_rng(0))
-        track.label.update(((label, 0.95),))
-        track.place = SurfaceBelief.of(Box(np.array((0.0, 0.0, size_m[2] / 2)), size_m, 0.0))
-        return track
+def seen(label, size_m, number):
+    track = Track(number, "room_1", settings=TrackSettings(), random=np.random.default_rng(0))
+    track.label.update(((label, 0.95),))
+    track.place = SurfaceBelief.of(Box(np.array((0.0, 0.0, size_m[2] / 2)), size_m, 0.0))
+    track.seen_whole = True
+    return track
 
+
+def test_a_part_that_looks_like_something_else_from_near_is_a_part_until_it_is_seen_as_a_whole():
+    toilet, part = seen("toilet", (0.7, 0.4, 0.8), 1), seen("bin", (0.3, 0.3, 0.5), 2)
+    part.seen_whole = False
+    assert is_fragment(part, toilet)
+    part.seen_whole = True
+    assert not is_fragment(part, toilet)
+
+
+def test_the_same_cupboard_under_two_names_is_one_and_a_chair_under_a_table_is_not():
     cabinet, sideboard = seen("cabinet", (0.9, 0.5, 0.9), 1), seen("sideboard", (0.95, 0.48, 0.85), 2)
     assert is_double(cabinet, sideboard)
     assert is_fragment(sideboard, cabinet)
@@ -274,16 +287,19 @@ def test_a_room_may_have_a_corner_cut_out():
     assert outside_distance_m(ELL, np.array((1.0, 3.0))) < 0.0
 
 
+def door_between(room, other):
+    door = DoorNode(id=f"door_{room[5:]}_0_0", rooms=(room, other), width_m=0.9, provisional=False)
+    return [
+        PutNode(door),
+        PutEdge(RtEdge(source=room, target=door.id, T_source_target=SE3.from_xyz_yaw(3.0, 0.0, 0.0, np.pi))),
+        PutEdge(ConnectsEdge(source=door.id, target=room)),
+        PutEdge(ConnectsEdge(source=door.id, target=other)),
+    ]
+
+
 def two_rooms():
     memory = furnished_memory(rooms=2)
-    door = DoorNode(id="door_1_0_0", rooms=("room_1", "room_2"), width_m=0.9, provisional=False)
-    edits = [
-        PutNode(door),
-        PutEdge(RtEdge(source="room_1", target=door.id, T_source_target=SE3.from_xyz_yaw(3.0, 0.0, 0.0, np.pi))),
-        PutEdge(ConnectsEdge(source=door.id, target="room_1")),
-        PutEdge(ConnectsEdge(source=door.id, target="room_2")),
-    ]
-    return memory.commit(edits, agent="door_concept", stamp_s=0.0)
+    return memory.commit(door_between("room_1", "room_2"), agent="door_concept", stamp_s=0.0)
 
 
 def test_a_point_behind_the_door_belongs_to_the_room_behind_the_door_and_one_outside_to_none():
@@ -292,6 +308,30 @@ def test_a_point_behind_the_door_belongs_to_the_room_behind_the_door_and_one_out
     assert surroundings.room_of(np.array((4.5, 0.5, 0.5))) == "room_2"
     assert surroundings.room_of(np.array((3.02, 0.0, 0.5))) == "room_1"
     assert surroundings.room_of(np.array((-4.5, 0.0, 0.5))) is None
+
+
+def test_what_is_in_no_known_room_goes_along_with_the_robot_until_its_room_is_known():
+    tracker = Tracker(settings=TrackerSettings(), random=np.random.default_rng(0))
+    track = tracker.new_track("room_1")
+    track.homeless = True
+    track.label.update((("stool", 0.95),))
+    track.place = SurfaceBelief.of(Box(np.array((12.0, 0.5, 0.25)), (0.4, 0.4, 0.5), 0.0))
+
+    def stand_in(room, snapshot):
+        base = SE3.identity()
+        frame = rgbd_frame(render([], base), stamp_s=1.0, T_base_camera=base)
+        view = View.of(frame, room=room, T_room_base=base, pose_covariance=np.zeros((6, 6)))
+        tracker.update(Sight(view=view, detections=[], surroundings=Surroundings(snapshot, room)))
+
+    stand_in("room_2", two_rooms())
+    assert (track.room, track.homeless) == ("room_2", True)
+    assert track.position[:2] == pytest.approx((12.0 - 6.2, 0.5), abs=0.01)
+    third = furnished_memory(rooms=3)
+    stand_in("room_3", third.snapshot())
+    assert track.room == "room_2", "nothing leads from there to here"
+    stand_in("room_2", third.commit(door_between("room_2", "room_3"), agent="door_concept", stamp_s=2.0))
+    assert (track.room, track.homeless) == ("room_3", False)
+    assert track.position[:2] == pytest.approx((12.0 - 12.4, 0.5), abs=0.01)
 
 
 def test_a_thing_changes_its_room_only_when_it_is_clearly_outside():

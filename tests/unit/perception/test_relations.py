@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from majordomo.perception.objects.raycast import Solid
-from majordomo.perception.objects.relations import support_probability
+from majordomo.perception.objects.relations import over_middle, support_probability
 from majordomo.perception.objects.surface import Box
 from majordomo.perception.vocabulary import category_of
 
@@ -52,6 +52,20 @@ def test_an_apple_in_a_bowl_is_in_it_and_one_in_a_basket_too():
 def test_a_book_on_a_middle_board_of_a_shelf_is_on_the_shelf():
     shelf = box((0.0, 0.0, 0.9), (0.9, 0.35, 1.8))
     assert carried(box((0.1, 0.0, 0.95), (0.15, 0.03, 0.22)), shelf, "shelf") == ("on", pytest.approx(0.98, abs=0.01))
+
+
+def test_of_two_supports_side_by_side_a_thing_is_on_the_one_over_which_it_stands_more():
+    counter, stove = box((0.0, 0.0, 0.45), (1.4, 0.6, 0.9)), box((0.8, 0.0, 0.45), (0.8, 0.6, 0.9))
+    for x, better, worse in ((0.45, counter, stove), (0.65, stove, counter)):
+        apple = box((x, 0.1, 0.94), (0.08, 0.08, 0.08))
+        assert carried(apple, counter, "counter")[1] == pytest.approx(carried(apple, stove, "stove")[1])
+        assert over_middle(apple, better) > over_middle(apple, worse)
+
+
+def test_a_thing_on_a_plate_is_on_the_plate_and_not_on_the_table_below():
+    plate, thing = box((0.1, 0.1, 0.7625), (0.22, 0.22, 0.025)), box((0.17, 0.1, 0.815), (0.06, 0.06, 0.08))
+    on_plate, on_table = carried(thing, plate, "plate")[1], carried(thing, TABLE, "table")[1]
+    assert on_plate * over_middle(thing, plate) > on_table * over_middle(thing, TABLE)
 
 
 def test_a_table_is_not_on_a_cup():

@@ -20,6 +20,7 @@ _SAME_PLACE_M = 0.12
 _BOX_MARGIN_M = 0.1
 _UNSEEN_S = 0.3
 _SAME_SPACE = 0.5
+_WITHIN = 0.9
 
 
 def known_as(
@@ -94,7 +95,8 @@ def undecided(sighting: Track, known: Sequence[Track], settings: IdentitySetting
 
 def is_fragment(sighting: Track, track: Track) -> bool:
     """Whether new furniture is a part of known furniture: of the same kind, it lies within its box; of another, both
-    fill the same space.
+    fill the same space, or it lies within and was never seen as a whole: from near, a part of a toilet may look like a
+    bin, whereas a chair pushed under a table shows itself.
     """
     if not (sighting.is_furniture and track.is_furniture and track.room == sighting.room):
         return False
@@ -103,6 +105,8 @@ def is_fragment(sighting: Track, track: Track) -> bool:
     inside = _share_inside(sighting, track)
     if track.label.best == sighting.label.best:
         return inside > 0.3
+    if inside > _WITHIN and not sighting.seen_whole:
+        return True
     return inside > _SAME_SPACE and _share_inside(track, sighting) > _SAME_SPACE
 
 

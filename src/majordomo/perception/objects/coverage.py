@@ -21,6 +21,7 @@ _INNER = 0.8
 """Share of a side that is asked for: rims are seldom in view, and nothing stays on them."""
 _FOOT_M = 0.1
 """What is lower is floor, seen between legs."""
+_RIM_M = 0.04
 _LEAST_POINTS = 2
 _TURNED_AWAY = 0.5
 
@@ -59,14 +60,15 @@ class Coverage:
         self._seen = np.zeros((_COLUMNS, _ROWS), dtype=np.int64)
         self._camera = np.zeros(3)
 
-    def add(self, box: Box, seen: SeenSurface) -> None:
-        """One frame; ``box`` is in the room frame of its view."""
+    def add(self, box: Box, seen: SeenSurface, *, inside: bool = False) -> None:
+        """One frame; ``box`` is in the room frame of its view. ``inside``: only what is below its rim counts."""
         self._camera = seen.camera
         fine = seen.points[seen.pixels_per_m2 >= self._pixels_per_m2]
         local = box.local(fine[np.linalg.norm(fine[:, :2] - box.center[:2], axis=1) < max(box.size_m[:2])])
         height_m = local[:, 2] + box.size_m[2] / 2.0
         share = local[:, :2] / np.maximum(_INNER * np.asarray(box.size_m[:2]), 1e-6) + 0.5
         over = (share >= 0.0).all(axis=1) & (share < 1.0).all(axis=1) & (height_m > _FOOT_M)
+        over &= (height_m < box.size_m[2] - _RIM_M) if inside else True
         cells = (share[over] * (_COLUMNS, _ROWS)).astype(np.int64)
         count = np.bincount(cells[:, 0] * _ROWS + cells[:, 1], minlength=_COLUMNS * _ROWS)
         self._seen += count.reshape(self._seen.shape) >= _LEAST_POINTS

@@ -76,8 +76,8 @@ class Inspection:
     def watch(
         self, tracks: Sequence[Track], view: View, surroundings: Surroundings, turning_radps: float, snapshot: Snapshot
     ) -> None:
-        """Count what this view shows, in passing, of supports not inspected yet; not of those higher than the camera,
-        which show themselves only to a look of their own.
+        """Count what this view shows, in passing, of supports not inspected yet. Those higher than the camera show
+        themselves only to a look of their own, and so do those that things are put into.
         """
         if turning_radps > self._settings.turning_limit_radps:
             return
@@ -101,9 +101,11 @@ class Inspection:
         if coverage is None:
             coverage = Coverage(pixels_per_m2=settings.pixels_per_m2, frames=settings.frames)
             self._coverage[node_id] = coverage
-        coverage.add(box, seen)
+        coverage.add(box, seen, inside=track.category.container)
         self._sides[node_id] = coverage.hidden_side_rad(box)
-        return coverage.share >= settings.covered and track.hits >= settings.settled_hits
+        return (
+            not track.category.container and coverage.share >= settings.covered and track.hits >= settings.settled_hits
+        )
 
     def _suffices(self, edge: HasIntentionEdge) -> bool:
         """Whether a look that was had is the last one at its target: it showed enough, or came from a chosen side."""

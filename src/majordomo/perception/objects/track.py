@@ -45,6 +45,7 @@ class Track:
         number: running number; order of birth. node_id: its node, once confirmed. room: room whose frame holds it.
             place: a ``CenterBelief`` for what can be carried, a ``SurfaceBelief`` for furniture, ``None`` before the
             first sight. state, log_odds: whether it still is where it is said to be. hits: frames that saw it;
+            seen_whole: whether one of them showed all of it;
             ``misses``: frames in a row that should have and did not. homeless: whether it is in none of the rooms known
             so far; ``room`` then is the one it was seen from.
     """
@@ -60,6 +61,7 @@ class Track:
         self.log_odds = settings.log_odds
         self.homeless = False
         self.hits = 0
+        self.seen_whole = False
         self.misses = 0
         self.first_seen_s = 0.0
         self.last_seen_s = 0.0
@@ -113,6 +115,7 @@ class Track:
         self.label.update(detection.distribution, detection.weight, (*side, trust), trust=trust)
         self.color.update(detection.colors, detection.weight)
         self.hits += 1
+        self.seen_whole |= detection.shape.complete
         self.misses = 0
         self.first_seen_s = self.first_seen_s if self.hits > 1 else view.stamp_s
         self.last_seen_s = view.stamp_s
@@ -167,8 +170,8 @@ class Track:
             self.place.put_at(position, sigma_m, yaw_rad)
 
     def change_room(self, room: str, T_new_old: SE3) -> None:
-        """Express it in the frame of another room, which is the one it is in."""
-        self.room, self.homeless = room, False
+        """Express it in the frame of another room."""
+        self.room = room
         if self.place is not None:
             self.place.change_frame(T_new_old)
 
@@ -178,6 +181,7 @@ class Track:
         self.state, self.log_odds = ObjectState.PRESENT, other.log_odds
         self.label.update(other.label.distribution, view=other.number)
         self.hits += other.hits
+        self.seen_whole |= other.seen_whole
         self.misses = 0
         self.last_seen_s = other.last_seen_s
 
@@ -185,7 +189,7 @@ class Track:
         """Take in a piece of furniture that turned out to be a part of this one."""
         if isinstance(self.place, SurfaceBelief) and isinstance(part.place, SurfaceBelief):
             self.place.absorb(part.place)
-        self.label.update(part.label.distribution, view=part.number)
+        self.label.update(part.label.distribution, view=part.number, trust=1.0 if part.seen_whole else _PART_TRUST)
         self.hits += part.hits
         self.misses = 0
         self.last_seen_s = max(self.last_seen_s, part.last_seen_s)

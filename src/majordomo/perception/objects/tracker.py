@@ -234,17 +234,19 @@ class Tracker:
         self._observe(track, detection, sight)
 
     def _settle(self, scope: list[Track], sight: Sight) -> None:
-        """Give things that were seen through a door to their room as soon as it is known; what then turns out to be a
-        wall of it is forgotten.
+        """Give things seen through a door to their room as soon as it is known, and until then to the robot's; what
+        turns out to be a wall of its room is forgotten.
         """
         for track in [t for t in scope if t.homeless]:
             T_here_room = sight.surroundings.T_here_room
             home = sight.surroundings.room_of(T_here_room[track.room].apply(track.position))
-            if home is None:
-                continue
-            track.change_room(home, T_here_room[home].inverse() @ T_here_room[track.room])
-            points = T_here_room[home].apply(track.surface_points)
-            if track.category.floor and sight.surroundings.in_walls(points) > self._settings.wall_share:
+            room = home or sight.view.room
+            if room != track.room:
+                track.change_room(room, T_here_room[room].inverse() @ T_here_room[track.room])
+            track.homeless = home is None
+            points = T_here_room[room].apply(track.surface_points)
+            walls = sight.surroundings.in_walls(points) if home is not None and track.category.floor else 0.0
+            if walls > self._settings.wall_share:
                 self.drop(track)
 
     def _confirm(self, sight: Sight) -> None:

@@ -68,6 +68,7 @@ class Errand:
         self._job: Job | None = None
         self._phase, self._phase_s, self._wait_s = Phase.READY, 0.0, 0.0
         self._looked, self._after_look = False, Phase.READY
+        self._hindrance: Failure | None = None
         self._acted_s = self._stamp_s = stamp_s
         self._replans = 0
 
@@ -122,7 +123,7 @@ class Errand:
 
     def _begin(self, context: RobotContext, snapshot: Snapshot) -> Ending | None:
         """Start the next step, if the graph still allows it; after the last one, look at the goals."""
-        step, self._looked = self._progress.step, False
+        step, self._looked, self._hindrance = self._progress.step, False, None
         if step is None:
             if self._hunt is not None:
                 return self._replan(snapshot, "not found there")
@@ -204,10 +205,10 @@ class Errand:
             return None
         evidence = Evidence(nodes=goal.args, revision=snapshot.revision, observation="no fresh observation confirms it")
         failure = Failure(code=FailureCode.NOT_CONFIRMED, message=unseen_sentence(goal, snapshot), evidence=evidence)
-        return self._fail(failure, VERIFY, snapshot)
+        return self._fail(self._hindrance or failure, VERIFY, snapshot)
 
     def _look_again(self, node_id: str, context: RobotContext) -> None:
-        self._looked, self._after_look = True, self._phase
+        self._looked, self._after_look, self._hindrance = True, self._phase, None
         actions = actions_or_refusal(lambda: self._crew.look_at(node_id, context), context)
         self._start(f"look at {node_id}", actions, LOOK_TIMEOUT_S)
         self._enter(Phase.LOOKING)
@@ -215,6 +216,7 @@ class Errand:
     def _look(self, context: RobotContext, snapshot: Snapshot) -> None:
         del context, snapshot
         if self._job is None or self._job.ended:
+            self._hindrance = self._job.failure if self._job is not None else None
             self._enter(self._after_look)
 
     def _wait(self, context: RobotContext, snapshot: Snapshot) -> Ending | None:

@@ -379,6 +379,15 @@ def test_a_dropped_object_is_picked_up_again():
     assert show.task.status is TaskStatus.SUCCEEDED
 
 
+def test_what_keeps_the_robot_from_looking_is_the_reason_and_not_that_it_saw_nothing():
+    show = Show(Script(outcomes={"LOOK": [FailureCode.WAY_BLOCKED] * 9}))
+    show.stage.robot_at = "desk_1"
+    show.ask("leave it")
+    show.run_until(lambda: show.task.status.ended, limit=20_000)
+    assert show.task.status is TaskStatus.FAILED
+    assert set(show.codes) == {"way_blocked"}
+
+
 def test_an_object_that_slipped_away_unseen_is_searched():
     show = Show(Script(ticks=20))
     show.ask()

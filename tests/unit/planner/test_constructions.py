@@ -170,3 +170,30 @@ def test_a_sink_of_several_is_the_one_in_the_room_that_was_named():
 )
 def test_a_place_told_by_what_is_there_is_no_request(text):
     assert not [goal for goal in heard(text).goals if goal.object_id is not None]
+
+
+@pytest.mark.parametrize("text", ["run a bath for me", "drive a car", "could you walk a dog"])
+def test_a_verb_of_motion_with_a_thing_is_no_motion(text):
+    found = heard(text)
+    assert found.kind is Kind.REFUSE
+    assert text.removeprefix("could you ").split()[0] in found.reply
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "empty the bed; all the things on it go to the desk",
+        "clear the bed: everything on it goes to the desk",
+        "clear the bed. the stuff on there goes to the desk",
+    ],
+)
+def test_what_is_on_it_is_on_what_the_heading_names(text):
+    assert goals_of(text) == ["on(book_2, desk_1)", "on(book_3, desk_1)"]
+
+
+def test_a_definite_topic_is_one_thing():
+    sketch = home().thing("medicine_1", "medicine", on="desk_1", color="white", at=(4.4, 5.6))
+    snapshot = sketch.thing("medicine_2", "medicine", on="bed_1", color="blue").snapshot(robot_in="room_2", at=(4.2, 0))
+    _, reading = PLANNER.read("my medicine, please, I have to take it", snapshot, Dialogue())
+    assert reading.interpretation.kind is Kind.CLARIFY
+    assert set(reading.interpretation.candidates) == {"medicine_1", "medicine_2"}

@@ -21,6 +21,11 @@ def generic(reference: Reference) -> Reference:
     return replace(reference, quantity=Quantity.ALL) if mass or bare else reference
 
 
+def is_definite(reference: Reference) -> bool:
+    """*My medicine*, *the cups*: certain ones."""
+    return isinstance(reference, NounPhrase) and reference.quantity is Quantity.THE
+
+
 def may_follow(first: Reference, second: Reference) -> bool:
     """Whether *X, Y* without *and* may be a list: not *the nearest ball, any ball*, nor *cups in the sink, plates*."""
     if not isinstance(first, NounPhrase) or not isinstance(second, NounPhrase) or second.words in _ONE:

@@ -28,6 +28,8 @@ MAX_SENTENCE_TOKENS = 200
 MAX_READINGS = 24
 _SOFT = frozenset({"tidy", "call", "label", "rename", "relabel"})
 """Verbs that are understood in some sentences only, and refused by name in all others."""
+_MOVING = frozenset({"run", "drive", "walk", "roll", "head", "navigate"})
+"""Verbs of going that mean something else with *a* thing: *run a bath*, *drive a car*."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -219,6 +221,8 @@ def _step(step: Sequence[Terminal]) -> ParsedStep:
         return NotUnderstood(text=text, at=strange.typed)
     readings = tuple(_readings("question" if asks(step) else "command", step)) or tuple(_readings("narrated", step))
     if step[0].typed in _SOFT and not any(_is_settled(reading) for reading in readings):
+        return Unable(text=text, verb=step[0].typed)
+    if step[0].typed in _MOVING and len(step) > 1 and step[1].type == "A":
         return Unable(text=text, verb=step[0].typed)
     if readings:
         return Understood(text=text, readings=readings)

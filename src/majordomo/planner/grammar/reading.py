@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
-from majordomo.planner.grammar.agreement import apposed, generic
+from majordomo.planner.grammar.agreement import apposed, generic, is_definite
 from majordomo.planner.grammar.asking import QuestionReader
 from majordomo.planner.grammar.phrases import Children, tokens_of, values_of
 from majordomo.planner.grammar.syntax import (
@@ -263,7 +263,7 @@ class Reader(QuestionReader):
 
     def topic(self, children: Children) -> Mention:
         """*The key*, before *bring it to Ben*."""
-        thing, *more = map(generic, values_of(children)[0])
+        thing, *more = (each if is_definite(each) else generic(each) for each in values_of(children)[0])
         return Mention(thing=thing, more=tuple(more))
 
     def narrated_lost(self, children: Children) -> Mention:

@@ -16,18 +16,34 @@ _HEADING = re.compile(
 _PART = re.compile(
     r"^(?:and |then |please )*(?:put |move |bring |take )?(?P<things>.+?)(?: should| must| can| may)?"
     r"(?: go| goes| belongs?| be)? (?:back )?(?P<way>to|into|in|on|onto|next to)"
-    r" (?P<place>(?:the|a|my|his|her|\w+)\b.*)$"
+    r" (?P<place>(?!(?:it|them|there)\b)(?:the|a|my|his|her|\w+)\b.*)$"
 )
 _COMMAS = re.compile(
     r"[,;.]\s+(?:and |then )*| and (?=(?:the |all |every |put )?(?:[\w']+ ){1,3}?(?:to|into|onto|go|goes|belongs"
     r"?)\b|(?:the )?\w+ ones? )"
 )
+_ON_IT = re.compile(r"^(.+?) (?:(?:up)?on|in|from|inside) (?:it|them|there)(?= )")
+"""*The things on it*, after *empty the counter*: on what the heading names."""
 _EVERY = re.compile(r"^(?:the |all (?:of )?(?:the )?|every |any |each )+")
 _ONES = re.compile(r"\bones?$")
 _STAYS = re.compile(
     r" (?:can |may |should )?(?:stays?|remains?|(?:is|are) fine)(?: (?:there|here|put|as (?:it|they) (?:is|are)))?$"
 )
-_OPENING = ("everything", "whatever", "anything", "it", "them", "it all", "all of it", "the lot", "lot", "all")
+_OPENING = (
+    "everything",
+    "whatever",
+    "anything",
+    "it",
+    "them",
+    "it all",
+    "all of it",
+    "the lot",
+    "lot",
+    "all",
+    "things",
+    "stuff",
+    "contents",
+)
 _ELSE = ("everything else", "all else", "rest", "others", "anything else")
 
 
@@ -43,7 +59,7 @@ def spelled_out(text: str) -> str:
     for part in _COMMAS.split(found["rest"].rstrip(" .!")):
         if _STAYS.search(part) and not open_part:
             continue
-        said = f"{open_part} and {part}" if open_part else part
+        said = _ON_IT.sub(r"\1", f"{open_part} and {part}" if open_part else part)
         matched = _PART.match(said)
         open_part = "" if matched else said
         if matched and _EVERY.sub("", matched["things"]) in _ELSE:

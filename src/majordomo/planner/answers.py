@@ -16,7 +16,7 @@ from majordomo.planner.plan import Query, QueryKind
 from majordomo.planner.reports import REPORTED, Report, Reports
 from majordomo.planner.vocabulary import singular
 from majordomo.planner.whereabouts import NOW_S, Whereabouts, capital
-from majordomo.scene_graph.nodes import DoorNode, ObjectNode, ObjectState, PersonNode, RoomNode
+from majordomo.scene_graph.nodes import DoorNode, DoorState, ObjectNode, ObjectState, PersonNode, RoomNode
 
 ABILITIES = (
     "I can go to places and people, find things, pick them up, put them somewhere, bring them, and answer questions."
@@ -223,6 +223,9 @@ class Answers:
         told = " ".join(self._state_of(i) for i in about[:MAX_NAMED]) if isinstance(about, tuple) else ""
         if not told:
             return self._none(ask, context)
+        nodes = [self._snapshot.node(i) for i in about] if isinstance(about, tuple) else []
+        if any(isinstance(node, DoorNode) and node.state is DoorState.UNKNOWN for node in nodes):
+            return told
         return f"{'Yes' if self._holds(ask, found) else 'No'}. {told}"
 
     def _state_of(self, node_id: str) -> str:
@@ -233,6 +236,8 @@ class Answers:
         if isinstance(node, RoomNode):
             open_now = self._narrowing.restricted([node_id], Restriction(relation="state", word="open"), Context())
             return f"{name} is {'open' if open_now else 'closed'}."
+        if isinstance(node, DoorNode) and node.state is DoorState.UNKNOWN:
+            return f"I do not know whether {name_of(node_id, self._snapshot)} is open: I have not seen it lately."
         return f"{name} is {node.state.value}." if isinstance(node, DoorNode) else f"{name}: I cannot tell."
 
     def _colors(self, found: Sequence[str]) -> str:

@@ -6,12 +6,14 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from grammar_home import home
 from majordomo.planner.grammar.parser import CommandGrammar
 from majordomo.planner.interpreter import Interpreter
 from majordomo.planner.plan import Dialogue, Kind, QueryKind
 from majordomo.planner.sketch import Sketch, flat
 from majordomo.planner.verifier import Verifier
 from majordomo.planner.whereabouts import age_phrase
+from majordomo.scene_graph.nodes import DoorState
 from majordomo.skills.registry import load_registry
 
 EVERY_QUESTION = [
@@ -89,3 +91,13 @@ def test_counting_agrees_with_counting(things):
         assert found.query is not None
         assert len(found.query.nodes) == count
         assert found.reply.startswith(f"I know of {count or 'no'} ")
+
+
+@pytest.mark.parametrize("word", ["open", "closed"])
+def test_a_door_that_was_not_seen_lately_is_not_said_to_be_open_or_closed(word):
+    snapshot = (
+        home()
+        .door("room_5", "room_6", at=(4.0, 5.0), state=DoorState.UNKNOWN)
+        .snapshot(robot_in="room_2", at=(4.2, 0.0))
+    )
+    assert ask(f"is the door between the bedroom and the bathroom {word}?", snapshot).reply.startswith("I do not know")

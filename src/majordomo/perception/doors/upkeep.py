@@ -25,12 +25,16 @@ class UpkeepSettings:
 
     ``votes``: scans in a row that change open to closed or back. ``refine_every_s``: between refinements.
     ``changed_m``: least change worth writing. ``vanished_s``: how long a provisional door may show no gap.
+    ``forget_s``: how long a door between two known rooms counts as closed after it was last seen so; people open
+    doors, and the robot may go and look.
     """
 
     votes: int = 5
     refine_every_s: float = 1.0
     changed_m: float = 0.004
     vanished_s: float = 4.0
+    forget_s: float = 60.0
+    forget_every_s: float = 1.0
 
 
 class DoorUpkeep:
@@ -43,6 +47,8 @@ class DoorUpkeep:
         self._refined_s: dict[str, float] = {}
         self._gap_seen_s: dict[str, float] = {}
         self._learned: dict[str, tuple[int, int, int]] = {}
+        self._closed_s: dict[str, float] = {}
+        self._forgot_s = -1e9
 
     def run(self, scene: Scene) -> None:
         """Look after every door of the room once."""
@@ -55,6 +61,7 @@ class DoorUpkeep:
                 self._refine(scene, door, wall, span)
             if not door.provisional:
                 self._follow_state(scene, door, wall, span)
+        self._forget(scene)
 
     def learn(self, scene: Scene) -> None:
         """Complete the doors of a room that the robot may have left by what is known of them from the rooms behind."""
@@ -128,6 +135,8 @@ class DoorUpkeep:
         if looks_open is None:
             return
         seen = DoorState.OPEN if looks_open else DoorState.CLOSED
+        if not looks_open:
+            self._closed_s.update((same.id, scene.stamp_s) for same in _both_sides(scene.snapshot, door.id))
         self._votes[door.id] = 0 if seen is door.state else self._votes.get(door.id, 0) + 1
         if self._votes[door.id] < self._settings.votes:
             return
@@ -136,6 +145,20 @@ class DoorUpkeep:
         with self._memory.edit(DOOR_AGENT, scene.stamp_s) as tx:
             for same in _both_sides(tx.snapshot, door.id):
                 tx.put(_in_state(same, seen))
+
+    def _forget(self, scene: Scene) -> None:
+        """Closed doors between known rooms that nobody has looked at for a while may be open again."""
+        if scene.stamp_s < self._forgot_s + self._settings.forget_every_s - 1e-6:
+            return
+        self._forgot_s = scene.stamp_s
+        for door in scene.snapshot.of_type(DoorNode):
+            if door.state is not DoorState.CLOSED or match_of(scene.snapshot, door.id) is None:
+                continue
+            seen_s = self._closed_s.setdefault(door.id, scene.stamp_s)
+            if scene.stamp_s > seen_s + self._settings.forget_s:
+                logger.info("%s may be open again", door.id, extra={"door": door.id})
+                with self._memory.edit(DOOR_AGENT, scene.stamp_s) as tx:
+                    tx.put(replace(tx.snapshot.door(door.id), state=DoorState.UNKNOWN))
 
 
 def _tells_more(measured: MeasuredGap, door: DoorNode) -> bool:

@@ -14,6 +14,8 @@ from typing import Any
 
 import numpy as np
 
+from majordomo.app.ranges import ScanRanges
+from majordomo.perception.ports import LidarScan
 from majordomo.planner.arbiter import Arbiter
 from majordomo.planner.crew import Crew
 from majordomo.planner.executor import Executor
@@ -49,11 +51,14 @@ class MissionStage(Stage):
         self.queue, self.events = TaskQueue(), []
         self.sigma_m = 0.0
         self._unseen: Counter[str] = Counter()
-        self._points = np.zeros((0, 3))
+        self._heard: LidarScan | None = None
 
-    def points_base(self):
-        """What the LiDAR hit last: the executor's ranges."""
-        return self._points
+    @property
+    def scan(self) -> LidarScan | None:
+        """The newest scan that the LiDAR has sent."""
+        if "lidar" not in self.silent:
+            self._heard = self.newest
+        return self._heard
 
     async def ask(self, *goals: Goal, body: Any = None, silent: tuple[type[Exception], ...] = (OSError,)) -> None:
         """Set the crew to work on a request that means these goals. ``body``: stands between skills and the robot."""
@@ -63,7 +68,12 @@ class MissionStage(Stage):
             verifier=Verifier(SKILLS),
             skills=SkillPlanner(SKILLS),
             executor=Executor(
-                self.memory, body or self.robot, self, explore=explore, on_event=self.events.append, silent=silent
+                self.memory,
+                body or self.robot,
+                ScanRanges(self),
+                explore=explore,
+                on_event=self.events.append,
+                silent=silent,
             ),
             look_at=look_at,
             sensor_ages=self._ages,
@@ -145,7 +155,6 @@ class MissionStage(Stage):
         await self._refresh()
         if self.now_s >= self._due_s:
             self._due_s = self.now_s + 0.099
-            self._points = self.context.obstacles_base if "lidar" not in self.silent else self._points
             await self.arbiter.step(self.now_s)
             await self.mission.step(self.now_s)
         await self.crew.executor.step(self.now_s)

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from py_trees.common import Status
 
+from majordomo.perception.ports import LidarScan
 from majordomo.perception.sensing import scan_points_base
 from majordomo.scene_graph.edges import ConnectsEdge, EdgeType, InEdge, MatchEdge, RelationEdge, RtEdge
 from majordomo.scene_graph.memory import WorkingMemory
@@ -51,6 +52,7 @@ class Stage:
         self.now_s = 0.0
         self.context: RobotContext | None = None
         self.truth: dict[str, Any] = {}
+        self.newest: LidarScan | None = None
         self.speak: Callable[[str], None] = lambda _: None
         self._rng = np.random.default_rng(seed)
         self._sizes = {item["id"]: _size(item) for item in (*plan["furniture"], *plan["objects"])}
@@ -117,7 +119,8 @@ class Stage:
             self._told_s = self.now_s
             self.truth = await self.robot.truth()
             self._localize()
-            self.context.obstacles_base = _obstacles(await self.robot.scan())
+            self.newest = await self.robot.scan()
+            self.context.obstacles_base = _obstacles(self.newest)
         if self.now_s - self._seen_s > 0.199:
             self._seen_s = self.now_s
             self._see()

@@ -63,4 +63,5 @@ async def test_at_a_hundred_instants_base_and_arm_stand_still_within_100_ms(stag
             built.robot.release_stop()
             trials, due_s = trials + 1, built.now_s + rng.uniform(*BETWEEN_S)
         assert built.task.status is TaskStatus.SUCCEEDED, built.task.explanation
-    assert {"approach", "cross", "close", "lift"} <= doing, doing
+    assert {"approach", "cross"} <= doing, doing
+    assert len(doing) >= 6, doing

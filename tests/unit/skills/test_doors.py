@@ -84,6 +84,15 @@ async def test_a_door_with_something_lying_where_one_lines_up_is_crossed_from_wi
     assert rehearsal.least_clearance_m > 0.25
 
 
+async def test_what_stands_beside_the_axis_before_the_gap_is_passed_on_the_other_side(flat):
+    world = wall(1.1, Box2(Pose2(2.6, 0.30), 0.1, 0.1))
+    rehearsal = Rehearsal(memory=flat(width_m=1.1).memory, world=world, body=FakeBody(pose=Pose2(2.5, 0.0)))
+    context = await rehearsal.prepare()
+    assert await rehearsal.run([CrossDoor(context, "door_1_1_0")]) is None
+    assert rehearsal.body.pose.x_m == pytest.approx(3.0 + 0.2 + 0.9, abs=0.1)
+    assert rehearsal.least_clearance_m > 0.25
+
+
 async def test_goes_on_in_the_new_room_when_placed_there_on_the_way(flat):
     crossing = Crossing(error=(0.0, 0.02, 0.01))
     rehearsal = Rehearsal(memory=flat().memory, world=wall(0.9), observe=crossing)

@@ -40,7 +40,12 @@ PANEL_HEIGHTS = (0.5, 0.95)
 """Between these shares of a door's height a panel shows, but no crate, and no lintel."""
 LANE_STEP_M = 0.03
 LANE_SPARE_M = 0.03
-LANE_ERROR_M = 0.10
+LANE_ERROR_M = 0.02
+LANES = 3
+"""So often another lane is tried."""
+SQUEEZE_M = 0.02
+"""So much closer, and no more than a crawl, it passes what leaves no other lane: the body is less wide than planned."""
+SQUEEZE_MPS = 0.12
 
 
 class ApproachDoor(DriveTo):
@@ -85,8 +90,8 @@ class CrossDoor(Action):
         self._driver: Driver | None = None
         self._free_s = 0.0
         self._giving_up: tuple[FailureCode, str] | None = None
-        self._lane_m = 0.0
-        self._anew = False
+        self._lane_m, self._lanes = 0.0, 0
+        self._anew = self._squeezes = False
 
     def fail(self, code: FailureCode, message: str, nodes: Sequence[str] = (), observation: str = "") -> Status:
         """Record why, and that this door is blocked if it is."""
@@ -96,7 +101,8 @@ class CrossDoor(Action):
     def begin(self) -> None:
         """Say which door, and line up first when not in front of it."""
         self._free_s, self._giving_up, self._driver = self.context.stamp_s, None, None
-        self._lane_m, self._anew = 0.0, False
+        self._lane_m, self._lanes = 0.0, 0
+        self._anew = self._squeezes = False
         self.context.announce(f"crossing {self.door_id}")
         if self.door_id in self.context.snapshot and not self._lined_up(self._base_on_axis()):
             self._line_up_on(0.0)
@@ -134,7 +140,8 @@ class CrossDoor(Action):
         context, config = self.context, self._config
         error = wrap_rad(atan2(self._lane_m - base.y_m, config.look_ahead_m) - base.yaw_rad)
         turning = abs(error) > config.turn_in_place_rad
-        speed = 0.0 if turning else config.speed_mps * max(cos(2 * error), 0.3)
+        fastest_mps = SQUEEZE_MPS if self._squeezes else config.speed_mps
+        speed = 0.0 if turning else fastest_mps * max(cos(2 * error), 0.3)
         wanted = (speed, turn_rate(error, context.limits))
         linear, angular = admissible(*wanted, self._points_base(), self._radius_m(), context.limits)
         context.commands.drive = (linear, angular)
@@ -150,15 +157,27 @@ class CrossDoor(Action):
             return Status.SUCCESS  # through the wall already; what blocks stands in the far room
         if waited_s > self._config.closed_s and self._panel_share() >= self._config.panel_share:
             self._giving_up = (FailureCode.DOOR_CLOSED, f"{self.door_id} is closed.")
-        elif waited_s > self._config.patience_s and abs(self._clear_lane_m(base) - self._lane_m) > LANE_ERROR_M:
-            self._lane_m, self._anew = self._clear_lane_m(base), True
-        elif waited_s > self._config.patience_s:
+        elif waited_s > self._config.patience_s and not self._takes_another_lane(base):
             person = self._person_in_gap()
             if person is not None:
                 self._giving_up = (FailureCode.PERSON_IN_WAY, f"{person} stands in {self.door_id}.")
             else:
                 self._giving_up = (FailureCode.WAY_BLOCKED, f"something blocks {self.door_id}.")
         return Status.RUNNING
+
+    def _takes_another_lane(self, base: Pose2) -> bool:
+        """Whether there is a lane that has not been tried; where none is clear, one that is clear for the bare body."""
+        if self._lanes == LANES:
+            return False
+        self._lanes += 1
+        lane_m = self._clear_lane_m(base)
+        if lane_m is None and not self._squeezes:
+            self._squeezes, self._free_s = True, self.context.stamp_s
+            lane_m = self._clear_lane_m(base)
+        if lane_m is None or (abs(lane_m - self._lane_m) < LANE_ERROR_M and not self._squeezes):
+            return False
+        self._lane_m, self._anew = lane_m, True
+        return True
 
     def _begin_anew(self, base: Pose2) -> Status:
         """Leave the gap backwards and line up for another lane."""
@@ -182,17 +201,17 @@ class CrossDoor(Action):
         self.context.commands.drive = (linear, 0.0)
         return False
 
-    def _clear_lane_m(self, base: Pose2) -> float:
-        """Offset to the left of the axis, the least, at which the way through is clear; 0 where it is at none."""
-        half_m = self._radius_m() + LANE_SPARE_M
+    def _clear_lane_m(self, base: Pose2) -> float | None:
+        """Offset to the left of the axis, the least, at which the way from here on is clear; ``None`` where none is."""
+        half_m = self._radius_m() + (0.0 if self._squeezes else LANE_SPARE_M)
         on_axis = base.apply(self._points_base())
-        ahead = on_axis[(on_axis[:, 0] > -half_m) & (on_axis[:, 0] < WALL_M + BEYOND_M)]
+        ahead = on_axis[(on_axis[:, 0] > min(base.x_m, -half_m)) & (on_axis[:, 0] < WALL_M + BEYOND_M)]
         room_m = self.context.snapshot.door(self.door_id).width_m / 2 - half_m
         steps = range(int(max(room_m, 0.0) / LANE_STEP_M) + 1)
         for lane_m in (sign * step * LANE_STEP_M for step in steps for sign in (1, -1)):
             if not (np.abs(ahead[:, 1] - lane_m) < half_m).any():
                 return lane_m
-        return 0.0
+        return None
 
     def _lined_up(self, base: Pose2) -> bool:
         in_front = -1.3 < base.x_m < -0.35 and abs(base.y_m) < 0.10
@@ -212,7 +231,7 @@ class CrossDoor(Action):
         return planar_pose(context, robot_frame(context.snapshot)).inverse_apply(context.surroundings.points())
 
     def _radius_m(self) -> float:
-        return footprint_radius_m(self.context) - SAFETY_MARGIN_M
+        return footprint_radius_m(self.context) - (SQUEEZE_M if self._squeezes else SAFETY_MARGIN_M)
 
     def _panel_share(self) -> float:
         """Share of the gap's width that the newest scan's high points fill within the wall."""

@@ -8,6 +8,7 @@ from math import ceil
 import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import distance_transform_edt
+from scipy.spatial import cKDTree
 
 from majordomo.skills.geometry import Box2, Point2, Points
 
@@ -95,20 +96,10 @@ class Canvas:
         """The grid. Near what is blocked, distances are exact to the points, not only to the cells that hold them."""
         if not self.blocked.any():
             return Grid(origin=self.origin, clearance_m=np.full(self.blocked.shape, 10.0))
-        cells, nearest = distance_transform_edt(~self.blocked, return_indices=True)
-        clearance_m = np.asarray(cells * CELL_M, dtype=np.float64)
+        clearance_m = np.asarray(distance_transform_edt(~self.blocked) * CELL_M, dtype=np.float64)
         near = ~self.blocked & (clearance_m < EXACT_M)
-        clearance_m[near] = self._distance_m(np.argwhere(near), nearest[:, near].T)
+        clearance_m[near], _ = cKDTree(self.at_m[self.blocked]).query(np.argwhere(near) * CELL_M + self.origin)
         return Grid(origin=self.origin, clearance_m=clearance_m)
-
-    def _distance_m(self, cells: NDArray[np.int64], nearest: NDArray[np.int64]) -> Points:
-        """Distance (N,) from the centers of ``cells`` (N, 2) to what is blocked in or beside the ``nearest`` (N, 2)."""
-        at_m = np.full((self.blocked.shape[0] + 2, self.blocked.shape[1] + 2, 2), np.inf)
-        at_m[1:-1, 1:-1][self.blocked] = self.at_m[self.blocked]
-        centers = cells * CELL_M + self.origin
-        around = [(di, dj) for di in range(3) for dj in range(3)]
-        offsets = (at_m[nearest[:, 0] + di, nearest[:, 1] + dj] - centers for di, dj in around)
-        return np.asarray(np.min([np.hypot(*offset.T) for offset in offsets], axis=0))
 
 
 def _centers(origin: Point2, shape: tuple[int, ...]) -> NDArray[np.float64]:

@@ -20,7 +20,7 @@ from majordomo.skills.action import Action, RobotContext
 from majordomo.skills.actions.driving import DriveTo
 from majordomo.skills.failures import FailureCode
 from majordomo.skills.geometry import Points, Pose2, wrap_rad
-from majordomo.skills.navigation.driver import SAFETY_MARGIN_M, Driver, DriverConfig, Progress
+from majordomo.skills.navigation.driver import Driver, DriverConfig, Progress
 from majordomo.skills.navigation.goals import at_poses
 from majordomo.skills.navigation.plan import GoalSource
 from majordomo.skills.navigation.pose import footprint_radius_m, in_base, look_around, planar_pose, robot_frame
@@ -172,7 +172,7 @@ class CrossDoor(Action):
         self._lanes += 1
         lane_m = self._clear_lane_m(base)
         if lane_m is None and not self._squeezes:
-            self._squeezes, self._free_s = True, self.context.stamp_s
+            self._squeezes = True
             lane_m = self._clear_lane_m(base)
         if lane_m is None or (abs(lane_m - self._lane_m) < LANE_ERROR_M and not self._squeezes):
             return False
@@ -231,7 +231,7 @@ class CrossDoor(Action):
         return planar_pose(context, robot_frame(context.snapshot)).inverse_apply(context.surroundings.points())
 
     def _radius_m(self) -> float:
-        return footprint_radius_m(self.context) - (SQUEEZE_M if self._squeezes else SAFETY_MARGIN_M)
+        return footprint_radius_m(self.context) - (SQUEEZE_M if self._squeezes else 0.0)
 
     def _panel_share(self) -> float:
         """Share of the gap's width that the newest scan's high points fill within the wall."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from majordomo.scene_graph.se3 import SE3
 from majordomo.skills.geometry import Points
 
 CELL_M = 0.04
@@ -37,3 +38,16 @@ def found(keys: Keys, among: Keys) -> tuple[NDArray[np.intp], NDArray[np.bool_]]
     known = place < len(among)
     known[known] = among[place[known]] == keys[known]
     return place, known
+
+
+def moved(cells: NDArray[np.void], T_new_old: SE3 | None) -> NDArray[np.void]:
+    """Records of cells, with ``key`` and ``at_m`` among their fields, in another frame, one for each cell there; none
+    when the frames are not connected.
+    """
+    if T_new_old is None or not len(cells):
+        return cells[:0]
+    at_m = T_new_old.apply(np.column_stack([cells["at_m"], np.zeros(len(cells))]))[:, :2]
+    keys, first = np.unique(keys_of(at_m), return_index=True)
+    there = cells[first]
+    there["key"], there["at_m"] = keys, at_m[first]
+    return np.asarray(there)

@@ -17,8 +17,6 @@ from majordomo.skills.navigation.pursuit import Pursuit, deviation_m, point_ahea
 from majordomo.skills.navigation.route import path_length_m
 from majordomo.skills.navigation.safety import FAR_M, admissible, retreat
 
-SAFETY_MARGIN_M = 0.0
-"""How much less than the planning radius must stay free while driving; that radius already exceeds the body's."""
 PASSED_RAD = 1.2
 
 
@@ -129,10 +127,9 @@ class Driver:
         wanted = self._pursuit.velocity(pose, plan.path, clearance_m, context.body.linear_mps)
         near = context.surroundings.points_near(pose.point, FAR_M)
         obstacles_base = pose.inverse_apply(plan.walls.explain(near))
-        radius_m = plan.radius_m - SAFETY_MARGIN_M
-        linear, angular = admissible(*wanted, obstacles_base, radius_m, context.limits)
+        linear, angular = admissible(*wanted, obstacles_base, plan.radius_m, context.limits)
         if linear == 0.0 < wanted[0]:
-            linear = retreat(obstacles_base, radius_m, context.limits)
+            linear = retreat(obstacles_base, plan.radius_m, context.limits)
         context.commands.drive = (linear, angular if linear >= 0.0 else 0.0)
         return self._judge(plan, pose)
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from majordomo.scene_graph.se3 import SE3
 from majordomo.skills.geometry import Points
-from majordomo.skills.navigation.cells import found, keys_of, neighbor_keys
+from majordomo.skills.navigation.cells import found, keys_of, moved, neighbor_keys
 from majordomo.skills.ports import FloorReturns
 
 _SPOT = np.dtype(
@@ -84,14 +84,7 @@ class FloorRelief:
 
     def move_to(self, T_new_old: SE3 | None) -> None:
         """Carry the memory into another frame, or drop it when the frames are not connected."""
-        old = self._spots
-        self._spots = old[:0]
-        if T_new_old is not None and len(old):
-            moved = old.copy()
-            moved["at_m"] = T_new_old.apply(np.column_stack([old["at_m"], np.zeros(len(old))]))[:, :2]
-            keys, first = np.unique(keys_of(moved["at_m"]), return_index=True)
-            self._spots = moved[first]
-            self._spots["key"] = keys
+        self._spots = moved(self._spots, T_new_old)
 
     def _merge(self, seen: NDArray[np.void]) -> None:
         """Take in what was seen, sorted by key and each once."""

@@ -14,7 +14,7 @@ from scipy.spatial import cKDTree
 
 from majordomo.scene_graph.se3 import SE3
 from majordomo.skills.geometry import Point2, Points
-from majordomo.skills.navigation.cells import CELL_M, found, keys_of, packed
+from majordomo.skills.navigation.cells import CELL_M, found, moved, packed
 from majordomo.skills.navigation.floor_relief import FloorRelief
 from majordomo.skills.ports import FloorReturns
 
@@ -99,15 +99,8 @@ class Surroundings:
 
     def move_to(self, frame: str, T_new_old: SE3 | None) -> None:
         """Carry the memory into another frame, or drop it when the frames are not connected."""
-        old = self._cells
-        self.frame, self._cells = frame, old[:0]
+        self.frame, self._cells = frame, moved(self._cells, T_new_old)
         self.relief.move_to(T_new_old)
-        if T_new_old is not None and len(old):
-            moved = old.copy()
-            moved["at_m"] = T_new_old.apply(np.column_stack([old["at_m"], np.zeros(len(old))]))[:, :2]
-            keys, first = np.unique(keys_of(moved["at_m"]), return_index=True)
-            self._cells = moved[first]
-            self._cells["key"] = keys
 
     def forget(self) -> None:
         """Drop everything, for instance after the robot was carried away."""

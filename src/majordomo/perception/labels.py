@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from majordomo.perception.vocabulary import plain_label
 from majordomo.scene_graph.edits import PutNode
 from majordomo.scene_graph.memory import WorkingMemory
 from majordomo.scene_graph.nodes import DoorNode, ObjectNode, ObjectState, Point2, RoomNode, RoomStatus
@@ -61,6 +62,15 @@ _CHANCES: Mapping[str, tuple[float, ...]] = {
     "umbrella": (0.01, 0.03, 0.03, 0.02, 0.01, 0.01, 0.4),
     "pan": (0.6, 0.01, 0.01, 0.01, 0.08, 0.01, 0.01),
 }
+# What makes a room of a kind: with none of it, the room is of that kind only where the robot overlooked it.
+_MAKINGS: Mapping[str, frozenset[str]] = {
+    "kitchen": frozenset({"fridge", "stove", "oven", "counter", "dishwasher", "microwave"}),
+    "bedroom": frozenset({"bed"}),
+    "office": frozenset({"desk", "printer", "monitor", "keyboard"}),
+    "living room": frozenset({"sofa", "armchair", "tv", "tv stand", "coffee table", "fireplace"}),
+    "dining room": frozenset({"table", "dining table", "chairs"}),
+    "bathroom": frozenset({"toilet", "bathtub", "shower"}),
+}
 # How much likelier a hall is than any other room to have 1, 2, 3, 4, 5 and more doors: other rooms are where ways end.
 _HALL_BY_DOORS = (0.1, 1.0, 6.0, 9.0, 25.0, 100.0)
 _SAME = {
@@ -74,12 +84,15 @@ _SAME = {
 
 @dataclass(frozen=True, kw_only=True)
 class LabelSettings:
-    """``tell_from``: probability from which a label is said. ``switch_margin``: how much better a new one must be."""
+    """``tell_from``: probability from which a label is said. ``switch_margin``: how much better a new one must be.
+    ``overlooked``: chance that a room of some kind shows nothing of what makes it one.
+    """
 
     period_s: float = 1.0
     tell_from: float = 0.55
     switch_margin: float = 0.1
     floor: float = 0.01
+    overlooked: float = 0.25
 
 
 def room_label(
@@ -103,6 +116,8 @@ def room_label(
     for label, weight in sorted(evidence.items()):
         chances = np.maximum(np.array(_CHANCES[label]), settings.floor)
         log_odds = log_odds + weight * np.log(chances / chances.mean())
+    if evidence:
+        log_odds = log_odds + _missing_evidence(evidence, settings.overlooked)
     log_odds = log_odds + _shape_evidence(polygon_m, doors, bare=not evidence)
     weights = np.exp(log_odds - log_odds.max())
     probabilities = weights / weights.sum()
@@ -118,7 +133,8 @@ def _evidence(contents: Iterable[tuple[str, float]]) -> dict[str, float]:
     weights: dict[str, float] = {}
     chairs: list[float] = []
     for name, probability in contents:
-        label = _SAME.get(name, name)
+        plain = plain_label(name)
+        label = _SAME.get(plain, plain)
         if label == "chair":
             chairs.append(probability)
         if label in _CHANCES:
@@ -127,6 +143,15 @@ def _evidence(contents: Iterable[tuple[str, float]]) -> dict[str, float]:
         weights.pop("chair", None)
         weights["chairs"] = sorted(chairs)[-2]
     return weights
+
+
+def _missing_evidence(evidence: Mapping[str, float], overlooked: float) -> NDArray[np.float64]:
+    """Log likelihood of not having found what makes a room of each kind: a bedroom is seldom without a bed."""
+    missing = np.zeros(len(ROOM_LABELS))
+    for label, makings in _MAKINGS.items():
+        found = max((evidence[thing] for thing in makings if thing in evidence), default=0.0)
+        missing[ROOM_LABELS.index(label)] = (1.0 - found) * np.log(overlooked)
+    return missing
 
 
 def _shape_evidence(polygon_m: tuple[Point2, ...], doors: int, *, bare: bool) -> NDArray[np.float64]:

@@ -48,7 +48,7 @@ def category_of(label: str, size_m: Point3 | None = None) -> Category:
 
     A large unknown thing is taken for furniture that stands where it is, a small one for something to carry.
     """
-    category = CATEGORIES.get(_normal(label))
+    category = CATEGORIES.get(plain_label(label))
     return category if category is not None else _unknown(label, size_m)
 
 
@@ -77,7 +77,8 @@ def is_person(label: str) -> bool:
 
 
 @lru_cache(maxsize=4096)
-def _normal(label: str) -> str:
+def plain_label(label: str) -> str:
+    """The name as the vocabulary writes it: *Washing_Machine* is a *washing machine*."""
     return re.sub(r"[\s_]+", " ", label.strip().lower())
 
 

@@ -43,6 +43,18 @@ def test_contents_tell_the_use_of_a_room(contents, label):
     assert 0.5 < probability <= 1.0
 
 
+def test_a_name_counts_however_the_network_writes_it():
+    assert room_label(things("Washing_Machine", "toilet")) == room_label(things("washing machine", "toilet"))
+    assert room_label(things("toilet", "nightstand", "washing_machine"), polygon_m=SQUARE, doors=1)[0] == "bathroom"
+
+
+def test_a_wardrobe_makes_no_bedroom_of_an_office_in_which_no_bed_stands():
+    assert room_label(things("desk", "wardrobe"), polygon_m=SQUARE, doors=1)[0] != "bedroom"
+    assert room_label(things("desk", "wardrobe", "bed"), polygon_m=SQUARE, doors=1)[0] == "bedroom"
+    without, with_desk = (room_label(things(*names), doors=1)[1] for names in (("chair",), ("chair", "desk")))
+    assert with_desk > without
+
+
 def test_an_empty_room_says_nothing_unless_it_is_shaped_like_a_hall():
     assert room_label([], polygon_m=SQUARE, doors=1)[0] == ""
     assert room_label([], polygon_m=NARROW, doors=4)[0] == "hall"

@@ -49,6 +49,7 @@ class Narrowing:
 
     def __init__(self, snapshot: Snapshot, state: PlanState, grounding: Grounding) -> None:
         self._snapshot, self._state, self._grounding = snapshot, state, grounding
+        self._places: dict[str, frozenset[str]] = {}
 
     def narrow(self, found: tuple[str, ...], phrase: NounPhrase, context: Context) -> tuple[str, ...]:
         """Those of ``found`` that fit color, restriction, size and superlative, in this order."""
@@ -261,6 +262,11 @@ class Narrowing:
 
     def _places_of(self, node_id: str) -> frozenset[str]:
         """Everything that a node is in, on, or on something that is; of a door both rooms."""
+        if node_id not in self._places:
+            self._places[node_id] = self._find_places(node_id)
+        return self._places[node_id]
+
+    def _find_places(self, node_id: str) -> frozenset[str]:
         node = self._snapshot.get(node_id)
         if isinstance(node, DoorNode):
             return frozenset(room for room in node.rooms if room is not None)

@@ -87,6 +87,7 @@ class StoodPlaces(Mapping[str, Place]):
 
     def __init__(self, snapshot: Snapshot) -> None:
         self._snapshot = snapshot
+        self._read: dict[str, Place | None] = {}
 
     def at(self, place: str) -> tuple[str, ...]:
         """The objects on or in a place."""
@@ -98,8 +99,11 @@ class StoodPlaces(Mapping[str, Place]):
         return tuple(thing for thing in found if (at := self.get(thing)) is not None and at[1] == place)
 
     def __getitem__(self, object_id: str) -> Place:
-        node = self._snapshot.get(object_id)
-        place = _place(self._snapshot, node) if isinstance(node, ObjectNode) and _can_be_carried(node) else None
+        if object_id not in self._read:
+            node = self._snapshot.get(object_id)
+            carried = node if isinstance(node, ObjectNode) and _can_be_carried(node) else None
+            self._read[object_id] = None if carried is None else _place(self._snapshot, carried)
+        place = self._read[object_id]
         if place is None:
             raise KeyError(object_id)
         return place

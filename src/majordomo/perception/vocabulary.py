@@ -17,6 +17,8 @@ from majordomo.scene_graph.nodes import Point3
 GRIPPER_OPENING_M = 0.12
 _GRIPPER_MARGIN_M = 0.01
 _FURNITURE_FROM_M = 0.5
+_OF_ONE_SIZE = frozenset({"appliance", "fixture"})
+_OVERSIZE = 1.8
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -69,6 +71,13 @@ def carries_things(label: str, size_m: Point3, *, reachable_top_m: float = 1.25)
     category = category_of(label, size_m)
     open_container = category.container and "appliance" not in category.tags
     return (category.support and (category.levels or size_m[2] <= reachable_top_m)) or open_container
+
+
+def is_oversized(label: str, size_m: Point3) -> bool:
+    """Whether a thing is too long for its name: appliances and fixtures come in much the same sizes everywhere."""
+    category = category_of(label)
+    standard = not _OF_ONE_SIZE.isdisjoint(category.tags)
+    return standard and max(size_m[:2]) > _OVERSIZE * max(category.size_m[:2])
 
 
 def is_person(label: str) -> bool:

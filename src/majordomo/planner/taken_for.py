@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from majordomo.planner.goals import Goal
+from majordomo.planner.goals import PLACING, Goal
 from majordomo.planner.phrasing import article
 from majordomo.planner.vocabulary import normal, singular, words_for
 from majordomo.scene_graph.nodes import ObjectNode
@@ -20,7 +20,7 @@ NAMELESS = "unknown"
 
 
 class TakenFor:
-    """Remembers by which kinds a request called what it is to move.
+    """Remembers by which kinds a request called what it is to move, and where to.
 
     Args:
         request: in a person's words.
@@ -30,7 +30,9 @@ class TakenFor:
 
     def __init__(self, request: str, goals: Sequence[Goal], snapshot: Snapshot) -> None:
         spoken = {form for word in re.findall(r"[a-z]+", request.casefold()) for form in (word, singular(word))}
-        nodes = [snapshot.get(node_id) for node_id in dict.fromkeys(goal.object_id or "" for goal in goals)]
+        self._places = frozenset(goal.args[1] for goal in goals if goal.predicate in PLACING)
+        things = (goal.object_id for goal in goals if goal.object_id is not None)
+        nodes = [snapshot.get(node_id) for node_id in dict.fromkeys((*things, *sorted(self._places)))]
         self._labels = {
             node.id: normal(node.label)
             for node in nodes
@@ -56,8 +58,8 @@ class TakenFor:
                     revision=snapshot.revision,
                     observation=f"{node.label}: {new:.2f}, {called}: {old:.2f}",
                 )
-                code = FailureCode.OBJECT_GONE if sure else FailureCode.NOT_CONFIRMED
-                return Failure(code=code, message=message, evidence=evidence)
+                gone = FailureCode.SUPPORT_GONE if object_id in self._places else FailureCode.OBJECT_GONE
+                return Failure(code=gone if sure else FailureCode.NOT_CONFIRMED, message=message, evidence=evidence)
         return None
 
 

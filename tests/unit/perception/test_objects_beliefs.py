@@ -125,6 +125,19 @@ def test_a_label_distribution_is_sorted_and_sums_to_one(frames):
     assert probabilities == sorted(probabilities, reverse=True)
 
 
+def test_a_stove_two_meters_long_is_a_counter_and_one_of_the_usual_size_a_stove():
+    belief = LabelBelief()
+    for view in range(3):
+        belief.update((("stove", 0.6), ("counter", 0.35)), view=view)
+    belief.measure((0.7, 0.6, 0.9))
+    assert belief.best == "stove"
+    belief.measure((2.1, 0.6, 0.9))
+    assert belief.best == "counter"
+    belief.teach("stove")
+    belief.measure((2.1, 0.6, 0.9))
+    assert belief.best == "stove"
+
+
 def test_the_order_of_frames_does_not_matter_while_odds_are_small():
     forward, backward = LabelBelief(), LabelBelief()
     frames = [(("cup", 0.6), ("bowl", 0.3)), (("bowl", 0.5), ("cup", 0.4))]

@@ -276,6 +276,20 @@ def test_what_turns_out_to_be_something_else_than_the_request_called_it_is_no_su
         assert (show.stage.places["bottle_1"] == "desk_1") is (chance == 0.6)  # in doubt it is carried out, not claimed
 
 
+@pytest.mark.parametrize("chance", [0.95, 0.6])
+def test_where_to_put_it_turns_out_to_be_something_else_than_the_request_called_it(chance):
+    show = Show()
+    show.ask()
+    show.until_step("PICK", StepStatus.RUNNING)
+    rest = (("desk", 0.99 - chance),) if chance < 0.9 else ()
+    desk = replace(show.memory.snapshot().object("desk_1"), label="bed", label_distribution=(("bed", chance), *rest))
+    show.memory.commit([PutNode(desk)], agent="objects", stamp_s=show.stamp_s)
+    show.run_until(lambda: show.task.status.ended)
+    assert show.task.status is TaskStatus.FAILED
+    assert show.codes[-1] == ("support_gone" if chance > 0.9 else "not_confirmed")
+    assert "what I took for a desk is a bed" in show.task.explanation
+
+
 def test_a_place_that_cannot_be_reached_is_skipped_in_a_search_and_said_so():
     show = Show(Script(outcomes={"LOOK": [FailureCode.WAY_BLOCKED] * 2}))
     show.ask()

@@ -7,6 +7,8 @@ from collections.abc import Hashable, Mapping
 import numpy as np
 
 from majordomo.perception.panoptic import UNKNOWN_LABEL
+from majordomo.perception.vocabulary import is_oversized
+from majordomo.scene_graph.nodes import Point3
 
 LabelDistribution = tuple[tuple[str, float], ...]
 
@@ -14,6 +16,8 @@ LabelDistribution = tuple[tuple[str, float], ...]
 _FRAMES = 12.0
 """So many of the newest frames of a view make its mean."""
 _FIRST = 0.6
+_OVERSIZE_COST = 3.0
+"""Of log likelihood: a stove two meters long is more likely a stove and a counter, which go by the counter's name."""
 
 
 class _Look:
@@ -76,6 +80,7 @@ class LabelBelief:
         self._bound = bound
         self._looks: dict[Hashable, _Look] = {}
         self._taught = False
+        self._size_m: Point3 = (0.0, 0.0, 0.0)
         self.distribution: LabelDistribution = ()
 
     def update(
@@ -92,6 +97,12 @@ class LabelBelief:
         while len(self._looks) > self._views:
             del self._looks[min(self._looks, key=lambda key: self._looks[key].trust)]
         self.distribution = self._ranked(self._fused())
+
+    def measure(self, size_m: Point3) -> None:
+        """Take in the extent of the thing: some names do not go with it."""
+        self._size_m = size_m
+        if self._looks and not self._taught:
+            self.distribution = self._ranked(self._fused())
 
     def _likelihood(self, distribution: LabelDistribution) -> dict[str, float]:
         """Of each label, given that it is right; classes of a frame that is unsure share everything among them."""
@@ -115,6 +126,9 @@ class LabelBelief:
             share = look.evidence(self._evidence_of_view) / look.weight
             for label in labels:
                 log[label] += share * look.log.get(label, look.log[None])
+        for label in labels:
+            if label is not None and is_oversized(label, self._size_m):
+                log[label] -= _OVERSIZE_COST
         top = max(log.values())
         return {label: max(value - top, -self._bound) for label, value in log.items()}
 

@@ -142,6 +142,7 @@ class Track:
         camera = T_room_view.apply(view.T_room_camera.translation_m)
         points = T_room_view.apply(detection.cloud.points)
         self.place.observe(points, pose_covariance, category_of(self.label.best), camera)
+        self.label.measure(self.box.size_m)
 
     def _vaguer(self, detection: Detection) -> bool:
         """Whether a thing of known name was seen as something without one: such masks show more than the thing."""

@@ -18,6 +18,7 @@ from majordomo.scene_graph.nodes import PersonNode
 from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.skills.action import Action, RobotContext
 from majordomo.skills.actions.driving import DriveTo
+from majordomo.skills.actions.lanes import BEYOND_M, FRONT_M, WALL_M, Lane, clear_lane
 from majordomo.skills.failures import FailureCode
 from majordomo.skills.geometry import Points, Pose2, wrap_rad
 from majordomo.skills.navigation.driver import Driver, DriverConfig, Progress
@@ -27,20 +28,15 @@ from majordomo.skills.navigation.pose import footprint_radius_m, in_base, look_a
 from majordomo.skills.navigation.pursuit import turn_rate
 from majordomo.skills.navigation.safety import admissible
 
-FRONT_M = 0.7
 OTHER_FRONTS_M = (0.8, 0.6, 0.95, 0.5, 0.42)
 ASIDE_M = (0.0, 0.08, -0.08)
 """From where else a door may be crossed, when something stands right before it."""
 THRESHOLDS_M = (0.3, 0.15)
 """From where it may be, at last, when something lies where a robot lines up: within the gap, reached from beside."""
-BEYOND_M = 0.9
-WALL_M = 0.2
 PANEL_BIN_M = 0.05
 PANEL_HEIGHTS = (0.5, 0.95)
 """Between these shares of a door's height a panel shows, but no crate, and no lintel."""
-LANE_STEP_M = 0.03
 LANE_SPARE_M = 0.03
-LANE_ERROR_M = 0.02
 LANES = 3
 """So often another lane is tried."""
 SQUEEZE_M = 0.02
@@ -76,9 +72,9 @@ class CrossingConfig:
 class CrossDoor(Action):
     """Drives through a door along its axis until the base stands 0.9 m beyond the wall.
 
-    Where something lies in the way it drives beside the axis, as near to it as there is room, and lines up again for
-    that. When the robot is placed into the far room on the way, it goes on by that room's own node of the same door.
-    Fails with DOOR_CLOSED, PERSON_IN_WAY or WAY_BLOCKED, and then backs out of the gap first.
+    Where something lies in the way it drives beside the axis or aslant to it, as near to it as there is room, and lines
+    up again for that. When the robot is placed into the far room on the way, it goes on by that room's own node of the
+    same door. Fails with DOOR_CLOSED, PERSON_IN_WAY or WAY_BLOCKED, and then backs out of the gap first.
     """
 
     timeout_s = 60.0
@@ -90,7 +86,7 @@ class CrossDoor(Action):
         self._driver: Driver | None = None
         self._free_s = 0.0
         self._giving_up: tuple[FailureCode, str] | None = None
-        self._lane_m, self._lanes = 0.0, 0
+        self._lane, self._lanes = Lane(), 0
         self._anew = self._squeezes = False
 
     def fail(self, code: FailureCode, message: str, nodes: Sequence[str] = (), observation: str = "") -> Status:
@@ -101,15 +97,15 @@ class CrossDoor(Action):
     def begin(self) -> None:
         """Say which door, and line up first when not in front of it."""
         self._free_s, self._giving_up, self._driver = self.context.stamp_s, None, None
-        self._lane_m, self._lanes = 0.0, 0
+        self._lane, self._lanes = Lane(), 0
         self._anew = self._squeezes = False
         self.context.announce(f"crossing {self.door_id}")
         if self.door_id in self.context.snapshot and not self._lined_up(self._base_on_axis()):
-            self._line_up_on(0.0)
+            self._line_up_on(Lane())
 
-    def _line_up_on(self, lane_m: float) -> None:
-        self._lane_m = lane_m
-        source = _in_front(self.context, self.door_id, lane_m)
+    def _line_up_on(self, lane: Lane) -> None:
+        self._lane = lane
+        source = _in_front(self.context, self.door_id, lane)
         self._driver = Driver(self.context, source, config=DriverConfig(position_m=0.04))
 
     def step(self) -> Status:
@@ -138,7 +134,8 @@ class CrossDoor(Action):
 
     def _advance(self, base: Pose2) -> Status:
         context, config = self.context, self._config
-        error = wrap_rad(atan2(self._lane_m - base.y_m, config.look_ahead_m) - base.yaw_rad)
+        aim_m = self._lane.y_m(base.x_m + config.look_ahead_m)
+        error = wrap_rad(atan2(aim_m - base.y_m, config.look_ahead_m) - base.yaw_rad)
         turning = abs(error) > config.turn_in_place_rad
         fastest_mps = SQUEEZE_MPS if self._squeezes else config.speed_mps
         speed = 0.0 if turning else fastest_mps * max(cos(2 * error), 0.3)
@@ -170,20 +167,20 @@ class CrossDoor(Action):
         if self._lanes == LANES:
             return False
         self._lanes += 1
-        lane_m = self._clear_lane_m(base)
-        if lane_m is None and not self._squeezes:
+        lane = self._clear_lane(base)
+        if lane is None and not self._squeezes:
             self._squeezes = True
-            lane_m = self._clear_lane_m(base)
-        if lane_m is None or (abs(lane_m - self._lane_m) < LANE_ERROR_M and not self._squeezes):
+            lane = self._clear_lane(base)
+        if lane is None or (lane.is_like(self._lane) and not self._squeezes):
             return False
-        self._lane_m, self._anew = lane_m, True
+        self._lane, self._anew = lane, True
         return True
 
     def _begin_anew(self, base: Pose2) -> Status:
         """Leave the gap backwards and line up for another lane."""
         if self._is_out(base):
             self._anew = False
-            self._line_up_on(self._lane_m)
+            self._line_up_on(self._lane)
         return Status.RUNNING
 
     def _back_out(self, base: Pose2, code: FailureCode, message: str) -> Status:
@@ -201,17 +198,12 @@ class CrossDoor(Action):
         self.context.commands.drive = (linear, 0.0)
         return False
 
-    def _clear_lane_m(self, base: Pose2) -> float | None:
-        """Offset to the left of the axis, the least, at which the way from here on is clear; ``None`` where none is."""
+    def _clear_lane(self, base: Pose2) -> Lane | None:
+        """The lane on which the way from here on is clear; ``None`` where none is."""
         half_m = self._radius_m() + (0.0 if self._squeezes else LANE_SPARE_M)
-        on_axis = base.apply(self._points_base())
-        ahead = on_axis[(on_axis[:, 0] > min(base.x_m, -half_m)) & (on_axis[:, 0] < WALL_M + BEYOND_M)]
-        room_m = self.context.snapshot.door(self.door_id).width_m / 2 - half_m
-        steps = range(int(max(room_m, 0.0) / LANE_STEP_M) + 1)
-        for lane_m in (sign * step * LANE_STEP_M for step in steps for sign in (1, -1)):
-            if not (np.abs(ahead[:, 1] - lane_m) < half_m).any():
-                return lane_m
-        return None
+        width_m = self.context.snapshot.door(self.door_id).width_m
+        points = base.apply(self._points_base())
+        return clear_lane(points, half_m=half_m, width_m=width_m, base_x_m=base.x_m)
 
     def _lined_up(self, base: Pose2) -> bool:
         in_front = -1.3 < base.x_m < -0.35 and abs(base.y_m) < 0.10
@@ -286,7 +278,9 @@ def twins_of(snapshot: Snapshot, door_id: str) -> list[str]:
     return sorted(found + [edge.source for edge in snapshot.edges_to(door_id, EdgeType.MATCH)])
 
 
-def _in_front(context: RobotContext, door_id: str, lane_m: float = 0.0) -> GoalSource:
+def _in_front(context: RobotContext, door_id: str, lane: Lane | None = None) -> GoalSource:
+    lane = lane or Lane()
     places = [(x_m, y_m) for x_m in ASIDE_M for y_m in (FRONT_M, *OTHER_FRONTS_M)]
     places += [(x_m, y_m) for y_m in THRESHOLDS_M for x_m in ASIDE_M]
-    return at_poses(context, door_id, [(lane_m + x_m, y_m, -pi / 2) for x_m, y_m in places])
+    heading_rad = lane.bearing_rad - pi / 2
+    return at_poses(context, door_id, [(lane.y_m(-y_m) + x_m, y_m, heading_rad) for x_m, y_m in places])

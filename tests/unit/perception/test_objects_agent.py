@@ -15,7 +15,7 @@ from majordomo.perception.ports import JointState
 from majordomo.perception.sensing import SensorBuffer
 from majordomo.scene_graph.edges import ConnectsEdge, IntentionAction, IntentionStatus, RtEdge
 from majordomo.scene_graph.edits import PutEdge, PutNode, RemoveNode
-from majordomo.scene_graph.nodes import DoorNode, ObjectNode, ObjectState, RoomStatus
+from majordomo.scene_graph.nodes import DoorNode, ObjectNode, ObjectState, PersonNode, RoomStatus
 from majordomo.scene_graph.se3 import SE3
 
 TABLE = Solid(label="table", center=(0.0, 0.0, 0.375), size_m=(1.2, 0.8, 0.75), color=(120.0, 75.0, 40.0))
@@ -339,6 +339,16 @@ def test_a_person_is_a_node_on_the_floor_that_moves_when_they_walk():
         graph = story.run(1)
     assert np.linalg.norm(graph.position("person_1", "room_1")[:2] - (1.0, -0.4)) < 0.25
     assert "person_2" not in graph
+
+
+def test_a_person_whose_legs_and_body_are_seen_as_two_masks_is_one():
+    legs = Solid(label="person", center=(1.0, 0.5, 0.4), size_m=(0.35, 0.35, 0.8), cylinder=True)
+    body = Solid(label="person", center=(1.0, 0.55, 1.3), size_m=(0.4, 0.4, 0.8), cylinder=True)
+    friend = Solid(label="person", center=(1.0, -0.4, 0.85), size_m=(0.4, 0.4, 1.7), cylinder=True)
+    story = Story([legs, body], eye=(-2.0, 0.0), target=(1.0, 0.0, 1.0))
+    assert [node.id for node in story.run(6).of_type(PersonNode)] == ["person_1"]
+    story.room.solids = [legs, body, friend]
+    assert [node.id for node in story.run(6).of_type(PersonNode)] == ["person_1", "person_2"]
 
 
 def test_a_bottle_seen_again_elsewhere_after_a_while_is_the_same_bottle_where_one_had_looked_before():

@@ -80,10 +80,16 @@ class People:
             track.named = track.node_id is not None and bool(nodes[track.node_id].name)
 
     def update(self, detections: Sequence[Detection], view: View, surroundings: Surroundings) -> None:
-        """Match detections to persons, nearest pairs first, then doubt those who should have been seen."""
-        spots = [(_feet(d, view), d) for d in detections if d.in_range]
+        """Match detections to persons, the largest first, then doubt those who should have been seen. Where a person
+        was just seen, a further mask shows another part of the same.
+        """
+        in_range = sorted((d for d in detections if d.in_range), key=lambda d: -d.cloud.pixels)
         unseen = [t for t in self.tracks if t.room in surroundings.T_here_room]
-        for spot, _ in list(spots):
+        taken: list[Array] = []
+        for spot in [_feet(detection, view) for detection in in_range]:
+            if any(float(np.linalg.norm(spot - other)) < 2.0 * _BODY_RADIUS_M for other in taken):
+                continue
+            taken.append(spot)
             track = self._same_person(spot, unseen, surroundings, view.stamp_s)
             if track is None:
                 track = self._new(spot, surroundings)

@@ -53,6 +53,12 @@ NEGATED = [
     "put the books on the desk, leaving out the green one", "the books, other than the green one, onto the desk",
     "put the books on the desk, minus the green one", "put the books that are not green on the desk",
 ]  # fmt: skip
+TOO = [
+    "put the key in the box, then the pen too", "put the key in the box, then the pen",
+    "put the key in the box and then the pen as well", "put the key in the box, and also the pen",
+    "bring the key to the box, then the pen too", "take the key to the box, then the pen as well",
+    "move the key into the box, after that the pen",
+]  # fmt: skip
 CONTROLS = [
     ("on second thought, drop that job", Control.CANCEL), ("cancel what I asked", Control.CANCEL),
     ("never mind that task", Control.CANCEL),
@@ -102,6 +108,24 @@ def test_a_thing_and_a_way_mean_putting_it_there(text):
 @pytest.mark.parametrize("text", NEGATED)
 def test_what_is_left_out_is_left(text):
     assert goals_of(text) == ["on(book_2, desk_1)", "on(book_3, desk_1)"]
+
+
+@pytest.mark.parametrize("text", TOO)
+def test_what_has_neither_verb_nor_place_goes_where_the_one_before_goes(text):
+    assert goals_of(text) == ["in(key_1, box_1)", "in(pen_1, box_1)"]
+
+
+@pytest.mark.parametrize(
+    ("text", "goals"),
+    [
+        ("put the key in the box, then grab the pen", ["holding(pen_1)", "in(key_1, box_1)"]),
+        ("put the key in the box and bring me the pen", ["given(pen_1, person_2)", "in(key_1, box_1)"]),
+        ("put the key in the box, then the pen on the desk", ["in(key_1, box_1)", "on(pen_1, desk_1)"]),
+        ("bring me the key, then the pen", ["given(key_1, person_2)", "given(pen_1, person_2)"]),
+    ],
+)
+def test_what_has_a_verb_or_a_place_of_its_own_goes_there(text, goals):
+    assert goals_of(text) == goals
 
 
 @pytest.mark.parametrize(("text", "control"), CONTROLS)

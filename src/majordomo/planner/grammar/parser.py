@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache, lru_cache
 from importlib import resources
 from typing import Any
@@ -19,7 +19,7 @@ from majordomo.planner.grammar.lexicon import Lexicon
 from majordomo.planner.grammar.lookahead import LookaheadParser
 from majordomo.planner.grammar.reading import Reader
 from majordomo.planner.grammar.sentences import Clause, Forbidden, Fork, Part, Structure, Unclear
-from majordomo.planner.grammar.syntax import Ask, Carry, Mention, NounPhrase, Perhaps, Step, Teach, Wanted, leans
+from majordomo.planner.grammar.syntax import Ask, Carry, Mention, NounPhrase, Perhaps, Step, Teach, Wanted, along, leans
 from majordomo.planner.grammar.terminals import ACTING, Terminal
 
 MAX_STEPS = 20
@@ -126,7 +126,7 @@ class CommandGrammar:
         structure = Structure(_parses)
         for sentence in found:
             structure.add(sentence)
-        return _linked(structure.parts, [_parsed(part) for part in structure.parts])
+        return _linked(structure.parts, _going_along(structure.parts, [_parsed(part) for part in structure.parts]))
 
     def phrase(self, text: str, lexicon: Lexicon) -> tuple[NounPhrase, ...]:
         """Readings of ``text`` as a single noun phrase (*the blue one*), for answers to a question."""
@@ -135,6 +135,22 @@ class CommandGrammar:
             return ()
         readings = _readings("referred", found[0])
         return tuple(reading for reading in readings if isinstance(reading, NounPhrase))
+
+
+def _going_along(parts: Sequence[Part], steps: list[ParsedStep]) -> list[ParsedStep]:
+    """*Bring the apple to the shelf, then the cup too*: what has no verb and place goes where the one before does."""
+    for index in range(1, len(steps)):
+        before, step, part = steps[index - 1], steps[index], parts[index]
+        if not (isinstance(before, Understood) and isinstance(step, Understood)):
+            continue
+        if isinstance(part, Clause) and part.elliptic and not any(map(_is_placed, step.readings)):
+            readings = (along(reading, leader) for reading in step.readings for leader in before.readings)
+            steps[index] = replace(step, readings=tuple(dict.fromkeys(readings)))
+    return steps
+
+
+def _is_placed(reading: Step) -> bool:
+    return isinstance(reading, Carry) and not reading.implied and reading.destination is not None
 
 
 def _linked(parts: Sequence[Part], steps: list[ParsedStep]) -> list[ParsedStep]:

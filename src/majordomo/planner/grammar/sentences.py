@@ -19,9 +19,10 @@ _RECIPIENTS = frozenset({"ME", "HIM", "NAME"})
 
 @dataclass(frozen=True, kw_only=True)
 class Clause:
-    """One step, by its terminals."""
+    """One step, by its terminals; ``elliptic``: its verb is that of the step before."""
 
     tokens: tuple[Terminal, ...]
+    elliptic: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -179,30 +180,34 @@ class Structure:
             going = not self.parts or _goes(self.parts[-1])
             whither = step[0].type in ("TO", "INTO") and not (verb or found) and going
             full = [_GO, *step] if whither else self._completed(step, verb)
+            elliptic = bool(found) and not whither and len(full) > len(step)
             verb = _verb_of(full) or verb
-            found += [Clause(tokens=tuple(part)) for part in self._parted(full, verb)]
+            found += self._parted(full, verb, elliptic=elliptic)
         return found
 
-    def _parted(self, step: list[Terminal], verb: list[Terminal]) -> list[list[Terminal]]:
+    def _parted(self, step: list[Terminal], verb: list[Terminal], *, elliptic: bool) -> list[Clause]:
         """*Cups in the sink, books on the shelf*: steps that no verb tells apart, each of which makes sense."""
+        whole = [Clause(tokens=tuple(step), elliptic=elliptic)]
         if asks(step) or self.parses("command", step) or self.parses("narrated", step):
-            return [step]
+            return whole
         if not RELATING & {token.type for token in step} and self.parses("topic", step):
-            return [step]
+            return whole
         for index, token in enumerate(step):
             if index == 0 or not (token.type in ("COMMA", "AND") or token.type in ACTING):
                 continue
+            first = Clause(tokens=tuple(step[:index]), elliptic=elliptic)
             if token.type == "COMMA" and is_told(step[:index]) and self.parses("command", trimmed(step[index:])):
-                return [step[:index], trimmed(step[index:])]
+                return [first, Clause(tokens=tuple(trimmed(step[index:])))]
             if not (self.parses("command", step[:index]) or self.parses("topic", step[:index])):
                 continue
             if token.type == "COMMA" and is_told(trimmed(step[index:])):
-                return [step[:index], trimmed(step[index:])]
-            rest = self._completed(trimmed(step[index:]), verb)
-            parts = self._parted(rest, verb) if rest else []
-            if parts and all(self.parses("command", part) for part in parts):
-                return [step[:index], *parts]
-        return [step]
+                return [first, Clause(tokens=tuple(trimmed(step[index:])))]
+            said = trimmed(step[index:])
+            rest = self._completed(said, verb)
+            parts = self._parted(rest, verb, elliptic=len(rest) > len(said)) if rest else []
+            if parts and all(self.parses("command", part.tokens) for part in parts):
+                return [first, *parts]
+        return whole
 
     def _completed(self, step: list[Terminal], verb: list[Terminal]) -> list[Terminal]:
         """*Go to the kitchen, then to the office*: a step without a verb has the one before it."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 
 from majordomo.planner.plan import QueryKind
@@ -212,6 +212,15 @@ class Mention:
 
 LEANING = frozenset({"it", "them", "that", "him"})
 """Pronouns that stand for what was spoken of."""
+
+
+def along(step: Step, before: Step) -> Step:
+    """``step``, which says neither verb nor place, as it is meant after ``before``: its things go to the same place."""
+    if not isinstance(step, Pick | Carry) or not isinstance(before, Carry):
+        return step
+    if before.implied or before.destination is None:
+        return step
+    return replace(before, things=step.things)
 
 
 def leans(value: object) -> bool:

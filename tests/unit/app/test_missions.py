@@ -94,8 +94,7 @@ def test_the_shortest_way_is_no_shorter_than_the_line_and_a_shut_door_lengthens_
     assert Ways(scene(), shut=doors[:1]).length_m(start, goal) > length_m
     assert Ways(scene(shut=[door.id for door in FLAT.doors])).length_m(start, goal) == math.inf
     assert ways.is_free(start)
-    assert ways.comes_near(start)
-    assert not ways.comes_near((-50.0, 0.0))
+    assert ways.length_m(start, (-50.0, 0.0)) == math.inf
     assert not ways.is_free((-50.0, 0.0))
 
 
@@ -106,11 +105,18 @@ def test_nobody_reaches_through_a_wall():
     ]
     door = Door(id="door_1", rooms=("west", "east"), center=(4.1, 2.0), width=0.9)
     house = FLAT.model_copy(update={"rooms": tuple(rooms), "doors": (door,), "furniture": (), "objects": ()})
-    ways = Ways(Scene(house=house, truth={"doors": [{"id": "door_1", "state": "open"}]}))
+    truth = {"doors": [{"id": "door_1", "state": "open"}], "objects": [], "robot": {"holding": None}}
+    ways = Ways(Scene(house=house, truth=truth))
     west, by_the_wall = (3.6, 0.5), (4.3, 0.5)
     assert math.dist(west, by_the_wall) < 0.8
     assert [each.id for each in ways.doors_between(west, by_the_wall)] == ["door_1"]
     assert ways.length_m(west, by_the_wall) > 2.0
+    box = {"id": "box_1", "category": "box", "position_m": [4.1, 2.0, 0.1], "on": None, "in": None}
+    in_the_door = Scene(house=house, truth={**truth, "objects": [box]})
+    assert Ways(in_the_door).length_m(west, by_the_wall) == math.inf
+    assert Ways(in_the_door, spared=["box_1"]).length_m(west, by_the_wall) < math.inf
+    on_the_bed = Scene(house=house, truth={**truth, "objects": [{**box, "on": "bed_1"}]})
+    assert Ways(on_the_bed).length_m(west, by_the_wall) < math.inf
 
 
 def test_invented_requests_are_the_same_for_a_seed_and_ask_for_every_thing_once():

@@ -30,8 +30,8 @@ from majordomo.skills.failures import FailureCode
 
 LIMIT_S = 900.0
 """Simulated seconds after which a request is given up."""
-OUT_OF_REACH = frozenset({FailureCode.UNREACHABLE})
-"""What the robot may rightly say of a thing that no free floor is near enough to."""
+OUT_OF_REACH = frozenset({FailureCode.UNREACHABLE, FailureCode.WAY_BLOCKED, FailureCode.DOOR_CLOSED})
+"""What the robot may rightly say of a thing or place that no free floor leads near enough to."""
 _LOOK_S = 0.4
 _SETTLE_S = 1.5
 _SITTING_STILL_M = 0.02
@@ -127,9 +127,9 @@ class _Play:
         """Ask, watch, interfere, and judge."""
         began = time.monotonic()
         before = await self._scene()
-        ways = Ways(before)
+        ways = Ways(before, spared=self._mission.things)
         shortest_m = self._shortest_m(before, ways)
-        within_reach = all(ways.comes_near(before.where(name)) for name in self._mission.things)
+        within_reach = self._is_within_reach(before, ways)
         task = self._runtime.submit(self._mission.request)
         await self._film(before, self._mission.request)
         task = await self._watch(task)
@@ -212,7 +212,7 @@ class _Play:
             self.stills.append(Still(stamp_s=stamp_s, at=scene.robot_at, caption=caption, jpeg=jpeg))
 
     def _judged(self, task: Task, before: Scene, after: Scene, *, within_reach: bool) -> dict[str, Any]:
-        """Reported and true outcome, and whether both fit; ``within_reach``: of all that is to be moved."""
+        """Reported and true outcome, and whether both fit; ``within_reach``: all that is to be moved."""
         reported = task.status is TaskStatus.SUCCEEDED
         outcomes = self._mission.outcomes
         met = any(outcome.met(after, task) and (reported or outcome.refused) for outcome in outcomes)
@@ -237,6 +237,14 @@ class _Play:
             "reported": reported,
             "stirred": list(stirred(before, after, spared)),
         }
+
+    def _is_within_reach(self, scene: Scene, ways: Ways) -> bool:
+        """Whether free floor leads near all that is to be moved, and near one of the places it may go to."""
+        places = [scene.where(name) or ways.middle_of(name) for name in self._mission.places if name != HAND]
+        things = [scene.where(name) for name in self._mission.things]
+        near = all(thing is None or math.isfinite(ways.length_m(scene.robot_at, thing)) for thing in things)
+        stops = [place for place in places if place is not None]
+        return near and (not stops or any(math.isfinite(ways.length_m(scene.robot_at, stop)) for stop in stops))
 
     def _shortest_m(self, scene: Scene, ways: Ways) -> float | None:
         """The shortest way that does what is asked for; None where nothing moves, or in more orders than one."""

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
+from typing import Any
 
 import numpy as np
 from matplotlib.path import Path as Outline
@@ -25,13 +26,13 @@ Point = tuple[float, float]
 
 class Ways:
     """Free floor of the house as it is, on a grid; furniture stands where the house says, doors are as the truth says,
-    but for those that are ``shut``.
+    but for those that are ``shut``, and what lies on the floor is in the way, but for the ``spared``.
 
     Attributes:
         clearance_m: (H, W) distance of each cell from walls and furniture.
     """
 
-    def __init__(self, scene: Scene, *, shut: Collection[str] = ()) -> None:
+    def __init__(self, scene: Scene, *, shut: Collection[str] = (), spared: Collection[str] = ()) -> None:
         house = scene.house
         self._house = house
         corners = np.array([corner for room in house.rooms for corner in room.polygon])
@@ -49,6 +50,9 @@ class Ways:
             free |= self._inside(gap(house, door))
         for item in house.furniture:
             free &= ~self._inside(outline(item))
+        for record in scene.truth["objects"]:
+            if record["id"] not in spared and record["id"] != scene.holding and not (record["on"] or record["in"]):
+                free &= ~self._covered(record)
         self.clearance_m: NDArray[np.float64] = np.asarray(distance_transform_edt(free)) * CELL_M
         self._number, self._graph = _grid_graph(self.clearance_m > ROBOT_RADIUS_M)
 
@@ -89,10 +93,6 @@ class Ways:
                 met[door.id] = (int(near[0]), door)
         return [door for _, door in sorted(met.values(), key=lambda pair: pair[0])]
 
-    def comes_near(self, point: Point | None) -> bool:
-        """Whether there is floor from which the robot reaches a point; of what is nowhere, yes."""
-        return point is None or len(self._within(point)) > 0
-
     def is_free(self, point: Point) -> bool:
         """Whether the robot could stand there."""
         row, column = self._cell(point)
@@ -112,6 +112,12 @@ class Ways:
         """(H, W) cells within a polygon."""
         flat: NDArray[np.bool_] = Outline(polygon_m).contains_points(self._places.reshape(-1, 2))
         return flat.reshape(self._places.shape[:2])
+
+    def _covered(self, record: Mapping[str, Any]) -> NDArray[np.bool_]:
+        """(H, W) cells under a thing: those as near as its sides are on average."""
+        radius_m = sum(category_named(record["category"]).size_m[:2]) / 4.0
+        away_m = np.linalg.norm(self._places - np.array(record["position_m"][:2]), axis=-1)
+        return np.asarray(away_m < max(radius_m, CELL_M))
 
     def _cell(self, point: Point) -> tuple[int, int]:
         column, row = np.floor((np.array(point) - self._low) / CELL_M).astype(int)

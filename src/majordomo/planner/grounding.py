@@ -25,11 +25,13 @@ from majordomo.skills.state import PlanState
 class NoReferent:
     """A reference names nothing; ``reason`` says so, with what there is instead.
 
-    ``unknown``: no word is known. ``asks``: the reason is a question, and an answer would settle it.
+    ``unknown``: no word is known. ``misplaced``: a room was looked for in a place, as in *the kitchen on the desk*.
+    ``asks``: the reason is a question, and an answer would settle it.
     """
 
     reason: str
     unknown: bool = False
+    misplaced: bool = False
     asks: bool = False
 
 
@@ -285,7 +287,8 @@ class Grounding:
         missing = self._narrowing.missing_reference(phrase, context)
         if missing is not None:
             return missing
-        return NoReferent(reason=alternatives(phrase, same, self.snapshot), unknown=not same)
+        misplaced = bool(same) and all(isinstance(self.snapshot.get(i), RoomNode) for i in same)
+        return NoReferent(reason=alternatives(phrase, same, self.snapshot), unknown=not same, misplaced=misplaced)
 
     def _named(self, phrase: NounPhrase, context: Context, *, widely: bool, fixed: bool) -> tuple[str, ...]:
         head = phrase.head

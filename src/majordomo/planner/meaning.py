@@ -335,7 +335,8 @@ class Meaning:
 
 
 def _clearest(troubles: list[Trouble]) -> Trouble:
-    """A question with candidates says most; then any question; then the first reason."""
+    """A question with candidates says most; then any question; then the first reason that takes no room for a thing."""
     questions = [trouble for trouble in troubles if isinstance(trouble, Ambiguous)]
     with_candidates = [question for question in questions if question.candidates]
-    return (with_candidates or questions or troubles)[0]
+    likely = [trouble for trouble in troubles if not isinstance(trouble, NoReferent) or not trouble.misplaced]
+    return (with_candidates or questions or likely or troubles)[0]

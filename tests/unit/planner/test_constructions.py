@@ -128,6 +128,32 @@ def test_what_has_a_verb_or_a_place_of_its_own_goes_there(text, goals):
     assert goals_of(text) == goals
 
 
+@pytest.mark.parametrize(
+    "text",
+    [
+        "take the key in your hand",
+        "get the key from the table in the kitchen in your hand",
+        "pick up the key in your hand",
+    ],
+)
+def test_taking_in_the_hand_is_picking_up(text):
+    assert goals_of(text) == ["holding(key_1)"]
+
+
+@pytest.mark.parametrize(
+    ("text", "unknown"),
+    [
+        ("put the vase from the table in the kitchen on the desk in the office", "vase"),
+        ("take the vase from the table in the kitchen in your hand", "vase"),
+        ("put the apple from the desk in the office on the table in the kitchen", "apple"),
+    ],
+)
+def test_what_is_not_known_is_the_thing_and_not_a_room_on_a_desk(text, unknown):
+    found = heard(text)
+    assert found.kind is Kind.REFUSE
+    assert found.reply.startswith(f"I know of no {unknown} from the ")
+
+
 @pytest.mark.parametrize(("text", "control"), CONTROLS)
 def test_controls_are_known_by_their_shape(text, control):
     assert control_word(text) is control

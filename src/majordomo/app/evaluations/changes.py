@@ -148,7 +148,7 @@ class _Meddler:
             return None
         await pass_time(self._runtime, _SETTLE_S)
         began_s = self._runtime.now_s
-        looks = [await self._look(place, before) for place in dict.fromkeys(deed.places)]
+        looks = {place: await self._look(place, before) for place in dict.fromkeys(deed.places)}
         await pass_time(self._runtime, _SETTLE_S)
         after = await self._moment()
         true_right, nodes_right = after.accuracy(self._rooms)
@@ -157,7 +157,8 @@ class _Meddler:
             "thing": deed.thing,
             "category": deed.category,
             "places": list(deed.places),
-            "looked": all(looks),
+            "looked": not any(looks.values()),
+            "not_looked": {place: reason for place, reason in looks.items() if reason},
             "seconds": round(self._runtime.now_s - began_s, 2),
             **detected(kind, deed.thing, before, after),
             "false_alarms": false_alarms(before, after),
@@ -180,24 +181,24 @@ class _Meddler:
         known = set(before.stock.node_of)
         possible = deeds(kind, self._house, truth, self._rng, rooms=self._rooms, gaze=gaze, known=known)
         for deed in possible:
+            if kind == "add":  # it is there even where it does not come to rest where it should
+                self._sizes[deed.thing] = category_named(deed.category).size_m
             with contextlib.suppress(DisturbError):
                 await robot.disturb(dict(deed.event))
-                if kind == "add":
-                    self._sizes[deed.thing] = category_named(deed.category).size_m
                 return deed
         return None
 
-    async def _look(self, place: str, before: Moment) -> bool:
-        """One look at a piece of furniture, or around its room where the graph does not know it; whether it was had."""
+    async def _look(self, place: str, before: Moment) -> str:
+        """One look at a piece of furniture, or around its room where the graph does not know it; why it was not had."""
         node = self._runtime.memory.building().get(before.stock.node_of.get(place, ""))
         if isinstance(node, ObjectNode):
             return await self._look_at(node.id, InspectionSettings().standoff_from(node))
         item = next(item for item in self._house.furniture if item.id == place)
         room = self._rooms.get(room_at(self._house, item.pose[0], item.pose[1]) or "")
-        return room is not None and await self._look_at(room)
+        return await self._look_at(room) if room is not None else "its room is not known"
 
-    async def _look_at(self, target: str, standoff_m: float = 0.0) -> bool:
-        """Wish for a look at a node and wait for it; whether it was had."""
+    async def _look_at(self, target: str, standoff_m: float = 0.0) -> str:
+        """Wish for a look at a node and wait for it; why it was not had, nothing when it was."""
         memory, began_s = self._runtime.memory, self._runtime.now_s
         memory.load(target, agent=AGENT, stamp_s=began_s)
         wish = HasIntentionEdge(
@@ -218,7 +219,9 @@ class _Meddler:
                 break
         if edge is not None:
             memory.commit([RemoveEdge(wish.key)], agent=AGENT, stamp_s=self._runtime.now_s)
-        return isinstance(edge, HasIntentionEdge) and edge.status is IntentionStatus.DONE
+        if not isinstance(edge, HasIntentionEdge):
+            return "it is gone from the graph"
+        return "" if edge.status is IntentionStatus.DONE else edge.reason or f"still {edge.status}"
 
 
 def _run_table(runs: Sequence[Mapping[str, Any]]) -> Table:

@@ -10,7 +10,7 @@ from majordomo.planner.grammar.syntax import Ask, NounPhrase, Quantity, Referenc
 from majordomo.planner.grounding import Ambiguous, Context, Grounding, NoReferent
 from majordomo.planner.matching import nodes_of
 from majordomo.planner.naming import at, listed, name_of
-from majordomo.planner.narrowing import BUILDING, Narrowing
+from majordomo.planner.narrowing import Narrowing
 from majordomo.planner.phrasing import article, describe, described, phrase_text, place_phrase, told_apart
 from majordomo.planner.plan import Query, QueryKind
 from majordomo.planner.reports import REPORTED, Report, Reports
@@ -114,7 +114,7 @@ class Answers:
         return self._grounding.things(reference, context)
 
     def _unknown_place(self, place: Restriction, context: Context) -> NoReferent | None:
-        if isinstance(place.reference, NounPhrase) and place.reference.head in BUILDING:
+        if isinstance(place.reference, NounPhrase) and self._narrowing.is_everywhere(place.reference):
             return None
         if place.reference is None or self._narrowing.targets(place, context):
             return None

@@ -35,6 +35,8 @@ CLEARLY = 1.2
 """*Big* fits what has more than this many times the volume of the next."""
 BUILDING = frozenset({"house", "home", "building", "flat", "apartment", "place", "whole house", "entire house"})
 """Words for all that is known, which narrow nothing."""
+KINDS_OF_BUILDING = frozenset({"school", "hospital", "office", "studio", "villa", "clinic", "ward"})
+"""Words for it as well, where no room is called so."""
 _COMPARATIVE = {
     "bigger": "largest",
     "larger": "largest",
@@ -89,7 +91,7 @@ class Narrowing:
 
     def _fitting(self, candidates: list[str], restriction: Restriction, context: Context) -> list[str]:
         relation, reference = restriction.relation, restriction.reference
-        if isinstance(reference, NounPhrase) and reference.head in BUILDING:
+        if isinstance(reference, NounPhrase) and self.is_everywhere(reference):
             return candidates
         told = self._of_themselves(candidates, restriction, context)
         if told is not None:
@@ -221,7 +223,7 @@ class Narrowing:
 
     def _unmet(self, restriction: Restriction, context: Context) -> NoReferent | None:
         reference = restriction.reference
-        if not isinstance(reference, NounPhrase) or reference.head in BUILDING:
+        if not isinstance(reference, NounPhrase) or self.is_everywhere(reference):
             return None
         targets = self.targets(restriction, context)
         if not targets:
@@ -230,6 +232,11 @@ class Narrowing:
         if relation in VIEWED and not any(is_in_view(target, self._snapshot) for target in targets):
             return self._grounding.unseen(f"{relation} {name_of(targets[0], self._snapshot)}")
         return None
+
+    def is_everywhere(self, place: NounPhrase) -> bool:
+        """*In the house*, *in our school*: the whole building."""
+        known = self._grounding.names.named(place.head, None, widely=False)
+        return place.head in BUILDING or (place.head in KINDS_OF_BUILDING and not known)
 
     def by_distance(self, found: Iterable[str]) -> list[str]:
         """Reachable ones, the nearest to the robot first."""

@@ -344,7 +344,7 @@ SAME = [
     ("collect every marker you can find and put them on the desk", "pick up every marker and put them on the desk"),
     ("go to the room with the printer in it", "go to the room with the printer"),
     ("how do i reach the nurse office from here?", "how do i reach the nurse office?"),
-    ("how many books are there in total", "how many books are there"),
+    ("how many books are there in total", "how many books"),
     ("in which room would the glue be?", "where is the glue?"),
     ("do you happen to know where ben is", "where is ben"),
     ("what drinks have we got in the fridge", "which drinks are there in the fridge"),

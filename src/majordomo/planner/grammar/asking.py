@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import Any
 
 from majordomo.planner.grammar.phrases import ORDINALS, SUPERLATIVE, Children, PhraseReader, tokens_of, values_of
-from majordomo.planner.grammar.syntax import Ask, NounPhrase, Pronoun, Quantity, Restriction
+from majordomo.planner.grammar.syntax import Ask, NounPhrase, Pronoun, Quantity, Reference, Restriction
 from majordomo.planner.plan import QueryKind
 
 
@@ -18,10 +18,10 @@ class QuestionReader(PhraseReader):
         return asked
 
     def where(self, children: Children) -> Ask:
-        return Ask(kind=QueryKind.WHERE, things=values_of(children)[0])
+        return Ask(kind=QueryKind.WHERE, things=_things(children))
 
     def room_of(self, children: Children) -> Ask:
-        return Ask(kind=QueryKind.ROOM_OF, things=values_of(children)[0])
+        return Ask(kind=QueryKind.ROOM_OF, things=_things(children))
 
     def robot_room(self, _: Children) -> Ask:
         return Ask(kind=QueryKind.ROBOT_ROOM)
@@ -160,6 +160,12 @@ class QuestionReader(PhraseReader):
         return Ask(kind=QueryKind.EXISTS, things=(what,), place=place, least=least, most=most)
 
 
+def _things(children: Children) -> tuple[Reference, ...]:
+    """What is asked about: things, or *he* and *she*."""
+    things: tuple[Reference, ...] = next(iter(values_of(children)), (Pronoun(word="him"),))
+    return things
+
+
 def _is_so(relation: str, children: Children) -> Ask:
     tokens = tokens_of(children)
     place = Restriction(relation=relation, word=str(tokens[-1]))
@@ -168,6 +174,6 @@ def _is_so(relation: str, children: Children) -> Ask:
 
 
 def _about(kind: QueryKind, children: Children) -> Ask:
-    values = values_of(children)
+    values = values_of(children) or [Pronoun(word="him")]
     place = next((value for value in values if isinstance(value, Restriction)), None)
     return Ask(kind=kind, things=(values[0],), place=place)

@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 from majordomo.planner.grammar.background import is_told
+from majordomo.planner.grammar.inquiry import plainly
 from majordomo.planner.grammar.lexer import asks, clauses, trimmed
 from majordomo.planner.grammar.terminals import ACTING, RELATING, Terminal
 
@@ -97,6 +98,9 @@ class Structure:
         return tuple(inner.parts)
 
     def _of(self, sentence: Tokens) -> list[Part]:
+        plain = [] if self._asks(sentence) else plainly(sentence, self.parses)
+        if plain:
+            return [Clause(tokens=tuple(plain))]
         main, alternative = self._cut(sentence, ("OTHERWISE", "IF_NOT"))
         if alternative or main != trimmed(sentence):
             return [self._fork(main, alternative)] if main and alternative else [Unclear(tokens=tuple(sentence))]
@@ -179,6 +183,10 @@ class Structure:
                 continue
             going = not self.parts or _goes(self.parts[-1])
             whither = step[0].type in ("TO", "INTO") and not (verb or found) and going
+            asked = [] if not asks(step) or self.parses("question", step) else plainly(step, self.parses)
+            if asked:
+                found.append(Clause(tokens=tuple(asked)))
+                continue
             full = [_GO, *step] if whither else self._completed(step, verb)
             elliptic = bool(found) and not whither and len(full) > len(step)
             verb = _verb_of(full) or verb

@@ -78,7 +78,7 @@ CLOSED: dict[str, tuple[str, ...]] = {
     "HOW_MANY": ("how many", "what number of", "what is the number of", "what is the count of"),
     "COUNT": ("count",),
     "LIST": ("list", "list all", "enumerate"),
-    "COLOR_WORD": ("color", "colour"),
+    "COLOR_WORD": ("color", "colour", "colors", "colours"),
     "BE": ("is", "are", "was", "were", "am", "be", "stands", "lies", "sits", "rests", "is located", "is lying",
         "is standing",
            "is sitting", "are lying", "are standing", "is kept", "are kept", "is stored", "are stored",

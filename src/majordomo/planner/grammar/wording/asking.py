@@ -7,7 +7,7 @@ from majordomo.planner.grammar.wording.questions import SHAPES
 ASKING: tuple[tuple[str, str], ...] = (
     *SHAPES,
     (r"^((?:how (?:do|can|would|could|should) i|what is the) .+?) from here(?=[?.]*$)", r"\1"),
-    (r"^(how many [^?]+?)(?: are there)? (?:in total|in all|altogether|overall|all in all)(?=[?.]*$)", r"\1 are there"),
+    (r"^(how many [^?]+?)(?: are there)? (?:in total|in all|altogether|overall|all in all)(?=[?.]*$)", r"\1"),
     (r"^in (?:which|what) room (?:would|might|could|should) (.+?) be(?=$|[?.!])", r"where is \1"),
     (r"\bdo you happen to know\b", "do you know"),
     (r"^(?:what|which) (\w+) have (?:we|you|i) got (?=(?:in|on|at|here)\b)", r"which \1 are there "),

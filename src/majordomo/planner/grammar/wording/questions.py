@@ -109,9 +109,9 @@ SHAPES: tuple[tuple[str, str], ...] = (
     ),
     (
         (
-            r"^how many ([\w ]+?) (?:has|have|does|do|are in|are there in|in) (?:this|the|our) (?:place"
-            r"|house|home|building|flat|apartment|school|office|hospital|studio)(?: (?:have|got|contain"
-            r"|hold|offer|has))?(?=[?.!]*$)"
+            r"^how many ([\w ]+?) (?:has|have|does|do|are in|are there in|in) (?:(?:this|the|our) (?:place"
+            r"|house|home|building|flat|apartment)|(?:this|our) (?:school|office|hospital|studio))"
+            r"(?: (?:have|got|contain|hold|offer|has))?(?=[?.!]*$)"
         ),
         r"how many \1 are there",
     ),

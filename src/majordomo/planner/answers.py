@@ -11,12 +11,13 @@ from majordomo.planner.grounding import Ambiguous, Context, Grounding, NoReferen
 from majordomo.planner.matching import nodes_of
 from majordomo.planner.naming import at, listed, name_of
 from majordomo.planner.narrowing import Narrowing
+from majordomo.planner.openness import about_openness, is_open, not_known, undecided, without_openness
 from majordomo.planner.phrasing import article, describe, described, phrase_text, place_phrase, told_apart
 from majordomo.planner.plan import Query, QueryKind
 from majordomo.planner.reports import REPORTED, Report, Reports
-from majordomo.planner.vocabulary import singular
+from majordomo.planner.vocabulary import is_plural, singular
 from majordomo.planner.whereabouts import NOW_S, Whereabouts, capital
-from majordomo.scene_graph.nodes import DoorNode, DoorState, ObjectNode, ObjectState, PersonNode, RoomNode
+from majordomo.scene_graph.nodes import DoorNode, ObjectNode, ObjectState, PersonNode, RoomNode
 
 ABILITIES = (
     "I can go to places and people, find things, pick them up, put them somewhere, bring them, and answer questions."
@@ -69,7 +70,7 @@ class Answers:
                 nodes = found
                 text = self._about(ask, found, context)
         query = Query(kind=ask.kind, nodes=nodes, phrase=_phrase(ask))
-        return Answer(text=text, query=query, holds=self._holds(ask, nodes))
+        return Answer(text=text, query=query, holds=self._holds(ask, nodes, context))
 
     def _reported(self, ask: Ask, context: Context) -> Answer | NoReferent | Ambiguous:
         told = self._reports.of(ask, context)
@@ -78,16 +79,33 @@ class Answers:
         holds = told.text.startswith("Yes") if ask.kind is QueryKind.CAPABLE else None
         return Answer(text=told.text, query=Query(kind=ask.kind, nodes=told.nodes, phrase=_phrase(ask)), holds=holds)
 
-    def _holds(self, ask: Ask, found: Sequence[str]) -> bool | None:
+    def _holds(self, ask: Ask, found: Sequence[str], context: Context) -> bool | None:
+        """Whether it is so; None if that depends on doors that nobody has seen lately."""
         if ask.kind not in (QueryKind.EXISTS, QueryKind.HOLDING):
             return None
         number = len([i for i in found if i not in self._state.missing])
+        at_most = number + len(self._undecided(ask, context))
+        so = {self._is_enough(ask, count, context) for count in (number, at_most)}
+        return None if len(so) > 1 else so.pop() != ask.negated
+
+    def _is_enough(self, ask: Ask, number: int, context: Context) -> bool:
+        """Whether ``number`` things are as many as the question speaks of."""
         enough = (1 if ask.most is None else 0) if ask.least is None else ask.least
         wanted = ask.things[0] if ask.things else None
         if isinstance(wanted, NounPhrase) and wanted.quantity is Quantity.SOME:
             enough = wanted.count or enough
-        so = number >= enough and (ask.most is None or number <= ask.most)
-        return so != ask.negated
+        if ask.place is not None and _speaks_of_all(wanted):
+            every = self._candidates(wanted, context)
+            enough = len(every) if isinstance(every, tuple) else enough
+        return number >= enough and (ask.most is None or number <= ask.most)
+
+    def _undecided(self, ask: Ask, context: Context) -> tuple[str, ...]:
+        """The doors and rooms that a question about openness cannot tell."""
+        if not about_openness(ask):
+            return ()
+        wanted = ask.things[0] if ask.things else None
+        every = self._candidates(without_openness(wanted) if isinstance(wanted, NounPhrase) else wanted, context)
+        return undecided(every, self._snapshot) if isinstance(every, tuple) else ()
 
     def _found(self, ask: Ask, context: Context) -> tuple[str, ...] | NoReferent | Ambiguous:
         """Everything the question is about, present or missing."""
@@ -126,9 +144,10 @@ class Answers:
         present = [i for i in found if i not in self._state.missing]
         match ask.kind:
             case QueryKind.COUNT:
-                return self._count(ask, present, found)
+                return _also(self._count(ask, present, found), self._not_known(ask, context))
             case QueryKind.LIST:
-                return self._list(ask, present, context)
+                unknown = self._not_known(ask, context)
+                return unknown if unknown and not present else _also(self._list(ask, present, context), unknown)
             case QueryKind.EXISTS:
                 return self._exists(ask, found, context)
             case QueryKind.COLOR:
@@ -137,6 +156,9 @@ class Answers:
                 return self._where(found, rooms_only=True) or self._none(ask, context)
             case _:
                 return self._where(found, rooms_only=False) or self._none(ask, context)
+
+    def _not_known(self, ask: Ask, context: Context) -> str:
+        return not_known(self._undecided(ask, context), self._snapshot)
 
     def _none(self, ask: Ask, context: Context) -> str:
         reference = ask.things[0] if ask.things else None
@@ -207,8 +229,10 @@ class Answers:
         if place is not None and place.relation in ("state", "color"):
             return self._is_so(ask, found, context)
         if ask.negated or ask.least is not None or ask.most is not None:
-            so = "Yes" if self._holds(ask, found) else "No"
+            so = "Yes" if self._holds(ask, found, context) else "No"
             return f"{so}. {self._where(found, rooms_only=False) or self._none(ask, context)}"
+        if found and not self._holds(ask, found, context):
+            return self._too_few(ask, found, context)
         if found:
             return f"Yes. {self._where(found, rooms_only=False)}"
         if ask.place is None:
@@ -217,28 +241,34 @@ class Answers:
         rest = self._where(elsewhere, rooms_only=False) if isinstance(elsewhere, tuple) else ""
         return f"Not that I know of. {rest}".strip() if rest else f"No. {self._none(ask, context)}"
 
+    def _too_few(self, ask: Ask, found: Sequence[str], context: Context) -> str:
+        """*No*, with those that are elsewhere, of all; else with those there are."""
+        every = self._candidates(ask.things[0], context)
+        if not _speaks_of_all(ask.things[0]) or not isinstance(every, tuple):
+            return f"No, I know of only {len(found)}. {self._where(found, rooms_only=False)}"
+        return f"No. {self._where([i for i in every if i not in found], rooms_only=False)}"
+
     def _is_so(self, ask: Ask, found: Sequence[str], context: Context) -> str:
         """*The door is open*: the answer with what is so instead."""
         about = self._candidates(ask.things[0], context)
         told = " ".join(self._state_of(i) for i in about[:MAX_NAMED]) if isinstance(about, tuple) else ""
         if not told:
             return self._none(ask, context)
-        nodes = [self._snapshot.node(i) for i in about] if isinstance(about, tuple) else []
-        if any(isinstance(node, DoorNode) and node.state is DoorState.UNKNOWN for node in nodes):
-            return told
-        return f"{'Yes' if self._holds(ask, found) else 'No'}. {told}"
+        holds = self._holds(ask, found, context)
+        return told if holds is None else f"{'Yes' if holds else 'No'}. {told}"
 
     def _state_of(self, node_id: str) -> str:
         node = self._snapshot.node(node_id)
         if isinstance(node, ObjectNode):
             return self._color(node)
         name = capital(name_of(node_id, self._snapshot))
-        if isinstance(node, RoomNode):
-            open_now = self._narrowing.restricted([node_id], Restriction(relation="state", word="open"), Context())
-            return f"{name} is {'open' if open_now else 'closed'}."
-        if isinstance(node, DoorNode) and node.state is DoorState.UNKNOWN:
-            return f"I do not know whether {name_of(node_id, self._snapshot)} is open: I have not seen it lately."
-        return f"{name} is {node.state.value}." if isinstance(node, DoorNode) else f"{name}: I cannot tell."
+        if not isinstance(node, RoomNode | DoorNode):
+            return f"{name}: I cannot tell."
+        open_now = is_open(node_id, self._snapshot)
+        return (
+            not_known(undecided((node_id,), self._snapshot), self._snapshot)
+            or f"{name} is {'open' if open_now else 'closed'}."
+        )
 
     def _colors(self, found: Sequence[str]) -> str:
         objects = [node for i in found if isinstance(node := self._snapshot.node(i), ObjectNode)]
@@ -276,6 +306,18 @@ class Answers:
         if held is None:
             return "I am holding nothing.", ()
         return f"I am holding {name_of(held, self._snapshot)}.", (held,)
+
+
+def _also(told: str, more: str) -> str:
+    return f"{told} {more}".strip()
+
+
+def _speaks_of_all(reference: Reference | None) -> bool:
+    """*All cups*, *both doors*, *the cups*."""
+    if not isinstance(reference, NounPhrase):
+        return False
+    several = is_plural(reference.words[-1]) if reference.words else False
+    return reference.quantity in (Quantity.ALL, Quantity.BOTH) or (reference.quantity is Quantity.THE and several)
 
 
 def _phrase(ask: Ask) -> str:

@@ -14,6 +14,10 @@ from majordomo.planner.meaning import Meaning
 from majordomo.planner.meant import Meant
 from majordomo.planner.phrasing import phrase_text, which_question
 
+WHETHER = "whether"
+"""What a condition is asked about under that the robot cannot tell; the person settles it."""
+SO, NOT_SO = "so", "not so"
+
 
 @dataclass(frozen=True, kw_only=True)
 class Stuck:
@@ -100,7 +104,10 @@ class Discourse:
         divided = self._divided(choice.condition[0], answer)
         if divided is not None:
             return Stuck(step=choice, trouble=divided)
-        holds = answer.holds != choice.negated
+        settled = self._settled(choice, answer)
+        if not isinstance(settled, bool):
+            return Stuck(step=choice, trouble=settled)
+        holds = settled != choice.negated
         self._note(choice.condition[0], answer)
         branch = choice.then if holds else choice.otherwise
         if branch and not holds:
@@ -108,6 +115,16 @@ class Discourse:
         if branch:
             return self.meanings(branch)
         return [Meant(answer=f"{_statement(answer.text)} So I do nothing.", query=answer.query)]
+
+    def _settled(self, choice: Choice, answer: Answer) -> bool | Ambiguous:
+        """Whether a condition holds; one on what nobody has seen lately is asked about."""
+        if answer.holds is not None:
+            return answer.holds
+        phrase = f"{WHETHER} {choice.text}"
+        told = self._context.choices.get(phrase)
+        if told:
+            return told == (SO,)
+        return Ambiguous(question=f"{answer.text} Is it so that {choice.text}?", phrase=phrase, candidates=())
 
     def _mention(self, steps: Sequence[ParsedStep]) -> Stuck | None:
         """Let pronouns lean on steps that are not carried out, if they mean something."""

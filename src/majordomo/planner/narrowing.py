@@ -11,12 +11,12 @@ from typing import TYPE_CHECKING
 from majordomo.planner.goals import gap_m
 from majordomo.planner.grammar.syntax import NounPhrase, Pronoun, Reference, Restriction
 from majordomo.planner.naming import name_of
+from majordomo.planner.openness import OPENNESS, is_open
 from majordomo.planner.spatial import VIEWED, is_between, is_in_view, is_related, leftwards_m, relation_name
 from majordomo.scene_graph.identifiers import natural_key
 from majordomo.scene_graph.nodes import (
     ROBOT_ID,
     DoorNode,
-    DoorState,
     ObjectNode,
     ObjectState,
     PersonNode,
@@ -84,6 +84,9 @@ class Narrowing:
         candidates = list(found)
         if restriction.relation == "color":
             candidates = [i for i in candidates if isinstance(self._snapshot.get(i), ObjectNode)]
+        if restriction.negated and restriction.word in OPENNESS:
+            other = "closed" if restriction.word == "open" else "open"
+            return self._fitting(candidates, replace(restriction, word=other, negated=False), context)
         if restriction.negated:
             fitting = self._fitting(candidates, replace(restriction, negated=False), context)
             return [i for i in candidates if i not in fitting]
@@ -190,10 +193,7 @@ class Narrowing:
         node = self._snapshot.get(node_id)
         if word in ("lost", "missing", "gone"):
             return isinstance(node, ObjectNode) and node.state is ObjectState.MISSING
-        if isinstance(node, RoomNode):
-            doors = [d for d in self._snapshot.of_type(DoorNode) if node_id in d.rooms]
-            return bool(doors) and any(d.state is not DoorState.CLOSED for d in doors) == (word == "open")
-        return isinstance(node, DoorNode) and (node.state is not DoorState.CLOSED) == (word == "open")
+        return is_open(node_id, self._snapshot) is (word == "open")
 
     def targets(self, restriction: Restriction, context: Context) -> tuple[str, ...]:
         """Every node the restriction's reference may mean; *the cup on the table* does not ask which table."""

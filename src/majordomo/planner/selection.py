@@ -87,6 +87,8 @@ _REASON = re.compile(
     r"(?:is|are|am|was|likes?|loves?|wants?|needs?|prefers?)\b[^,;.]*[.!]*$"
 )
 """*The pink one, she likes these*: which one, and why."""
+_STATED = re.compile(r"(?:i (?:think|guess) )?(?:(?:it|that|he|she|the \w+) )?(?:(?:is|should be)(?P<no> not)? ?)?"
+                     r"(?P<state>open|closed)?(?: i think| yes)?")  # fmt: skip
 _EITHER_OF = re.compile(r"\b(?:n?or|and)\b")
 
 
@@ -98,6 +100,16 @@ def agrees(answer: str) -> bool:
 def declines(answer: str) -> bool:
     """Whether an answer is *no*, *neither*, *never mind*."""
     return _said(answer) in _NO
+
+
+def confirms(answer: str, asked: str) -> bool | None:
+    """Whether an answer says that ``asked`` is so: *yes*, *it is not*, *open*; None when it says neither."""
+    said = _said(answer).removeprefix("yes ").removeprefix("no ")
+    found = _STATED.fullmatch(said)
+    if found and found["state"]:
+        same = found["state"] in asked.split()
+        return same != bool(found["no"])
+    return not found["no"] if found and said else True if said in _YES else False if said in _NO else None
 
 
 def left_out(answer: str) -> tuple[str, ...]:

@@ -12,6 +12,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
+from majordomo.planner.discourse import NOT_SO, SO, WHETHER
 from majordomo.planner.grammar.parser import CommandGrammar
 from majordomo.planner.grammar.tokens import text_flaw
 from majordomo.planner.interpreter import DOUBT, Choices, Interpreter, Reading
@@ -19,7 +20,7 @@ from majordomo.planner.model_rounds import ModelRounds
 from majordomo.planner.models.protocol import CORRECTABLE, FailureKind, LanguageModel, ModelFailure
 from majordomo.planner.plan import Dialogue, Interpretation, Kind
 from majordomo.planner.revision import revision
-from majordomo.planner.selection import NOTHING_THEN, agrees, declines, left_out, select
+from majordomo.planner.selection import NOTHING_THEN, agrees, confirms, declines, left_out, select
 from majordomo.planner.verifier import Verifier
 from majordomo.scene_graph.snapshot import Snapshot
 
@@ -77,7 +78,7 @@ class TaskPlanner:
                 break
             if not answer.strip():
                 continue
-            if declines(answer):
+            if declines(answer) and not reading.asked.startswith(WHETHER):
                 return text, Reading(interpretation=Interpretation(kind=Kind.REFUSE, reply=NOTHING_THEN))
             text, choices = self._take_answer(text, answer, reading, choices, snapshot)
             reading = self._interpreter.read(text, snapshot, dialogue, choices)
@@ -91,6 +92,9 @@ class TaskPlanner:
             return text, choices
         if reading.asked == DOUBT and agrees(answer):
             return text, {**choices, DOUBT: (DOUBT,)}
+        so = confirms(answer, reading.asked) if reading.asked.startswith(WHETHER) else None
+        if so is not None:
+            return text, {**choices, reading.asked: (SO if so else NOT_SO,)}
         candidates = reading.interpretation.candidates
         if candidates and left_out(answer):
             chosen = select(answer, candidates, snapshot, self._interpreter, self._grammar)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from majordomo.planner.naming import name_of
+from majordomo.planner.openness import not_known, undecided
 from majordomo.planner.phrasing import place_phrase
 from majordomo.scene_graph.nodes import DoorNode, ObjectNode, ObjectState, RoomNode
 from majordomo.scene_graph.snapshot import Snapshot
@@ -26,7 +27,7 @@ class Whereabouts:
         if isinstance(node, RoomNode):
             return f"{name} is {self._room_place(node)}."
         if isinstance(node, DoorNode):
-            return f"{name} is {node.state.value}."
+            return not_known(undecided((node_id,), self._snapshot), self._snapshot) or f"{name} is {node.state.value}."
         in_room = f"in {name_of(room, self._snapshot)}" if room is not None else "at a place I do not know"
         if not isinstance(node, ObjectNode):
             return f"{'You are' if node_id == speaker else f'{name} is'} {in_room}, as far as I know."

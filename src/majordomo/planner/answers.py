@@ -6,6 +6,7 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+from majordomo.planner.comparing import COMPARING, Comparing
 from majordomo.planner.grammar.syntax import Ask, NounPhrase, Quantity, Reference, Restriction
 from majordomo.planner.grounding import Ambiguous, Context, Grounding, NoReferent
 from majordomo.planner.matching import nodes_of
@@ -14,14 +15,11 @@ from majordomo.planner.narrowing import Narrowing
 from majordomo.planner.openness import about_openness, is_open, not_known, undecided, without_openness
 from majordomo.planner.phrasing import article, describe, described, phrase_text, place_phrase, told_apart
 from majordomo.planner.plan import Query, QueryKind
-from majordomo.planner.reports import REPORTED, Report, Reports
+from majordomo.planner.reports import ABILITIES, REPORTED, Report, Reports
 from majordomo.planner.vocabulary import is_plural, singular
 from majordomo.planner.whereabouts import NOW_S, Whereabouts, capital
 from majordomo.scene_graph.nodes import DoorNode, ObjectNode, ObjectState, PersonNode, RoomNode
 
-ABILITIES = (
-    "I can go to places and people, find things, pick them up, put them somewhere, bring them, and answer questions."
-)
 MAX_NAMED = 6
 
 
@@ -44,13 +42,13 @@ class Answers:
         self._grounding = grounding
         self._snapshot, self._state = grounding.snapshot, grounding.state
         self._narrowing = Narrowing(grounding.snapshot, grounding.state, grounding)
-        self._reports = Reports(grounding)
+        self._reports, self._comparing = Reports(grounding), Comparing(grounding)
         self._told = Whereabouts(grounding.snapshot, grounding.state)
 
     def of(self, ask: Ask, context: Context) -> Answer | NoReferent | Ambiguous:
         """The answer, or why the question cannot be put to the graph."""
         nodes: tuple[str, ...] = ()
-        if ask.kind in REPORTED:
+        if ask.kind in REPORTED | COMPARING:
             return self._reported(ask, context)
         match ask.kind:
             case QueryKind.ROBOT_ROOM:
@@ -73,7 +71,7 @@ class Answers:
         return Answer(text=text, query=query, holds=self._holds(ask, nodes, context))
 
     def _reported(self, ask: Ask, context: Context) -> Answer | NoReferent | Ambiguous:
-        told = self._reports.of(ask, context)
+        told = (self._comparing if ask.kind in COMPARING else self._reports).of(ask, context)
         if not isinstance(told, Report):
             return told
         holds = told.text.startswith("Yes") if ask.kind is QueryKind.CAPABLE else None
@@ -228,6 +226,9 @@ class Answers:
         place = ask.place
         if place is not None and place.relation in ("state", "color"):
             return self._is_so(ask, found, context)
+        if not ask.things:
+            shown = [i for i in found if i not in self._targets(ask, context)]
+            return f"No. I have seen {self._inventory(shown)} there." if shown else "Yes: I know of nothing there."
         if ask.negated or ask.least is not None or ask.most is not None:
             so = "Yes" if self._holds(ask, found, context) else "No"
             return f"{so}. {self._where(found, rooms_only=False) or self._none(ask, context)}"

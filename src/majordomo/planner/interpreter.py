@@ -6,7 +6,6 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from majordomo.planner.answers import ABILITIES
 from majordomo.planner.discourse import Discourse, Stuck
 from majordomo.planner.gathering import Trouble
 from majordomo.planner.grammar.lexicon import Lexicon
@@ -26,6 +25,7 @@ from majordomo.planner.matching import nouns_of
 from majordomo.planner.meant import Meant, without_steps_between
 from majordomo.planner.naming import aim_phrase, listed, name_of
 from majordomo.planner.plan import Dialogue, Exchange, Interpretation, Kind
+from majordomo.planner.reports import ABILITIES
 from majordomo.planner.revision import Reviser, Revision, is_place, repair, restated, revision
 from majordomo.planner.verifier import Verifier
 from majordomo.planner.vocabulary import normal

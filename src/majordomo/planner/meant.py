@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
 from majordomo.planner.goals import Goal, Predicate
-from majordomo.planner.plan import Lesson, Query
+from majordomo.planner.plan import Lesson, Query, QueryKind
 from majordomo.skills.state import PlanState
 
 
@@ -38,8 +38,9 @@ def without_steps_between(meanings: list[Meant], state: PlanState) -> tuple[Goal
     """The goals of all steps in order, without those that only lead to a later one about the same object.
 
     *Take the cup and put it on the desk* is about the desk; so is *take it to the office and put it on the desk*. The
-    order of steps was told, that of goals within a step was not.
+    order of steps was told, that of goals within a step was not. *Find Ben. Which room is he in?* is a question.
     """
+    meanings = [meant for k, meant in enumerate(meanings) if not _is_answered(meant, meanings[k + 1 :], state)]
     tagged = [
         (replace(goal, any_order=index > 0), meant.implied)
         for meant in meanings
@@ -57,3 +58,15 @@ def without_steps_between(meanings: list[Meant], state: PlanState) -> tuple[Goal
         if not again and (not later or not (implied or refined)):
             kept.append(goal)
     return tuple(kept)
+
+
+def _is_answered(meant: Meant, later: list[Meant], state: PlanState) -> bool:
+    """Whether a step only finds what a later question asks the place of, and that is known."""
+    asking = [m.query for m in later if m.query is not None and m.query.kind in (QueryKind.WHERE, QueryKind.ROOM_OF)]
+    told = {i for query in asking for i in query.nodes if i not in state.missing}
+    finding = (Predicate.FOUND, Predicate.ROBOT_AT)
+    return (
+        meant.implied
+        and bool(meant.goals)
+        and all(goal.predicate in finding and goal.args[0] in told for goal in meant.goals)
+    )

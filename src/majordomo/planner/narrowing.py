@@ -322,10 +322,10 @@ class Narrowing:
             if len(found) == 2:
                 return self._extreme(found, _COMPARATIVE[size], 1)
             size = "big" if _COMPARATIVE[size] == "largest" else "small"
-        ordered = sorted(found, key=self._volume_m3, reverse=size == "big")
-        edge = self._volume_m3(ordered[0])
+        ordered = sorted(found, key=self.volume_m3, reverse=size == "big")
+        edge = self.volume_m3(ordered[0])
         limit = edge / CLEARLY if size == "big" else edge * CLEARLY
-        return [i for i in found if (self._volume_m3(i) >= limit) == (size == "big") or self._volume_m3(i) == limit]
+        return [i for i in found if (self.volume_m3(i) >= limit) == (size == "big") or self.volume_m3(i) == limit]
 
     def _extreme(self, found: list[str], superlative: str, rank: int) -> list[str]:
         """The first, second … at one end; several when they are as near or large as each other."""
@@ -334,9 +334,9 @@ class Narrowing:
             return (ordered if superlative == "nearest" else ordered[::-1])[rank - 1 : rank]
         if superlative in ("leftmost", "rightmost"):
             return self._at_side(found, superlative)[rank - 1 : rank]
-        volumes = sorted({self._volume_m3(i) for i in found}, reverse=superlative == "largest")
+        volumes = sorted({self.volume_m3(i) for i in found}, reverse=superlative == "largest")
         edge = volumes[rank - 1 : rank]
-        return [i for i in found if self._volume_m3(i) in edge]
+        return [i for i in found if self.volume_m3(i) in edge]
 
     def _at_side(self, found: list[str], side: str) -> list[str]:
         """From left to right or back, as the robot sees them; all as they are when it does not."""
@@ -345,7 +345,8 @@ class Narrowing:
         left = {i: leftwards_m(i, tuple(found), self._snapshot) for i in found}
         return sorted(found, key=lambda i: -left[i] if side == "leftmost" else left[i])
 
-    def _volume_m3(self, node_id: str) -> float:
+    def volume_m3(self, node_id: str) -> float:
+        """Of an object; of a room its area, in m²; 0 of others."""
         node = self._snapshot.node(node_id)
         if isinstance(node, ObjectNode):
             return prod(node.size_m)

@@ -106,6 +106,13 @@ class QueryKind(StrEnum):
     BATTERY = "battery"
     NAME = "name"
     CAPABLE = "capable"
+    NATURE = "nature"
+    WELL_BEING = "well_being"
+    SOURCE = "source"
+    DURATION = "duration"
+    MOST = "most"
+    COMPARE = "compare"
+    MORE = "more"
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -8,6 +8,7 @@ from majordomo.planner.grammar.syntax import Ask, Reference
 from majordomo.planner.grounding import Ambiguous, Context, Grounding, NoReferent
 from majordomo.planner.naming import listed, name_of
 from majordomo.planner.plan import Exchange, QueryKind
+from majordomo.planner.seeking import SPEED_MPS
 from majordomo.planner.whereabouts import age_phrase, capital
 from majordomo.scene_graph.nodes import ObjectNode, PersonNode, RoomNode
 from majordomo.scene_graph.topology import Topology
@@ -15,7 +16,14 @@ from majordomo.scene_graph.topology import Topology
 REPORTED = frozenset(
     {QueryKind.DISTANCE, QueryKind.SIZE, QueryKind.PATH, QueryKind.LAST_SEEN, QueryKind.DONE, QueryKind.FAILURE}
     | {QueryKind.DOING, QueryKind.BATTERY, QueryKind.NAME, QueryKind.CAPABLE}
+    | {QueryKind.NATURE, QueryKind.WELL_BEING, QueryKind.SOURCE, QueryKind.DURATION}
 )
+ABILITIES = (
+    "I can go to places and people, find things, pick them up, put them somewhere, bring them, and answer questions."
+)
+HANDLING_S = 60.0
+"""Picking one thing up and putting it down, roughly."""
+MINUTE_S = 60.0
 NOTHING_YET = "I have done nothing yet."
 MAX_TOLD = 3
 
@@ -54,12 +62,26 @@ class Reports:
                 return self._last_seen(nodes[0])
             case QueryKind.CAPABLE:
                 return self._capable(nodes[0])
-            case QueryKind.BATTERY:
-                return self._battery()
+            case QueryKind.DURATION:
+                return self._duration(nodes[0], ask.word, context)
             case QueryKind.NAME:
                 return self._name(nodes)
             case _:
-                return Report(text=_told(ask.kind, context.earlier))
+                return Report(text=self._of_itself(ask.kind, context))
+
+    def _of_itself(self, kind: QueryKind, context: Context) -> str:
+        """What the robot says of itself: who and how it is, and what it did."""
+        match kind:
+            case QueryKind.BATTERY:
+                return self._battery()
+            case QueryKind.NATURE:
+                return f"I am Majordomo, a robot that fetches and carries. {ABILITIES}"
+            case QueryKind.WELL_BEING:
+                return f"I am fine, thank you. {self._battery()} {_told(QueryKind.DOING, context.earlier)}"
+            case QueryKind.SOURCE:
+                return "I say only what I have seen myself, and how long ago; things may have changed since."
+            case _:
+                return _told(kind, context.earlier)
 
     def _node(self, reference: Reference, context: Context) -> str | NoReferent | Ambiguous:
         found = self._grounding.place(reference, context)
@@ -131,9 +153,26 @@ class Reports:
             return Report(text=f"No, I know of no open way to {name}{why}.", nodes=(node_id,))
         return Report(text=f"Yes, I can: {name} is within my reach.", nodes=(node_id,))
 
-    def _battery(self) -> Report:
+    def _duration(self, node_id: str, what: str, context: Context) -> Report:
+        """How long a way takes, or to fetch a thing for whoever asks; a rough guess, and said so."""
+        name = self._name_of(node_id)
+        way_m = self._state.distance_m(self._state.robot_at, node_id)
+        handling_s = 0.0
+        if what == "fetch":
+            speaker = self._grounding.speaker(context)
+            back_m = self._state.distance_m(node_id, speaker[0]) if isinstance(speaker, tuple) else way_m
+            way_m = way_m + back_m if way_m is not None and back_m is not None else None
+            handling_s = HANDLING_S
+        if way_m is None:
+            return Report(text=f"I know of no open way to {name}.", nodes=(node_id,))
+        seconds = way_m / SPEED_MPS + handling_s
+        told = f"{seconds:.0f} seconds" if seconds < MINUTE_S else f"{seconds / MINUTE_S:.1f} minutes"
+        doing = f"bring you {name}" if what == "fetch" else f"get to {name}"
+        return Report(text=f"I would need about {told} to {doing}.", nodes=(node_id,))
+
+    def _battery(self) -> str:
         robot = self._snapshot.robot
-        return Report(text=f"My battery is at {100 * robot.battery:.0f} %." if robot else "I do not know.")
+        return f"My battery is at {100 * robot.battery:.0f} %." if robot else "I do not know how full my battery is."
 
     def _name(self, nodes: list[str]) -> Report:
         if not nodes:

@@ -75,3 +75,9 @@ def test_what_nobody_knows_is_still_asked_about():
 def test_a_question_never_moves_anything():
     for text in ("where did you put the key", "which room did you bring the apple to", "where do you get the cup"):
         assert not ask(text).goals
+
+
+def test_to_find_and_to_be_asked_where_is_one_question():
+    assert not ask("find Anna for me. Which room is she in?").goals
+    assert "living room" in ask("find Anna for me. Which room is she in?").reply
+    assert ask("find Anna, then go to the kitchen").goals

@@ -8,6 +8,7 @@ import pytest
 
 from majordomo.planner.grammar.paraphrase import RULES, paraphrased
 from wordings import MORE
+from wordings_of_talk import TALK
 
 SAME = [
     ("put the books away", "put the books"),
@@ -377,7 +378,7 @@ UNCHANGED = [
 ]
 
 
-@pytest.mark.parametrize(("typed", "said"), [*SAME, *MORE])
+@pytest.mark.parametrize(("typed", "said"), [*SAME, *MORE, *TALK])
 def test_a_wording_is_read_as_the_one_that_the_grammar_knows(typed, said):
     assert paraphrased(typed) == said
 
@@ -398,5 +399,5 @@ def changed_by(text):
 
 
 def test_every_rule_has_an_example_here():
-    used = set().union(*(changed_by(typed) for typed, _ in [*SAME, *MORE]))
+    used = set().union(*(changed_by(typed) for typed, _ in [*SAME, *MORE, *TALK]))
     assert [RULES[number] for number in range(len(RULES)) if number not in used] == []

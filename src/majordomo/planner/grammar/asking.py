@@ -9,6 +9,8 @@ from majordomo.planner.grammar.phrases import ORDINALS, SUPERLATIVE, Children, P
 from majordomo.planner.grammar.syntax import Ask, NounPhrase, Pronoun, Quantity, Reference, Restriction
 from majordomo.planner.plan import QueryKind
 
+_COMPARED = {"BIG": "bigger", "SMALL": "smaller", "NEAREST": "nearer", "FARTHEST": "farther"}
+
 
 class QuestionReader(PhraseReader):
     """One method a rule: how questions and conditions are read."""
@@ -97,6 +99,26 @@ class QuestionReader(PhraseReader):
             found["restrictions"] = (Restriction(relation="nearest", reference=values[0]),)
         return found
 
+    def most_at(self, children: Children) -> Ask:
+        """*Which room has the most cups.*"""
+        word = next(t.type for t in tokens_of(children) if t.type in ("MOST", "FEWEST"))
+        return Ask(kind=QueryKind.MOST, things=tuple(values_of(children)), word=word.lower())
+
+    def more_at(self, children: Children) -> Ask:
+        """*Which has more cups, the table or the desk.*"""
+        word = next(t.type for t in tokens_of(children) if t.type in ("MORE", "FEWER"))
+        return Ask(kind=QueryKind.MORE, things=tuple(values_of(children)), word=word.lower())
+
+    def compared_size(self, children: Children) -> Ask:
+        """*Which is bigger, the red cup or the blue one*: the noun may be said with one of them only."""
+        one, other = values_of(children)
+        token = tokens_of(children)[1]
+        if isinstance(one, NounPhrase) and isinstance(other, NounPhrase):
+            one = replace(one, words=other.words) if one.words == ("one",) else one
+            other = replace(other, words=one.words) if other.words == ("one",) else other
+        whether = tokens_of(children)[0].type == "BE"
+        return Ask(kind=QueryKind.COMPARE, things=(one, other), word=_COMPARED[token.type], least=int(whether))
+
     def support(self, children: Children) -> Ask:
         return Ask(kind=QueryKind.WHERE, things=next(v for v in values_of(children) if isinstance(v, tuple)))
 
@@ -125,6 +147,25 @@ class QuestionReader(PhraseReader):
 
     def battery(self, _: Children) -> Ask:
         return Ask(kind=QueryKind.BATTERY)
+
+    def own_nature(self, _: Children) -> Ask:
+        return Ask(kind=QueryKind.NATURE)
+
+    def well_being(self, _: Children) -> Ask:
+        return Ask(kind=QueryKind.WELL_BEING)
+
+    def source(self, _: Children) -> Ask:
+        return Ask(kind=QueryKind.SOURCE)
+
+    def duration(self, children: Children) -> Ask:
+        """*How long to reach the kitchen*, *to fetch the apple*."""
+        carried = any(token.type == "BRING" for token in tokens_of(children))
+        what = next(iter(values_of(children)), Pronoun(word="me"))
+        return Ask(kind=QueryKind.DURATION, things=(what,), word="fetch" if carried else "reach")
+
+    def nothing_at(self, children: Children) -> Ask:
+        """*Is there nothing on the table.*"""
+        return Ask(kind=QueryKind.EXISTS, place=values_of(children)[0], negated=True)
 
     def own_name(self, _: Children) -> Ask:
         return Ask(kind=QueryKind.NAME)

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 
+from majordomo.planner.grammar.comparison import comparisons
 from majordomo.planner.grammar.terminals import ASKING, RELATING, Terminal
 
 Tokens = Sequence[Terminal]
@@ -63,6 +64,7 @@ def plainly(tokens: Tokens, parses: Parses) -> list[Terminal]:
 
 def _shapes(tokens: list[Terminal]) -> Iterator[list[Terminal]]:
     first, rest = tokens[0].type, tokens[1:]
+    yield from comparisons(tokens)
     if first in ("ON", "IN") and rest and rest[0].type in ("WHAT", "WHICH"):
         yield from _wheres(_WHERE, _past_first_verb(rest))
     elif first in ("WHERE", "WHICH_ROOM", "WHICH_ROOMS"):

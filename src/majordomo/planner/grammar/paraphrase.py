@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 
+from majordomo.planner.grammar.wording.about_robot import ABOUT_ROBOT
 from majordomo.planner.grammar.wording.addressing import ADDRESSING
 from majordomo.planner.grammar.wording.asking import ASKING
 from majordomo.planner.grammar.wording.bringing import BRINGING
@@ -16,6 +17,7 @@ from majordomo.planner.grammar.wording.conditions import CONDITIONS
 from majordomo.planner.grammar.wording.courtesy import COURTESY, SLIPS, UNDOING
 from majordomo.planner.grammar.wording.discarding import DISCARDING
 from majordomo.planner.grammar.wording.going import FINDING, GOING
+from majordomo.planner.grammar.wording.inquiring import INQUIRING
 from majordomo.planner.grammar.wording.naming import NAMING
 from majordomo.planner.grammar.wording.returning import BACK
 from majordomo.planner.grammar.wording.wishing import WISHING
@@ -26,6 +28,8 @@ RULES: tuple[tuple[str, str], ...] = (
         *SLIPS,
         *COURTESY,
         *UNDOING,
+        *ABOUT_ROBOT,
+        *INQUIRING,
         *WISHING,
         *DISCARDING,
         *BRINGING,

@@ -186,7 +186,8 @@ class Pick:
 class Ask:
     """A question about ``things``, limited to ``place``.
 
-    ``negated``: *is the cup not on the table*. ``least``, ``most``: *are there at least two cups*.
+    ``negated``: *is the cup not on the table*. ``least``, ``most``: *are there at least two cups*. ``word``: what is
+    compared, *bigger*, or *most* or *fewest*.
     """
 
     kind: QueryKind
@@ -195,6 +196,7 @@ class Ask:
     negated: bool = False
     least: int | None = None
     most: int | None = None
+    word: str = ""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -84,20 +84,9 @@ ASKING: tuple[tuple[str, str], ...] = (
         ),
         "how do i get ",
     ),
-    (
-        (
-            "^why (?:can|could|did|do|will|would)(?: not)? you(?: not)? (?:do|carry out|finish|manage|handle"
-            r"|make|understand) (?:that|it|this)\b"
-        ),
-        "why did you fail",
-    ),
     (r"^what (?:do|can) you (?:have|got) in (?:view|sight)\b", "what do you see"),
     ("^who else ", "who "),
     (r"^(?:is|are) ([\w ]+?) (?:at home|home|in|around)(?=[?.!]*$)", r"where is \1"),
-    (
-        r"^is it possible (?:for you )?to (?:walk|go|get|drive|enter|come)(?: in)?(?:to)? (?=(?:the|my)\b)",
-        "can you reach ",
-    ),
     (
         (
             "^(?:can|could) you (?:get (?:in)?to|enter|reach|go (?:in)?to|drive (?:in)?to"
@@ -211,25 +200,11 @@ ASKING: tuple[tuple[str, str], ...] = (
     ("^where are you (?:now|right now|currently|at|at the moment|standing|located)(?=$|[.!?])", "where are you"),
     (
         (
-            "^(?:what|is there anything) (?:do you have |have you got |is |are you (?:carrying"
-            "|holding) )?in your (?:hands?|grippers?|arms?)(?: right now| now)?"
-        ),
-        "what are you holding",
-    ),
-    (
-        (
             "^(?:are you (?:carrying|holding) (?:something|anything)|do you (?:carry|hold) anything"
             "|what do you (?:hold|carry)|is your (?:hand|gripper) (?:empty|free|full))(?: right now| now"
             "| at the moment)?"
         ),
         "what are you holding",
-    ),
-    (
-        (
-            "^(?:what|which) (?:things|tasks|jobs|kind of things|sort of things|commands?|requests?) (?:can"
-            "|could) you (?:do|handle|understand|perform|follow)"
-        ),
-        "what can you do",
     ),
     (
         (

@@ -230,7 +230,7 @@ BRINGING: tuple[tuple[str, str], ...] = (
     (r"^what (\w+) (?:do|have) (?:we|you|i) (?:have|got)(?=$|[.!?])", r"which \1 are there"),
     (
         (
-            r"^(?:is|are) (.+?) (?:in|on|at) (?:the |a |my )[\w ]+? or (?:in |on |at )?(?:the |a "
+            r"^(?:is|are) (?!there\b)(.+?) (?:in|on|at) (?:the |a |my )[\w ]+? or (?:in |on |at )?(?:the |a "
             r"|my )?[\w ]+?(?=$|[.!?])"
         ),
         r"where is \1",

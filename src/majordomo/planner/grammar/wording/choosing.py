@@ -26,7 +26,7 @@ CHOOSING: tuple[tuple[str, str], ...] = (
     ),
     (
         (
-            r"\bthe (red|green|blue|yellow|black|white|brown|pink|purple|gray|grey|gold|silver) "
+            r"(?<!er, )\bthe (red|green|blue|yellow|black|white|brown|pink|purple|gray|grey|gold|silver) "
             r"(\w+) or (?:the |an? )?(red|green|blue|yellow|black|white|brown|pink|purple|gray|grey"
             r"|gold|silver) ones?\b"
         ),

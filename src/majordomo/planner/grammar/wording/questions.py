@@ -131,7 +131,7 @@ SHAPES: tuple[tuple[str, str], ...] = (
     ),
     (
         (
-            r"^(?:are|is) there (?:more|fewer|less|as many) ([\w ]+?) (?:than|as|or(?: more)?) "
+            r"^(?:are|is) there (?:more|fewer|less|as many) ((?:(?!in |on |at )\w+ ?)+?) (?:than|as|or(?: more)?) "
             r"([\w ]+?)( (?:in|on|at|under) [^?]+?)?(?=[?.!]*$)"
         ),
         r"how many \1 are there\3? how many \2 are there\3",
@@ -141,14 +141,6 @@ SHAPES: tuple[tuple[str, str], ...] = (
         r"how many \1 are there? how many \2 are there",
     ),
     (r"^(?:the )?(?:number|count|amount|total)(?: number)? of ([^?]+?)(?: please)?(?=[?.!]*$)", r"how many \1"),
-    (
-        (
-            r"^(?:tell me |and |so |say )*(?:what|which things?)(?: are| do| have)? you(?: are| have)?"
-            r"(?: got)?(?: currently| now)? (?:holding|carrying|gripping|grasping|hold|carry|have|got)"
-            r"(?: (?:in|with) (?:that|your|the) [\w ]+?)?(?: right now| now| at the moment)?(?=[?.!]*$)"
-        ),
-        "what are you holding",
-    ),
     (
         (
             r"^(?:tell me |and |so |say )*(?:what|which) (?:all )?(?:are you|things are you) (?:able"

@@ -1,0 +1,164 @@
+"""Questions about the robot itself: who it is, how it is, what it did, what it can do, what it has in its hand."""
+
+from __future__ import annotations
+
+_NOW = r"(?: (?:now|right now|at the moment|currently|today|yet|already|again|please|then|just now|so far|still))*"
+_END = rf"{_NOW}(?=[?.!]*$)"
+
+ABOUT_ROBOT: tuple[tuple[str, str], ...] = (
+    (
+        (
+            r"^(?:good (?:job|work|night|robot|boy|bye)|well done|nice (?:work|job|one)|great job|bye(?: bye)?"
+            r"|goodbye"
+            r"|see you(?: later| soon| tomorrow)?|perfect|excellent|awesome|brilliant|wonderful|great|lovely"
+            r"|nice|cool"
+            r"|fantastic|that is (?:great|good|perfect|nice|fine|all|it)|i (?:love|like) you|you are (?:great"
+            r"|the best"
+            r"|awesome|wonderful|a star|welcome))(?:,? (?:robot|thanks|thank you|then|majordomo))*[.! ]*$"
+        ),
+        "thanks",
+    ),
+    (
+        (
+            r"^(?:(?:who|what)(?: exactly| kind of (?:thing|robot|machine))? are you|are you (?:a |the"
+            r" )?(?:robot|machine|human"
+            r"|person|alive|real|majordomo|computer|man|woman)|(?:please )?introduce yourself|(?:can you |could"
+            r" you )?tell me"
+            r" (?:something |a (?:bit|little) |more )?about yourself|what (?:kind|sort) of (?:robot|machine"
+            r"|thing) are you"
+            rf"|do you have a name|what is your name|who do i (?:talk|speak) (?:to|with)|who am i (?:talking"
+            rf"|speaking) to){_END}"
+        ),
+        "who are you",
+    ),
+    (
+        (
+            r"^(?:how are you(?: doing| feeling| today)*|are you (?:ok|okay|all right|alright|well|fine|feeling"
+            r" well|good)"
+            r"|how do you (?:feel|do)|how is (?:it|everything|life) going|is everything (?:ok|okay|fine|all right))"
+            rf"{_END}"
+        ),
+        "how are you",
+    ),
+    (
+        (
+            r"^(?:are you (?:free|available|ready|idle|waiting|occupied|working|awake|there|listening)"
+            r"|do you have (?:time|anything to do|something to do|a moment)|what (?:are you going to|will you|do"
+            r" you plan to|are you"
+            r" about to) do(?: next)?|what is (?:next|your next (?:task|step|job))|what comes next|what is on"
+            r" your list"
+            rf"|do you have (?:any|a) (?:task|job|plan|order)s?(?: left)?){_END}"
+        ),
+        "what are you doing",
+    ),
+    (
+        (
+            r"^(?:are you (?:fully |completely )?(?:charged|charging|low|tired|hungry|exhausted|empty|low on"
+            r" (?:power|battery"
+            r"|energy|juice))|do you (?:need|have|want)(?: to)? (?:be |get )?(?:charging|charged|charge|recharge"
+            r"|recharging"
+            r"|a (?:re)?charge|(?:enough )?(?:power|battery|energy|juice)(?: left)?|a break|a rest|rest|sleep"
+            r"|refueling)"
+            r"|how (?:long|far) (?:will|does|can) (?:your (?:battery|charge|power)|you) (?:last|hold out|go on"
+            r"|keep going|get)"
+            r"|how many (?:battery|power|energy|juice|charge) (?:is left|do you have(?: left)?|have you got(?:"
+            r" left)?|remains)"
+            r"|(?:is|are) your (?:battery|batteries) (?:ok|okay|fine|charged|empty|full|low|flat|dead|all right|good)"
+            rf"|when (?:do|must|will) you (?:have to |need to )?(?:re)?charge){_END}"
+        ),
+        "how is your battery",
+    ),
+    (
+        (
+            r"^(?:tell me |and |so |say )*(?:what|which things?)(?: are| do| have)? you(?: are| have)?(?: got)?"
+            r"(?: currently| now)? (?:holding|carrying|gripping|grasping|hold|carry|have|got)"
+            rf"(?: (?:in|with) (?:that|your|the) [\w ]+?)?{_END}"
+        ),
+        "what are you holding",
+    ),
+    (
+        (
+            r"^(?:what (?:have you got|do you have|is that|are you bringing|did you pick up|is)(?: there| with"
+            r" you| in there)?"
+            r"(?: (?:in|with) your (?:hands?|grippers?|arms?|claws?|fingers))|what have you got(?: there)?|what"
+            r" do you have there"
+            r"|(?:is|are) your (?:hands?|grippers?|arms?) (?:empty|free|full|busy|occupied)|do you have a free hand"
+            rf"|have you got (?:anything|something)(?: in your (?:hands?|grippers?))?|are you empty-?handed){_END}"
+        ),
+        "what are you holding",
+    ),
+    (
+        (
+            r"^(?:are you able to|can you|could you|do you know how to|would you be able to|do you) (?:bring"
+            r"|fetch|carry|find|get"
+            r"|move|pick up|deliver|transport|take|look for|lift|hold|grab|handle)(?: me| us| up| people)?"
+            r" (?:some )?(?:things"
+            r"|stuff|something|objects|items|anything|small things|everyday things)"
+            rf"(?: (?:around|for me|for us|to people|to me|from other rooms|up|for people))*{_END}"
+        ),
+        "what can you do",
+    ),
+    (
+        (
+            r"^(?:what (?:can|could|may|should|might|do) (?:i|we|one|people) (?:all )?(?:ask|tell|request|say"
+            r"|order|have|get|let"
+            r"|make)(?: (?:of|to|from))? ?(?:you|a robot)?(?: (?:to do|do|for|about))?(?: for (?:me|us))?"
+            r"|(?:what|which) (?:kinds?|sorts?|types?)? ?(?:of )?(?:things|questions|tasks|jobs|requests"
+            r"|commands|orders)"
+            r" (?:can|could|may|should|do) (?:i|we|one|you) (?:ask|give|understand|answer|do|say|tell|handle"
+            r"|perform|follow)(?: to|"
+            r" of)?(?: you)?"
+            r"(?: to do| for)?|how (?:do|can|could|should) (?:i|we) (?:use|control|command|talk to|work with"
+            r"|instruct) you"
+            r"|(?:give|show|tell) me (?:an example|some examples|what you can do)|what (?:use|good) are you"
+            rf"|what are you (?:here )?for|how can you (?:be of help|help|assist)(?: me| us)?){_END}"
+        ),
+        "what can you do",
+    ),
+    (
+        (
+            r"^(?:(?:do|did) you know (?:what )?my name(?: is)?|what is my name|what am i called|what do you call me"
+            rf"|do you (?:know|recognize|remember) (?:me|who i am)|tell me my name){_END}"
+        ),
+        "who am i",
+    ),
+    (
+        (
+            r"^(?:are you (?:done|finished|through)|have you (?:finished|completed|done) ?(?:it|that|with that"
+            r"|the job|the task"
+            r"|everything|your (?:task|job|work))?|is (?:it|that|the (?:job|task|work)) (?:done|finished"
+            r"|complete|over)"
+            r"|did (?:you (?:do|finish|manage|make|get) (?:it|that)(?: done)?|it work(?: out)?|that work)|how"
+            r" did (?:it|that) go"
+            r"|what (?:did you do|happened) before(?: that)?|where (?:were you|have you been)(?: before| until"
+            r" now| all this time"
+            rf"| earlier)?){_END}"
+        ),
+        "what did you do",
+    ),
+    (
+        (
+            r"^why (?:did|have|do|are|were|could|can|was)(?: not)? (?:you|it|that)(?: not)? (?!reach|go |get "
+            r"|drive |enter )"
+            r"(?:bring|fetch|take|get|put|move|do|come|go|find|pick|deliver|finish|stop|stopped|brought|done"
+            r"|failed|fail|work"
+            r"|refuse|wait|stand|standing|give|gave|carry|obey|listen)[^?.!,]*(?=[?.!]*$)"
+        ),
+        "why did you fail",
+    ),
+    (
+        r"^can you see (?:me|us)(?: (?:now|from (?:there|here)))?(?=[?.!]*$)",
+        "where am i",
+    ),
+    (
+        (
+            r"^(?:how do you know(?: (?:that|this|it))?|are you (?:\w+ )?(?:sure|certain|positive)(?: (?:about"
+            r"|of) (?:it|that|this))?"
+            r"|is that (?:true|certain|right|correct|really so)|really|how (?:sure|certain) are you|do you"
+            r" really know(?: that)?)"
+            rf"{_END}"
+        ),
+        "how do you know",
+    ),
+)
+"""Before the rules of ``ASKING``."""

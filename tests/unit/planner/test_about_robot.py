@@ -1,0 +1,62 @@
+"""What the robot says of itself."""
+
+from __future__ import annotations
+
+import pytest
+
+from grammar_home import home
+from majordomo.planner.goals import Goal, Predicate
+from majordomo.planner.grammar.parser import CommandGrammar
+from majordomo.planner.interpreter import Interpreter
+from majordomo.planner.plan import Dialogue, Exchange
+from majordomo.planner.verifier import Verifier
+from majordomo.skills.registry import load_registry
+
+INTERPRETER = Interpreter(CommandGrammar(), Verifier(load_registry([])))
+SNAPSHOT = home().snapshot(robot_in="room_2", at=(4.2, 0.0))
+BROUGHT = Exchange(
+    request="bring me the apple",
+    goals=(Goal(predicate=Predicate.GIVEN, args=("apple_1", "person_2")),),
+    status="succeeded",
+    explanation="The red apple is with user.",
+)
+
+
+def ask(text, *earlier):
+    return INTERPRETER.read(text, SNAPSHOT, Dialogue(earlier=earlier)).interpretation
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("who are you?", "I am Majordomo"),
+        ("hello! who are you?", "I am Majordomo"),
+        ("are you a robot?", "I am Majordomo"),
+        ("how are you?", "I am fine"),
+        ("do you need charging?", "100 %"),
+        ("are you tired?", "100 %"),
+        ("what have you got there?", "I am holding nothing"),
+        ("are you free?", "waiting for your request"),
+        ("what could I ask you?", "I can go to places"),
+        ("do you know my name?", "You are user"),
+        ("how do you know that?", "seen myself"),
+        ("how long would it take you to get to the kitchen?", "I would need about"),
+        ("how long does it take to bring me the apple?", "to bring you the red apple"),
+        ("how long would it take to get to the bathroom?", "no open way"),
+    ],
+)
+def test_questions_about_the_robot_are_answered(text, said):
+    assert said in ask(text).reply
+
+
+@pytest.mark.parametrize("text", ["have you finished?", "did it work?", "what did you do?", "where have you been?"])
+def test_what_it_did_is_told(text):
+    assert "bring me the apple" in ask(text, BROUGHT).reply
+
+
+def test_fetching_takes_longer_than_going():
+    def seconds(text):
+        number, unit = ask(text).reply.removeprefix("I would need about ").split()[:2]
+        return float(number) * (60 if unit.startswith("minute") else 1)
+
+    assert seconds("how long to fetch the apple") > seconds("how long to reach the apple")

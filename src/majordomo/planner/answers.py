@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from majordomo.planner.comparing import COMPARING, Comparing
-from majordomo.planner.grammar.syntax import Ask, NounPhrase, Quantity, Reference, Restriction
+from majordomo.planner.grammar.syntax import Ask, NounPhrase, Pronoun, Quantity, Reference, Restriction
 from majordomo.planner.grounding import Ambiguous, Context, Grounding, NoReferent
 from majordomo.planner.matching import nodes_of
 from majordomo.planner.naming import at, listed, name_of
@@ -48,6 +48,8 @@ class Answers:
     def of(self, ask: Ask, context: Context) -> Answer | NoReferent | Ambiguous:
         """The answer, or why the question cannot be put to the graph."""
         nodes: tuple[str, ...] = ()
+        if about_openness(ask) and isinstance(ask.things[0], Pronoun) and context.places:
+            context = replace(context, fresh=context.places[:1])  # *go to the den if it is open*
         if ask.kind in REPORTED | COMPARING:
             return self._reported(ask, context)
         match ask.kind:

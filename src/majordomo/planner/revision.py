@@ -20,6 +20,7 @@ _COURTESY = r"(?:(?:sorry|oops|wait|hm+|um|ah|oh|hang on|hold on|excuse me|pleas
 _TRAILING = re.compile(r"[\s,]+(?:instead|please|rather|actually|i mean|i meant)[\s.!]*$")
 _LED = re.compile(rf"^{_COURTESY}")
 _SAID = re.compile(r"^(?:i|we) (?:meant|mean|said)(?: to say)?[\s,:]+")
+_MADE = re.compile(r"^(?:make (?:it|that)|let us make it|i mean)[\s,]+(?=\w)")
 _NO = re.compile(
     rf"^{_COURTESY}(?:no+|nope|not (?:that|this)(?: one)?"
     r"|not (?:to|on|in|into|onto|at) [\w ]+?(?=[,;.])|not \w+(?: ones?)?(?=[,;.] )"
@@ -116,7 +117,8 @@ def revision(text: str) -> Revision | None:
     for pattern in (_INSTEAD, _NO, _MEANT, _SORRY, _NOT):
         found = pattern.match(said)
         if found and found["rest"].strip(" .!?"):
-            rest = _NOT_THAT.sub("", _TRAILING.sub("", _SAID.sub("", _LED.sub("", found["rest"]))))
+            rest = _MADE.sub("", _SAID.sub("", _LED.sub("", found["rest"])))
+            rest = _NOT_THAT.sub("", _TRAILING.sub("", rest))
             return Revision(how="correct", rest=rest.strip(" .!?"))
     found = _TOO.match(said)
     if found:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
+from majordomo.planner.choosing import spoken_for
 from majordomo.planner.grammar.parser import CommandGrammar
 from majordomo.planner.grammar.syntax import Quantity
 from majordomo.planner.grammar.tokens import words_of
@@ -12,7 +13,22 @@ from majordomo.planner.grounding import Context
 from majordomo.planner.interpreter import Interpreter
 from majordomo.scene_graph.snapshot import Snapshot
 
-_ORDINALS = {"first": 0, "1": 0, "second": 1, "2": 1, "third": 2, "3": 2, "fourth": 3, "4": 3, "fifth": 4, "5": 4}
+_ORDINALS = {
+    "former": 0,
+    "1st": 0,
+    "2nd": 1,
+    "3rd": 2,
+    "first": 0,
+    "1": 0,
+    "second": 1,
+    "2": 1,
+    "third": 2,
+    "3": 2,
+    "fourth": 3,
+    "4": 3,
+    "fifth": 4,
+    "5": 4,
+}
 _ALL = {"all", "both", "all of them", "both of them", "everything", "every one"}
 _ANY = {
     "any",
@@ -42,7 +58,30 @@ _ANY = {
     "one of them",
     "it makes no difference",
 }
-_DROPPED = frozenset({"please", "the", "one", "number", "take", "i", "mean", "meant", "bring", "option", "a", "an"})
+_DROPPED = frozenset(
+    {
+        "you",
+        "mentioned",
+        "said",
+        "named",
+        "listed",
+        "told",
+        "me",
+        "that",
+        "please",
+        "the",
+        "one",
+        "number",
+        "take",
+        "i",
+        "mean",
+        "meant",
+        "bring",
+        "option",
+        "a",
+        "an",
+    }
+)
 _YES = {"yes", "yeah", "yep", "sure", "ok", "okay", "right", "correct", "exactly", "yes please", "please do", "do it",
         "that is right", "yes do it", "go ahead", "of course", "indeed", "yes that is right", "i did",
         "yes i did"}  # fmt: skip
@@ -53,25 +92,30 @@ _NO = {"no", "nope", "neither", "none", "none of them", "nothing", "no thanks", 
        "none of these", "no one", "nothing thanks"}  # fmt: skip
 NOTHING_THEN = "All right, I do nothing."
 _LEFT_OUT = re.compile(
-    r"^(?:(?:no|just|but|please|well|oh|any(?:thing)?|any one|all|whichever|the one)\b[\s,]*)*"
+    r"^(?:(?:no|just|but|please|well|oh|h+m+|u+m+|u+h+|e+r+m?|ah|eh|definitely|certainly|surely|maybe|any(?:thing)?"
+    r"|any one|all|whichever|the one)\b[\s,]*)*"
     r"(?:(?:that |which )?(?:is |it is |are )?(?:not|neither)(?! that)|isn't|it isn't|but|except(?: for)?|other than"
     r"|apart from|rather than)"
-    r" (?P<what>[^,;.]+)[\s.!]*$"
+    r" (?P<what>[^,;.]+)(?:[\s,;]+(?:but )?(?:the|that) other(?: one)?)?[\s.!]*$"
 )
 _ANY_WILL_DO = re.compile(
     r"^(?:(?:(?:any|either|whichever|whatever)(?: one)?(?: of (?:them|those|these|the two))?"
     r"(?: (?:(?:is|are|would be|will be) (?:fine|ok|okay|good|all right|alright)|(?:will|would) do))?"
     r"|(?:it |that )?(?:really )?does not (?:really )?matter(?: which(?: one)?)?"
-    r"|i (?:really )?do not (?:really )?(?:mind|care)(?: which(?: one)?)?)(?: |$))+$"
+    r"|i (?:really )?do not (?:really )?(?:mind|care)(?: which(?: one)?)?|to me"
+    r"|(?:just |you )*(?:pick|choose|take|grab|select) (?:one|any|either|whichever)(?: of them)?"
+    r"|(?:you (?:can |may )?(?:choose|decide|pick)|your choice|up to you|it is up to you|as you (?:like|wish"
+    r"|please)))(?: |$))+$"
 )
 _ADDED = re.compile(
-    r"[\s,]+(?:of course|obviously|naturally|definitely|i (?:guess|think|suppose|mean)|please"
+    r"[\s,]+(?:of course,? what else|what else|who else|silly|dummy|you know|of course|obviously|naturally"
+    r"|definitely|i (?:guess|think|suppose|mean)|please"
     r"|then|instead|if possible|thanks?)"
     r"(?=[\s.!]*$)"
 )
 _WHICHEVER = re.compile(
     r"^(?:whichever|the one that|the one which|that which)(?: one)? is (?:the )?(nearest"
-    r"|closest|biggest|largest|smallest)\b"
+    r"|closest|biggest|largest|smallest|nearer|closer|bigger|larger|smaller)\b(?: to (?:me|you|here))?"
 )
 _LIKED = re.compile(
     r"^(?:i think |i guess |maybe |perhaps |let us say |make it |let us take |go for |i (?:want"
@@ -142,7 +186,8 @@ def select(
         chosen = _chosen(liked["which"], candidates, snapshot, interpreter, grammar)
         if chosen:
             return chosen
-    return _chosen(answer, candidates, snapshot, interpreter, grammar)
+    chosen = _chosen(answer, candidates, snapshot, interpreter, grammar)
+    return chosen or spoken_for(answer, candidates, interpreter.lexicon(snapshot), interpreter.grounding(snapshot))
 
 
 def _chosen(
@@ -160,7 +205,7 @@ def _chosen(
     short = [word for word in words if word not in _DROPPED]
     if len(short) == 1 and short[0] in _ORDINALS and _ORDINALS[short[0]] < len(candidates):
         return (candidates[_ORDINALS[short[0]]],)
-    if short == ["last"]:
+    if short in (["last"], ["latter"]):
         return tuple(candidates[-1:])
     return _described(said, candidates, snapshot, interpreter, grammar)
 

@@ -77,6 +77,7 @@ _LEADS = (
     r"(?:(?:on second thoughts?|actually|no|oh|well|sorry|you can|you may|could you|can you"
     r"|let us|just|wait|please|robot|majordomo|hey|ok|okay|now|quick)[\s,]+)*"
 )
+_ENOUGH = r"(?:(?:that is )?enough(?: (?:now|of (?:that|this|it)))?|(?:quit|cut) it(?: out)?|knock it off)"
 _SHAPES: tuple[tuple[Control, re.Pattern[str]], ...] = tuple(
     (control, re.compile(rf"{_LEADS}(?:{pattern})(?: please| now| robot| for now| thanks?(?: you)?)*"))
     for control, pattern in (
@@ -110,7 +111,8 @@ _SHAPES: tuple[tuple[Control, re.Pattern[str]], ...] = tuple(
                 r"(?:hold your horses|bear with me|stand by|hang fire|hold fire|time ?out|give me (?:a|one"
                 r"|just a) (?:sec|second|moment|minute)|(?:just )?(?:wait|hold on|hang on|pause)(?: right"
                 r"| just)?"
-                r"(?: there| here| up| on| a while| a bit| for a bit| a little| for me| what you are doing| that| it)*)"
+                r"(?: there| here| up| on| a while| a bit| for a bit| a little| for me| what you are doing| that"
+                r"| it)*)"
             ),
         ),
         (
@@ -134,6 +136,40 @@ _SHAPES: tuple[tuple[Control, re.Pattern[str]], ...] = tuple(
                 r"(?:do not (?:you )?(?:move|budge|stir)(?: a muscle)?|(?:hold|keep|stay|stand|be) (?:still"
                 r"|put)|stop (?:dead|in your tracks|driving|right now|this instant|at once|this second"
                 r"|everything|all of that|whatever you are doing))"
+            ),
+        ),
+        (
+            Control.STOP,
+            (
+                rf"(?:{_ENOUGH}|(?:stop|halt|freeze)(?: (?:it|that|this|(?:the |that |this )?(?:robot|machine"
+                rf"|thing)|everything"
+                r"|(?:what|whatever) you are doing|moving|driving|dead|at once|right (?:there|now|away)|there"
+                r"|now|immediately"
+                r"|this (?:instant|second|minute|moment)|please|everybody|everyone|all|here|right here))+)"
+            ),
+        ),
+        (
+            Control.PAUSE,
+            (
+                r"(?:pause|suspend|interrupt)(?: (?:it|that|this|(?:the|your|that|this|my) (?:\w+ )?"
+                r"(?:task|job|work|mission|order|request|errand|trip)|for (?:now|a \w+|the moment)|a \w+))+|take"
+                r" (?:five|ten)"
+            ),
+        ),
+        (
+            Control.CANCEL,
+            (
+                r"(?:i|we) (?:do not|no longer) (?:need|want) (?:it|that|them|this|anything)(?: any ?more| now|"
+                r" after all"
+                r"| at all| done)*|let go of (?:it|that|everything|all of it)(?: you were doing)?|leave it at that"
+            ),
+        ),
+        (
+            Control.RESUME,
+            (
+                r"(?:resume|continue|carry on|proceed|keep (?:going|on|at it|moving)|move on|get on with it"
+                r"|unpause|go on"
+                r"|go ahead|pick it up again|get going)(?: (?:now|again|then|please|if you like))*"
             ),
         ),
         (
@@ -173,7 +209,17 @@ def control_word(text: str) -> Control | None:
 
 
 def _shaped(text: str) -> Control | None:
-    said = " ".join(word.text for word in words_of(text) if word.kind == "word")
+    """The control whose shape the whole has, or each of its parts: *I changed my mind, forget the whole thing*."""
+    words = [word for word in words_of(text) if word.kind in ("word", "comma", "stop")]
+    found = _of_shape(" ".join(word.text for word in words if word.kind == "word"))
+    parts: list[list[str]] = [[]]
+    for word in words:
+        parts = [*parts[:-1], [*parts[-1], word.text]] if word.kind == "word" else [*parts, []]
+    controls = {_one_control(part) or _of_shape(" ".join(part)) for part in parts if set(part) - _COURTESY}
+    return found or (controls.pop() if len(controls) == 1 else None)
+
+
+def _of_shape(said: str) -> Control | None:
     return next((control for control, shape in _SHAPES if shape.fullmatch(said)), None)
 
 

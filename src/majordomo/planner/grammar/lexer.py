@@ -14,6 +14,7 @@ from majordomo.planner.grammar.tagging import tagged
 from majordomo.planner.grammar.terminals import ACTING, ASKING, Terminal
 from majordomo.planner.grammar.tokens import Word, words_of
 
+NAMING_LEADS = (("name", "is"), ("is", "called"), ("called",), ("named",), ("known", "as"), ("call", "me"))
 MAX_ROLE = 3
 """Words that tell what a person is, before the name."""
 
@@ -21,7 +22,10 @@ MAX_ROLE = 3
 def sentences(text: str, lexicon: Lexicon) -> list[list[Terminal]]:
     """The sentences of a request, each as a list of terminals; courtesy is dropped."""
     typed_words = [Word(part, word.kind) for word in words_of(text) for part in _parted(word, lexicon)]
-    words = [Word(lexicon.meant(word.text), "word") if word.kind == "word" else word for word in typed_words]
+    words = [
+        Word(lexicon.meant(word.text), "word") if word.kind == "word" and not _is_name(typed_words, k) else word
+        for k, word in enumerate(typed_words)
+    ]
     words = [word for word in _joined(words, lexicon) if word.kind != "word" or word.text not in ADVERBS]
     found: list[list[Terminal]] = [[]]
     for token in _owned(_by_name(settled_uses(tagged(words, lexicon), lexicon))):
@@ -30,6 +34,11 @@ def sentences(text: str, lexicon: Lexicon) -> list[list[Terminal]]:
         elif token.type not in ("FILLER", "FRAME"):
             found[-1].append(token)
     return [trimmed(sentence) for sentence in found if trimmed(sentence)]
+
+
+def _is_name(words: Sequence[Word], index: int) -> bool:
+    """Whether a word is what somebody or something is to be called: a name is taken as it was typed."""
+    return any(tuple(word.text for word in words[max(0, index - len(lead)) : index]) == lead for lead in NAMING_LEADS)
 
 
 def _joined(words: Sequence[Word], lexicon: Lexicon) -> list[Word]:

@@ -19,6 +19,7 @@ from majordomo.planner.grammar.wording.discarding import DISCARDING
 from majordomo.planner.grammar.wording.going import FINDING, GOING
 from majordomo.planner.grammar.wording.inquiring import INQUIRING
 from majordomo.planner.grammar.wording.naming import NAMING
+from majordomo.planner.grammar.wording.renaming import RENAMING
 from majordomo.planner.grammar.wording.returning import BACK
 from majordomo.planner.grammar.wording.wishing import WISHING
 
@@ -34,6 +35,7 @@ RULES: tuple[tuple[str, str], ...] = (
         *DISCARDING,
         *BRINGING,
         *CHOOSING,
+        *RENAMING,
         *NAMING,
         *ASKING,
         *FINDING,

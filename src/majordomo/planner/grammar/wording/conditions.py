@@ -2,7 +2,40 @@
 
 from __future__ import annotations
 
+_ELLIPTIC = r"(?:he|she|it|they|there|that|this|we|you|i)"
+_DOES = r"(?:is|are|was|were|does|do|did|has|have|can)"
+_DEED = (
+    r"(?:go|bring|put|take|come|get|drive|fetch|return|wait|pick|give|carry|tell|move|leave|stay|please|then"
+    r"|hand|drop)"
+)
+
 CONDITIONS: tuple[tuple[str, str], ...] = (
+    (r"^only if (.+?),? (?:should|shall|must|may|can) (?:you|it|they) ", r"if \1, "),
+    (r"^only (bring|take|put|give|go|get|fetch|move|carry) ([^,.;]+?) if ", r"\1 \2 if "),
+    (
+        (
+            r"\b(if|unless|whether|provided(?: that)?|in case|as long as|assuming(?: that)?|so long as) (?:we|i"
+            r"|you|they)"
+            r" (?:still |really |already |actually )*(?:have|have got|own|possess)(?: still| got)? "
+        ),
+        r"\1 there is ",
+    ),
+    (
+        (
+            rf"(?<=[.?!;] )(?:and |but )?if (?:{_ELLIPTIC} {_DOES}(?: (?:there|so|open|one|some|any|true|at home"
+            rf"|home))?"
+            rf"|there (?:is|are)(?: one| some| any)?|yes|so|that is so)(?:, ?(?:then )?| then | (?={_DEED}\b))"
+        ),
+        "if so, ",
+    ),
+    (
+        (
+            rf"(?<=[.?!;,] )(?:and |but )?if (?:{_ELLIPTIC} {_DOES} not(?: (?:there|so|one|some|any|open))?"
+            rf"|there (?:is|are) (?:none|not any|no such thing|nothing)(?: left| there)?)(?:, ?(?:then )?| then |"
+            rf" (?={_DEED}\b)| (?=(?:the|a|an) ))"
+        ),
+        "otherwise ",
+    ),
     (
         (
             r"\bif (\w+) (?:has left|is out of|is no longer in|has gone from|has gone out of"
@@ -12,7 +45,8 @@ CONDITIONS: tuple[tuple[str, str], ...] = (
     ),
     (
         (
-            r",? or(?: else)?,? ((?:the|an?|some|my) [\w ]+?) if (?:there (?:is|are) (?:none|no \w+|not any)(?: left)?"
+            r",? or(?: else)?,? ((?:the|an?|some|my) [\w ]+?) if (?:there (?:is|are) (?:none|no \w+|not any)(?:"
+            r" left)?"
             r"|you (?:can not|do not) (?:find|see) (?:it|any|one|them)|(?:it|that|they) (?:is|are) "
             r"(?:gone|not there|missing)"
             r"|not)(?=$|[.!])"
@@ -26,7 +60,10 @@ CONDITIONS: tuple[tuple[str, str], ...] = (
         "if there is ",
     ),
     (
-        r"\bif you (?:happen to )?(?:see|find|come across|spot|notice|have|discover) (?!it\b|them\b|him\b|her\b)(?=\w)",
+        (
+            r"\bif you (?:happen to )?(?:see|find|come across|spot|notice|have|discover) (?!it\b|them\b|him\b"
+            r"|her\b)(?=\w)"
+        ),
         "if there are ",
     ),
     (
@@ -68,7 +105,14 @@ CONDITIONS: tuple[tuple[str, str], ...] = (
         r"\1if ",
     ),
     (r"^should (there|the [\w ]+?|\w+) be (.+?),", r"if \1 is \2,"),
-    (r"\bif there (?:is|are) (?:any|some|one|a few)(?: left)?(?=$|[.!?,])", ""),
+    (
+        (
+            r"\bif there (?:is|are) (?:still )?(?:any|some|one|a few|such a thing)(?: left| around| there| to be"
+            r" had)?"
+            r"(?=$|[.!?,]| or else| otherwise)"
+        ),
+        "",
+    ),
     (r"\bgo to (the [\w ]+?) if (\w+|the [\w ]+?) is there\b", r"go to \1 if \2 is in \1"),
     (
         (
@@ -78,7 +122,7 @@ CONDITIONS: tuple[tuple[str, str], ...] = (
         ),
         "",
     ),
-    (r"\b(is|are) (?:not )?(?:locked|shut)\b", r"\1 closed"),
+    (r"\b(is|are) (not )?(?:locked|shut)\b", r"\1 \2closed"),
     (
         (
             "^(?:please )?(?:go (?:and )?)?(?:check|see|look|find out|tell me) (?:if|whether) (.+?)(?:[.,;?]"

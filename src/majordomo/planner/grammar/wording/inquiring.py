@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-_ASKED = r"(?:how|where|what|which|who|is|are|do|does|can|have|has|did|in which|whose|when|why)"
+_ASKED = r"(?:how|where|what|which|who|is|are|do|does|can|have|has|did|in which|whose|when|why|if)"
 _ADDRESSED = (
     r"(?:young|old|dear|good|kind|my|little|mr|mister|miss|madam|ma'am|sir|man|lady|boy|girl|friend|buddy|mate|pal"
     r"|fellow|robot|there|you|everyone|folks|love|darling|honey|sweetie|son|dude|chap|then|again)"

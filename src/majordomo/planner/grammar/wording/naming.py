@@ -80,16 +80,8 @@ NAMING: tuple[tuple[str, str], ...] = (
     ("^(?:we|i|you|they) (?:are|will be) (?:calling|naming) ", "call "),
     (r"^(the .+?) belongs to \w+[,;.]+ (?:and |so )?(?:it|that|this) is (?=(?:my|\w+'s|our)\b)", r"call \1 "),
     ("^this (?:here|room here|place here|one here) is ", "this is "),
-    (
-        (
-            "^(?:just so you know|for your information|fyi|remember this|note this|learn this|please note"
-            "|by the way|btw|listen)[,.:;]* "
-        ),
-        "",
-    ),
     (r"\b(?:from now on|in future|in the future|henceforth|as of now)[,:]* (?=\w)", ""),
     ("[, ]+(?:from now on|in future|in the future|henceforth)(?=$|[.!])", ""),
-    ("^(?:please )?(?:remember|note|know|keep in mind|learn|be aware|memorize|do not forget)(?: that|:|,)+ ", ""),
     (r"^you are (?:now )?in (?=(?:the|my) [\w ]+$)", "this room is "),
     (
         (

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from majordomo.planner.grammar.verbs import PAST
+
+TENSELESS = ("found", "located", "put", "got", "gotten", "picked up")
 TALK: list[tuple[str, str]] = [
     ("see you later, robot", "thanks"),
     ("what are you", "who are you"),
@@ -73,4 +76,22 @@ TALK: list[tuple[str, str]] = [
     ("is anna here? if she is not, go", "is anna here? otherwise go"),
     ("is the door open? then go", "is the door open? if so, go"),
     ("if the door is not shut, go", "if the door is not closed, go"),
+    ("what did i ask you?", "what did i ask?"),
+    ("have you been in the kitchen?", "did you go to the kitchen?"),
+    ("is there still milk?", "is there milk?"),
+    ("are we out of milk?", "is there no milk?"),
+    ("what is missing?", "which things are missing?"),
+    ("teddy bear where?", "where is the teddy bear?"),
+    ("where oh where is the key", "where is the key"),
+    ("the cup is what color", "what color is cup"),
+    ("cup color?", "what color is cup?"),
+    ("cups, how many?", "how many cups?"),
+    ("anna is where?", "where is anna?"),
+    ("my phone is not on the desk, where is it", "where is my phone"),
+    ("how far are you from the hall", "how far is it to the hall"),
+    ("which way to the hall", "how do i get to the hall"),
+    ("is there a fork or a spoon?", "is there a fork? is there a spoon?"),
+    ("what can i eat", "which food is there"),
+    ("what can i drink?", "which drinks are there?"),
+    *((f"have you {past} the cup", f"did you {verb} the cup") for past, verb in PAST.items() if past not in TENSELESS),
 ]

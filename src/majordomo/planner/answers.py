@@ -12,7 +12,7 @@ from majordomo.planner.grounding import Ambiguous, Context, Grounding, NoReferen
 from majordomo.planner.matching import nodes_of
 from majordomo.planner.naming import at, listed, name_of
 from majordomo.planner.narrowing import Narrowing
-from majordomo.planner.openness import about_openness, is_open, not_known, undecided, without_openness
+from majordomo.planner.openness import about_loss, about_openness, is_open, not_known, undecided, without_openness
 from majordomo.planner.phrasing import article, describe, described, phrase_text, place_phrase, told_apart
 from majordomo.planner.plan import Query, QueryKind
 from majordomo.planner.reports import ABILITIES, REPORTED, Report, Reports
@@ -141,7 +141,7 @@ class Answers:
         return NoReferent(reason="I do not know which place you mean.")
 
     def _about(self, ask: Ask, found: tuple[str, ...], context: Context) -> str:
-        present = [i for i in found if i not in self._state.missing]
+        present = [i for i in found if i not in self._state.missing or about_loss(ask)]
         match ask.kind:
             case QueryKind.COUNT:
                 return _also(self._count(ask, present, found), self._not_known(ask, context))
@@ -188,7 +188,7 @@ class Answers:
         if not shown and self._asks_who(ask):
             return self._people()
         if not shown:
-            return f"I know of nothing there{f' that is {_phrase(ask)}' if ask.things else ''}."
+            return f"I know of no {_phrase(ask)} there." if ask.things else "I know of nothing there."
         targets = self._targets(ask, context)
         if len(targets) > 1 and not ask.things:
             return self._by_place(shown, targets)
@@ -234,6 +234,8 @@ class Answers:
         if ask.negated or ask.least is not None or ask.most is not None:
             so = "Yes" if self._holds(ask, found, context) else "No"
             return f"{so}. {self._where(found, rooms_only=False) or self._none(ask, context)}"
+        if found and all(i in self._state.missing for i in found):
+            return f"No. {self._where(found, rooms_only=False)}"
         if found and not self._holds(ask, found, context):
             return self._too_few(ask, found, context)
         if found:
@@ -253,7 +255,8 @@ class Answers:
 
     def _is_so(self, ask: Ask, found: Sequence[str], context: Context) -> str:
         """*The door is open*: the answer with what is so instead."""
-        about = self._candidates(ask.things[0], context)
+        some = isinstance(ask.things[0], NounPhrase) and ask.things[0].quantity is Quantity.A
+        about = tuple(found) if some and found else self._candidates(ask.things[0], context)
         told = " ".join(self._state_of(i) for i in about[:MAX_NAMED]) if isinstance(about, tuple) else ""
         if not told:
             return self._none(ask, context)

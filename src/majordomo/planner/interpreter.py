@@ -6,6 +6,7 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
+from majordomo.planner.continuing import continued, place_asked
 from majordomo.planner.discourse import Discourse, Stuck
 from majordomo.planner.gathering import Trouble
 from majordomo.planner.grammar.lexicon import Lexicon
@@ -18,7 +19,7 @@ from majordomo.planner.grammar.parser import (
     Understood,
     flattened,
 )
-from majordomo.planner.grammar.syntax import Perhaps, Wanted
+from majordomo.planner.grammar.syntax import Ask, Perhaps, Wanted
 from majordomo.planner.grammar.tokens import text_flaw
 from majordomo.planner.grounding import Ambiguous, Context, Grounding, NoReferent
 from majordomo.planner.matching import nouns_of
@@ -137,6 +138,9 @@ class Interpreter:
         """A remark about the request before, if it is one; a whole request is read as such."""
         earlier, lexicon = dialogue.earlier[0], self.lexicon(snapshot)
         if not earlier.goals:
+            again = self._asked_again(earlier.request, about.rest, snapshot, dialogue, choices)
+            if again is not None:
+                return again
             return self.read(about.rest, snapshot, replace(dialogue, earlier=())) if about.how == "correct" else None
         reviser = Reviser(self.grounding(snapshot), _context(dialogue, choices, snapshot))
         if about.how == "again":
@@ -153,6 +157,19 @@ class Interpreter:
                 return alone
             return self._restated(earlier.request, about.rest, snapshot, dialogue, choices) or alone
         return self.checked([outcome], snapshot, choices) if isinstance(outcome, Meant) else _troubled(outcome)
+
+    def _asked_again(
+        self, request: str, rest: str, snapshot: Snapshot, dialogue: Dialogue, choices: Choices
+    ) -> Reading | None:
+        """The question before about something else: *and the book?*; None if there was none, or no such thing."""
+        steps = self._grammar.parse(request, self.lexicon(snapshot))
+        asked = steps[0].readings if len(steps) == 1 and isinstance(steps[0], Understood) else ()
+        relation, words = place_asked(rest)
+        phrases = self._grammar.phrase(words, self.lexicon(snapshot))
+        readings = continued([r for r in asked if isinstance(r, Ask)], phrases, as_place=bool(relation))
+        return (
+            self._ground([Understood(text=rest, readings=readings)], snapshot, dialogue, choices) if readings else None
+        )
 
     def _repaired(
         self, said: str, rest: str, snapshot: Snapshot, dialogue: Dialogue, choices: Choices

@@ -31,6 +31,11 @@ def about_openness(ask: Ask) -> bool:
     return any(_tells_openness(restriction) for restriction in _stated(ask))
 
 
+def about_loss(ask: Ask) -> bool:
+    """Whether a question is about what is missing."""
+    return any(each.relation == "state" and each.word not in OPENNESS for each in _stated(ask))
+
+
 def without_openness(phrase: NounPhrase) -> NounPhrase:
     """*Doors*, of *open doors*."""
     kept = tuple(each for each in phrase.restrictions if not _tells_openness(each))

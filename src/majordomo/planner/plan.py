@@ -110,6 +110,8 @@ class QueryKind(StrEnum):
     WELL_BEING = "well_being"
     SOURCE = "source"
     DURATION = "duration"
+    ASKED = "asked"
+    DONE_WITH = "done_with"
     MOST = "most"
     COMPARE = "compare"
     MORE = "more"

@@ -9,14 +9,21 @@ from majordomo.planner.grounding import Ambiguous, Context, Grounding, NoReferen
 from majordomo.planner.naming import listed, name_of
 from majordomo.planner.plan import Exchange, QueryKind
 from majordomo.planner.seeking import SPEED_MPS
-from majordomo.planner.whereabouts import age_phrase, capital
+from majordomo.planner.whereabouts import Whereabouts, age_phrase, capital
 from majordomo.scene_graph.nodes import ObjectNode, PersonNode, RoomNode
 from majordomo.scene_graph.topology import Topology
 
 REPORTED = frozenset(
     {QueryKind.DISTANCE, QueryKind.SIZE, QueryKind.PATH, QueryKind.LAST_SEEN, QueryKind.DONE, QueryKind.FAILURE}
     | {QueryKind.DOING, QueryKind.BATTERY, QueryKind.NAME, QueryKind.CAPABLE}
-    | {QueryKind.NATURE, QueryKind.WELL_BEING, QueryKind.SOURCE, QueryKind.DURATION}
+    | {
+        QueryKind.NATURE,
+        QueryKind.WELL_BEING,
+        QueryKind.SOURCE,
+        QueryKind.DURATION,
+        QueryKind.ASKED,
+        QueryKind.DONE_WITH,
+    }
 )
 ABILITIES = (
     "I can go to places and people, find things, pick them up, put them somewhere, bring them, and answer questions."
@@ -26,6 +33,7 @@ HANDLING_S = 60.0
 MINUTE_S = 60.0
 NOTHING_YET = "I have done nothing yet."
 MAX_TOLD = 3
+UNDER_WAY = ("running", "paused", "planning", "queued")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -42,6 +50,7 @@ class Reports:
     def __init__(self, grounding: Grounding) -> None:
         self._grounding = grounding
         self._snapshot, self._state = grounding.snapshot, grounding.state
+        self._told = Whereabouts(grounding.snapshot, grounding.state)
 
     def of(self, ask: Ask, context: Context) -> Report | NoReferent | Ambiguous:
         """The answer, or why there is none."""
@@ -62,6 +71,8 @@ class Reports:
                 return self._last_seen(nodes[0])
             case QueryKind.CAPABLE:
                 return self._capable(nodes[0])
+            case QueryKind.DONE_WITH:
+                return self._done_with(nodes[0], context)
             case QueryKind.DURATION:
                 return self._duration(nodes[0], ask.word, context)
             case QueryKind.NAME:
@@ -80,6 +91,8 @@ class Reports:
                 return f"I am fine, thank you. {self._battery()} {_told(QueryKind.DOING, context.earlier)}"
             case QueryKind.SOURCE:
                 return "I say only what I have seen myself, and how long ago; things may have changed since."
+            case QueryKind.ASKED:
+                return _sentence(context.earlier[0]) if context.earlier else "You have not asked me for anything yet."
             case _:
                 return _told(kind, context.earlier)
 
@@ -97,7 +110,8 @@ class Reports:
         name, other = capital(self._name_of(nodes[0])), self._name_of(nodes[1]) if len(nodes) > 1 else "me"
         if distance_m is None:
             return Report(text=f"I know of no open way to {self._name_of(nodes[0])}.", nodes=tuple(nodes))
-        return Report(text=f"{name} is about {distance_m:.1f} m from {other}.", nodes=tuple(nodes))
+        being = "are" if name == "You" else "is"
+        return Report(text=f"{name} {being} about {distance_m:.1f} m from {other}.", nodes=tuple(nodes))
 
     def _path(self, nodes: list[str]) -> Report:
         speaker = self._grounding.speaker(Context())
@@ -153,6 +167,16 @@ class Reports:
             return Report(text=f"No, I know of no open way to {name}{why}.", nodes=(node_id,))
         return Report(text=f"Yes, I can: {name} is within my reach.", nodes=(node_id,))
 
+    def _done_with(self, node_id: str, context: Context) -> Report:
+        """Whether the robot did something with a thing, or went to a place, as far as it remembers."""
+        about = [e for e in context.earlier if any(node_id in goal.args[:1] for goal in e.goals)]
+        if not about:
+            return Report(
+                text=f"No, not that I remember. {self._told.sentence(node_id, rooms_only=False)}", nodes=(node_id,)
+            )
+        lead = "Yes." if about[0].status == "succeeded" else "Not yet." if about[0].status in UNDER_WAY else "No."
+        return Report(text=f"{lead} {_sentence(about[0])}", nodes=(node_id,))
+
     def _duration(self, node_id: str, what: str, context: Context) -> Report:
         """How long a way takes, or to fetch a thing for whoever asks; a rough guess, and said so."""
         name = self._name_of(node_id)
@@ -191,7 +215,7 @@ class Reports:
 
 def _told(kind: QueryKind, earlier: tuple[Exchange, ...]) -> str:
     if kind is QueryKind.DOING:
-        busy = [e for e in earlier if e.status in ("running", "paused", "planning", "queued")]
+        busy = [e for e in earlier if e.status in UNDER_WAY]
         return " ".join(map(_sentence, busy[:1])) or "Nothing right now: I am waiting for your request."
     if kind is QueryKind.FAILURE:
         failed = [e for e in earlier if e.status in ("failed", "refused", "cancelled")]

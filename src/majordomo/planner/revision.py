@@ -83,7 +83,7 @@ _TOO = re.compile(
     r"^(?P<rest2>.+?)[\s,]+(?:too|as well)(?:[\s,]+please)?[\s.!?]*$|"
     r"^(?:and |now |then |ok |okay |,|please |can you |could you |also )*(?:do )?(?:the )?"
     r"(?:very |exact )?same (?:thing )?(?:again )?(?:with|for|to) (?P<rest3>.+?)[\s.!?]*$"
-    r"|^what about (?P<rest4>.+?)[\s.!?]*$"
+    r"|^(?:and )?(?:what|how) about (?P<rest4>.+?)[\s.!?]*$"
 )
 
 

@@ -187,7 +187,7 @@ _IRREGULAR = {
     "mangoes": "mango",
     "children": "child",
 }
-_ALWAYS_PLURAL = frozenset({"scissors", "glasses", "keys", "headphones", "pliers", "shears", "dishes", "chips"})
+ALWAYS_PLURAL = frozenset({"scissors", "glasses", "keys", "headphones", "pliers", "shears", "dishes", "chips"})
 _NOT_PLURAL = ("ss", "us", "is")
 
 
@@ -213,7 +213,7 @@ def _singular(word: str) -> str:
 @lru_cache(maxsize=4096)
 def is_plural(word: str) -> bool:
     """Whether an English noun phrase is written in the plural."""
-    return singular(word) != word and word not in _ALWAYS_PLURAL
+    return singular(word) != word and word not in ALWAYS_PLURAL
 
 
 @lru_cache(maxsize=8192)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from majordomo.planner.naming import name_of
 from majordomo.planner.openness import not_known, undecided
 from majordomo.planner.phrasing import place_phrase
+from majordomo.planner.vocabulary import ALWAYS_PLURAL, is_plural
 from majordomo.scene_graph.nodes import DoorNode, ObjectNode, ObjectState, RoomNode
 from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.skills.state import PlanState
@@ -33,10 +34,14 @@ class Whereabouts:
             return f"{'You are' if node_id == speaker else f'{name} is'} {in_room}, as far as I know."
         place = in_room if rooms_only else place_phrase(node_id, self._snapshot).removeprefix("last known ")
         if node.state is ObjectState.MISSING:
-            return f"{name} is not where I last saw it, {self._age(node)}: {place}. I do not know where it is now."
+            is_it = ("are", "them", "they are") if _is_several(node) else ("is", "it", "it is")
+            last = f"{name} {is_it[0]} not where I last saw {is_it[1]}, {self._age(node)}: {place}."
+            return f"{last} I do not know where {is_it[2]} now."
         if node.state is ObjectState.HELD:
-            return f"{name} is in my gripper."
+            return f"{name} {'are' if _is_several(node) else 'is'} in my gripper."
         name = name.removesuffix(f" {place}")
+        if _is_several(node):
+            return f"{name} are {place}; I saw them {self._age(node)}."
         return f"{name} is {place}; I saw it {self._age(node)}."
 
     def _room_place(self, room: RoomNode) -> str:
@@ -47,6 +52,12 @@ class Whereabouts:
 
     def _age(self, node: ObjectNode) -> str:
         return age_phrase(self._snapshot.stamp_s - node.last_seen_s)
+
+
+def _is_several(node: ObjectNode) -> bool:
+    """*The scissors are*."""
+    last = node.label.replace("_", " ").rsplit(" ", maxsplit=1)[-1]
+    return not node.name and (last in ALWAYS_PLURAL or is_plural(last))
 
 
 def age_phrase(seconds: float) -> str:

@@ -60,3 +60,47 @@ def test_fetching_takes_longer_than_going():
         return float(number) * (60 if unit.startswith("minute") else 1)
 
     assert seconds("how long to fetch the apple") > seconds("how long to reach the apple")
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("did you bring the apple?", "Yes. You asked"),
+        ("have you brought me the apple?", "Yes. You asked"),
+        ("did you take the key?", "No, not that I remember. The silver key is on the table"),
+        ("what did I ask you?", "bring me the apple"),
+    ],
+)
+def test_deeds_are_remembered(text, said):
+    assert said in ask(text, BROUGHT).reply
+    assert not ask(text, BROUGHT).goals
+
+
+def test_an_open_or_failed_request_is_not_said_to_be_done():
+    running = Exchange(request="bring me the apple", goals=BROUGHT.goals, status="running")
+    failed = Exchange(request="bring me the apple", goals=BROUGHT.goals, status="failed")
+    assert ask("did you bring the apple?", running).reply.startswith("Not yet.")
+    assert ask("did you bring the apple?", failed).reply.startswith("No.")
+
+
+@pytest.mark.parametrize(
+    ("before", "text", "same"),
+    [
+        ("where is the apple?", "and the key?", "where is the key?"),
+        ("where is the apple?", "what about the key", "where is the key?"),
+        ("how many books are there?", "and cups?", "how many cups are there?"),
+        ("what is on the bed?", "and the desk?", "what is on the desk?"),
+        ("how many cups are in the kitchen?", "and in the living room?", "how many cups are in the living room?"),
+        ("is the red bottle in the office?", "and the blue one?", "is the blue bottle in the office?"),
+    ],
+)
+def test_a_question_goes_on_with_something_else(before, text, same):
+    assert ask(text, Exchange(request=before)).reply == ask(same).reply
+
+
+def test_after_a_deed_another_thing_is_asked_for():
+    assert ask("and the key", BROUGHT).goals
+
+
+def test_how_far_the_robot_is():
+    assert ask("how far are you from the kitchen").reply.startswith("The kitchen is about")

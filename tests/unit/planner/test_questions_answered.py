@@ -13,7 +13,7 @@ from majordomo.planner.plan import Dialogue, Kind, QueryKind
 from majordomo.planner.sketch import Sketch, flat
 from majordomo.planner.verifier import Verifier
 from majordomo.planner.whereabouts import age_phrase
-from majordomo.scene_graph.nodes import DoorState
+from majordomo.scene_graph.nodes import DoorState, ObjectState
 from majordomo.skills.registry import load_registry
 
 EVERY_QUESTION = [
@@ -101,3 +101,22 @@ def test_a_door_that_was_not_seen_lately_is_not_said_to_be_open_or_closed(word):
         .snapshot(robot_in="room_2", at=(4.2, 0.0))
     )
     assert ask(f"is the door between the bedroom and the bathroom {word}?", snapshot).reply.startswith("I do not know")
+
+
+def test_what_is_missing_is_listed_and_not_said_to_be_there():
+    snapshot = (
+        home().thing("toy_1", "toy", on="bed_1", state=ObjectState.MISSING).snapshot(robot_in="room_2", at=(4.2, 0.0))
+    )
+    assert "toy" in ask("what is missing?", snapshot).reply
+    assert ask("is the toy on the bed?", snapshot).reply.startswith("No. The toy")
+
+
+def test_a_pair_of_things_takes_the_plural():
+    snapshot = home().thing("scissors_1", "scissors", on="desk_1").snapshot(robot_in="room_2", at=(4.2, 0.0))
+    assert "scissors are on the desk" in ask("where are the scissors?", snapshot).reply
+
+
+def test_running_out_is_asked_the_other_way_round():
+    snapshot = home().snapshot(robot_in="room_2", at=(4.2, 0.0))
+    assert ask("are we out of apples?", snapshot).reply.startswith("No.")
+    assert ask("are we out of bananas?", snapshot).reply.startswith("Yes.")

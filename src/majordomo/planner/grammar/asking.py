@@ -157,6 +157,15 @@ class QuestionReader(PhraseReader):
     def source(self, _: Children) -> Ask:
         return Ask(kind=QueryKind.SOURCE)
 
+    def asked_before(self, _: Children) -> Ask:
+        return Ask(kind=QueryKind.ASKED)
+
+    def did_it(self, children: Children) -> Ask:
+        """*Did you bring the apple*: what came of it; the deed is only asked about."""
+        deed = values_of(children)[0]
+        things = getattr(deed, "things", None) or (getattr(deed, "target", None) or Pronoun(word="me"),)
+        return Ask(kind=QueryKind.DONE_WITH, things=tuple(things))
+
     def duration(self, children: Children) -> Ask:
         """*How long to reach the kitchen*, *to fetch the apple*."""
         carried = any(token.type == "BRING" for token in tokens_of(children))

@@ -94,12 +94,13 @@ def _without_lead(tokens: Tokens) -> list[Terminal]:
 def _wheres(word: Terminal, rest: list[Terminal]) -> Iterator[list[Terminal]]:
     """*Where has Anna left the key*, *where is Ben hiding*: what is placed, else who stays."""
     for thing in _things(rest):
-        yield [word, _BE, *thing]
+        if not all(token.type in _SPEAKING for token in thing):
+            yield [word, _BE, *thing]
 
 
 def _things(rest: list[Terminal]) -> Iterator[list[Terminal]]:
     """What a question about a place may be about: what follows its verb, else what comes before."""
-    said = [token for token in rest if not _adds(token)]
+    said = [token for token in rest if _stays(token) or not _adds(token)]
     verb = next((k for k in reversed(range(len(said))) if _stays(said[k])), None)
     if verb is None:
         yield _bare(said)
@@ -151,7 +152,8 @@ def _counts(word: Terminal, rest: list[Terminal]) -> Iterator[list[Terminal]]:
 def _whose_and_where(tail: list[Terminal]) -> tuple[list[Terminal] | None, list[Terminal]]:
     """Who has what is counted, and where; None for who when there is more to it."""
     said = [token for token in tail if not (_carries(token) or _stays(token) or _adds(token))]
-    said = [token for token in said if token.type != "THERE" or token is said[-1]]
+    placed = any(token.type in RELATING - {"THERE"} for token in said)
+    said = [token for token in said if token.type != "THERE" or (token is said[-1] and not placed)]
     where = next((k for k, token in enumerate(said) if token.type in RELATING - {"THERE"}), len(said))
     who = said[:where]
     plain = all(token.type in _NAMING | _ARTICLES | _SPEAKING for token in who)

@@ -182,6 +182,7 @@ CLOSED: dict[str, tuple[str, ...]] = {
               "what is your status", "how is it going"),
     "REACH": ("reach", "get to", "access"),
     "WELL_BEING": ("how are you",),
+    "ASKED": ("what did i ask",),
     "SOURCE": ("how do you know",),
     "HOW_LONG": ("how long to",),
     "NOTHING": ("nothing",),

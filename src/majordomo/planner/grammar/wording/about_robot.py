@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from majordomo.planner.grammar.verbs import PAST
+
 _NOW = r"(?: (?:now|right now|at the moment|currently|today|yet|already|again|please|then|just now|so far|still))*"
 _END = rf"{_NOW}(?=[?.!]*$)"
 
@@ -145,6 +147,21 @@ ABOUT_ROBOT: tuple[tuple[str, str], ...] = (
             r"|refuse|wait|stand|standing|give|gave|carry|obey|listen)[^?.!,]*(?=[?.!]*$)"
         ),
         "why did you fail",
+    ),
+    (
+        (
+            r"^(?:what (?:did|have) i (?:just |last )*(?:ask(?:ed)?|say|said|tell|told|request(?:ed)?|order(?:ed)?)"
+            r"(?: (?:you|for|of you))*(?: to do)?|what was (?:my|the|our) (?:last |previous |latest )?"
+            r"(?:request|order|question|task|command|wish)|do you remember what i (?:asked|said|told you|wanted))"
+            rf"(?: (?:last|before|just now))?{_END}"
+        ),
+        "what did i ask",
+    ),
+    (r"^(?:have|did) you (?:already |ever |just )*(?:been|be|gone|go) (?=(?:in|to|at|into)\b)", "did you go "),
+    *(
+        (rf"^(?:have|did) you (?:already |ever |just |really |actually |also )*{past} (?=\w)", f"did you {verb} ")
+        for past, verb in PAST.items()
+        if past not in ("found", "located", "put", "got", "gotten", "picked up")
     ),
     (
         r"^can you see (?:me|us)(?: (?:now|from (?:there|here)))?(?=[?.!]*$)",

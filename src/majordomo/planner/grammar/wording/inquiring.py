@@ -8,7 +8,8 @@ _ADDRESSED = (
     r"|fellow|robot|there|you|everyone|folks|love|darling|honey|sweetie|son|dude|chap|then|again)"
 )
 _TAGS = (
-    r"(?:right|correct|is not it|is it not|are not they|yes|no|true|or|or not|am i right|is that right|huh|eh|does it)"
+    r"(?:right|correct|is not it|is it not|are not they|yes|no|true|or|or not|am i right|is that right|huh|eh"
+    r"|does it)"
 )
 _BETWEEN = r"(?:of (?:them|these|those|the two) )?"
 
@@ -136,5 +137,44 @@ INQUIRING: tuple[tuple[str, str], ...] = (
     (r"^(is|are) (.+?) (?:locked|bolted|shut|barred|locked up|closed up)(?: up| off)?(?=\W)", r"\1 \2 closed"),
     (r"^(is|are) (.+?) unlocked(?=[?.!]*$)", r"\1 \2 open"),
     (r"^(which|what) (?:one )?of (?:the|my|our|these|those) (\w+?)s (is|has)\b", r"\1 \2 \3"),
+    (r"\b(is|are) there (?:still|already|actually|currently|maybe|perhaps|even|ever|really) ", r"\1 there "),
+    (r"^(?:are|is|did|have) (?:we|you|it) (?:run |gone )?(?:all |completely )?out of (?!the\b|my\b)", "is there no "),
+    (
+        (
+            r"^(?:is (?:any|some)thing|what(?: things?)? (?:is|are|did i|have i|do we)) (?:currently )?"
+            r"(?:missing|lost|gone|lose|misplaced?)(?=[?.!]*$)"
+        ),
+        "which things are missing",
+    ),
+    (r"^(\w+) (?:is|are) (?:where|whereabouts)(?=[?.!]*$)", r"where is \1"),
+    (
+        (
+            r"^(?!(?:\w+ )*(?:tell|i|you|me|us|is|are|was|know|idea|clue|look|find|see|go|any|no|to|of|in|on|at)\b)"
+            r"(?:the |my |our )?((?:\w+ ){1,3}?\w+|\w+),? where(?: is it| are they)?(?=[?.!]*$)"
+        ),
+        r"where is the \1",
+    ),
+    (r"^(?:where (?:oh|o)|oh where) ", ""),
+    (r"^((?:the|my|our) [\w' ]+?) (?:is|are|has|have) (?:what|which) colou?r(?=[?.!]*$)", r"what color is \1"),
+    (r"^(?:the |my |our )?((?!what|which)[\w' ]+?),? (?:what |which )?colou?r(?=[?]+$)", r"what color is the \1"),
+    (r"^(?:the |our |my |all )?([\w ]+?),? how many(?: are there| do we have| of them)?(?=[?.!]*$)", r"how many \1"),
+    (
+        r"^((?:the|my|our) [\w' ]+?) (?:is|are) not [^,.;?]+?[,;.] (?:so )?where (?:is|are) (?:it|they)\b",
+        r"where is \1",
+    ),
+    (r"^how far (?:away )?are you (?:away )?from ", "how far is it to "),
+    (r"^which way (?:is it )?(?:to|into) ", "how do i get to "),
+    (
+        (
+            r"^(is|are) there (?:an? |any |some )?(\w+) or (?:an? |any |some )?(\w+)((?: (?:in|on|at)"
+            r" [^?]+?)?)(?=[?.!]*$)"
+        ),
+        r"is there a \2\4? is there a \3\4",
+    ),
+    (
+        r"^(?:what|which) (?:things )?(?:can|could|may) (?:i|we) (?:eat|snack on|have for \w+)(?=[?.!]*$)",
+        "which food is there",
+    ),
+    (r"^(?:what|which) (?:things )?(?:can|could|may) (?:i|we) drink(?=[?.!]*$)", "which drinks are there"),
 )
 """Before the rules of ``ASKING``."""

@@ -117,7 +117,7 @@ SHAPES: tuple[tuple[str, str], ...] = (
     ),
     (
         (
-            r"^(?:please )?(?:count|number|tally|add up)(?: up)? (?:all )?(?:the |my |our )?"
+            r"^(?:please )?(?:count|number(?! of\b)|tally|add up)(?: up)? (?:all )?(?:the |my |our )?"
             r"([^,.;?!]+?)(?: (?:for me|for us|please|up|there are))*(?=[?.!]*$)"
         ),
         r"how many \1 are there",

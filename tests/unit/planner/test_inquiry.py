@@ -61,6 +61,8 @@ def test_the_order_of_words_does_not_change_a_question(said, plain):
     [
         "where is the cup that I broke yesterday",
         "how many cups did Anna wash in the kitchen",
+        "which year were you born",
+        "where can I sit",
     ],
 )
 def test_a_question_that_says_more_than_that_is_not_answered_in_part(text):

@@ -188,6 +188,8 @@ def _lists(word: Terminal, rest: list[Terminal]) -> Iterator[list[Terminal]]:
     said = [token for token in rest if not _adds(token)]
     where = next((k for k, token in enumerate(said) if token.type in RELATING - {"THERE", "WITH"}), len(said))
     what = [t for t in said[:where] if not (_carries(t) or _stays(t)) and t.type not in _SPEAKING | {"THERE"}]
+    if what and not any(token.type in _NAMING - {"WORD"} for token in what):
+        return  # *which year were you born*: nothing that is known is asked about
     if said[where:]:
         yield [word, *what, _BE, *said[where:]]
     elif what:

@@ -72,7 +72,7 @@ MORE: list[tuple[str, str]] = [
     ("mum says bring the bandage to anna", "bring the bandage to anna"),
     ("maybe the cup could go on the desk", "put the cup on the desk"),
     ("go to the pantry and stay put there", "go to the pantry and stay there"),
-    ("robot please to come in the kitchen", "robot please go to the kitchen"),
+    ("robot please to come in the kitchen", "go to the kitchen"),
     ("we name the waiting room lounge now", "call the waiting room the lounge"),
     ("give me whichever umbrella is black", "give me the umbrella that is black"),
     ("to the gym with you, my metal friend", "go to the gym"),
@@ -176,7 +176,7 @@ MORE: list[tuple[str, str]] = [
         "put the cups in the sink, all but the green one - the kitchen sink",
         "put the cups in the sink that is not green, the kitchen sink",
     ),
-    ("um so the uh the banana yeah the banana put that in the trash okay", "so the banana put that in the trash"),
+    ("um so the uh the banana yeah the banana put that in the trash okay", "the banana put that in the trash"),
     (
         "take the books to the bathroom but leave the green one where it is",
         "take the books to the bathroom except the green one",

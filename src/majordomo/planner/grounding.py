@@ -9,8 +9,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
+from majordomo.planner.grammar.agreement import is_collective
 from majordomo.planner.grammar.syntax import NounPhrase, Pronoun, Quantity, Reference, Restriction, Spot
-from majordomo.planner.matching import Names
+from majordomo.planner.matching import Names, own_name
 from majordomo.planner.naming import name_of
 from majordomo.planner.narrowing import Narrowing
 from majordomo.planner.phrasing import alternatives, describe, phrase_text, which_question
@@ -220,7 +221,7 @@ class Grounding:
                 return found
             case Quantity.BOTH | Quantity.EXACTLY:
                 return self._count(phrase, found, context)
-            case _ if _plural(phrase) and phrase.quantity is not Quantity.BARE:
+            case _ if (_plural(phrase) and phrase.quantity is not Quantity.BARE) or is_collective(phrase):
                 return found
             case _:
                 return self._one(text, found, context)
@@ -292,6 +293,9 @@ class Grounding:
 
     def _named(self, phrase: NounPhrase, context: Context, *, widely: bool, fixed: bool) -> tuple[str, ...]:
         head = phrase.head
+        if phrase.person and head in ("me", "him"):
+            spoken = self._pronoun(head, context)
+            return spoken if isinstance(spoken, tuple) else ()
         if head in ("one", "ones"):
             head = context.noun or "thing"
         found = self.names.named(head, phrase.number, widely=widely, fixed=fixed)
@@ -305,7 +309,8 @@ class Grounding:
         for split in range(len(words) - 1, 0, -1):
             lead = " ".join(words[:split])
             called = words_for(lead) | {lead, f"{lead} room"}
-            rooms = [room.id for room in self.snapshot.of_type(RoomNode) if normal(room.label) in called]
+            every = self.snapshot.of_type(RoomNode)
+            rooms = [room.id for room in every if normal(room.label) in called or own_name(normal(room.label)) == lead]
             rooms = rooms or self._rooms_with(lead)
             if rooms:
                 rest = self.names.named(" ".join(words[split:]), phrase.number, widely=widely)

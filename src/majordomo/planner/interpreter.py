@@ -11,6 +11,7 @@ from majordomo.planner.discourse import Discourse, Stuck
 from majordomo.planner.gathering import Trouble
 from majordomo.planner.grammar.lexicon import Lexicon
 from majordomo.planner.grammar.parser import (
+    Background,
     Choice,
     CommandGrammar,
     NotUnderstood,
@@ -117,7 +118,8 @@ class Interpreter:
         if any(isinstance(step, NotUnderstood) or _is_open(step) for step in every):
             return _reading(Kind.CLARIFY, _not_understood_reply(every), wholly=False)
         choices = dict(choices or {})
-        if _PLEASE.search(text.casefold()) and all(map(_is_wish, steps)):
+        asked = [step for step in steps if not isinstance(step, Background)]
+        if _PLEASE.search(text.casefold()) and all(map(_is_wish, asked)):
             choices[DOUBT] = (DOUBT,)
         return self._ground(steps, snapshot, dialogue, choices)
 
@@ -131,7 +133,8 @@ class Interpreter:
         """Nouns and names of the graph; those of the last graph asked for are kept."""
         if self._lexicon is None or self._lexicon[0] is not snapshot:
             names = [person.name for person in snapshot.of_type(PersonNode) if person.name]
-            self._lexicon = (snapshot, Lexicon.of(nouns_of(snapshot), names, self._verbs))
+            colors = {thing.color for thing in snapshot.of_type(ObjectNode) if thing.color}
+            self._lexicon = (snapshot, Lexicon.of(nouns_of(snapshot), names, self._verbs, colors))
         return self._lexicon[1]
 
     def _revised(self, about: Revision, snapshot: Snapshot, dialogue: Dialogue, choices: Choices) -> Reading | None:

@@ -119,8 +119,12 @@ def _rank(head: str, node: Place, *, fixed: bool) -> int | None:
         return None
     if label in forms or singular(label) in forms:
         return 1
-    if label in words_for(head):
+    if isinstance(node, RoomNode) and _is_own_name(label) and head == f"{own_name(label)} {_sort_of_own_name(label)}":
+        return 1
+    if isinstance(node, RoomNode) and _is_sort(label) and label.rpartition(" ")[2] == head:
         return 2
+    if label in words_for(head):
+        return 3 if isinstance(node, RoomNode) else 2
     if (
         label.rpartition(" ")[2] in forms
         and label not in NO_KIND_OF_THEIRS
@@ -136,6 +140,11 @@ def _is_own_name(room_label: str) -> bool:
     """Whether a room of two words or more ends in a name of its own, as *meeting room Oslo* does."""
     last = room_label.rpartition(" ")[2]
     return " " in room_label and not is_known(last) and not last.isdecimal()
+
+
+def own_name(room_label: str) -> str:
+    """*Oslo* of *meeting room Oslo*; empty of others."""
+    return room_label.rpartition(" ")[2] if _is_own_name(room_label) else ""
 
 
 def _sort_of_own_name(room_label: str) -> str:

@@ -214,6 +214,8 @@ class Meaning:
             for i in here
             if i in self._state.places and holds(Goal(predicate=predicate, args=(i, place)), self._state)
         )
+        if isinstance(self._snapshot.get(place), PersonNode):
+            context = replace(context, mentioned=(place, *context.mentioned))  # *the desk beside him*: the recipient
         things = self._gathering.to_carry(step.things, context, avoid=there | {place})
         if not isinstance(things, tuple):
             return things

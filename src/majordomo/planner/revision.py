@@ -46,8 +46,10 @@ _SLIP = (
 _BARE = re.compile(
     rf"^(?P<said>.+?\w)[\s,.;:!…–-]+(?:(?:or|oh|ah|uh|um|er|hm+|and|but|well|hmm+)[\s,]+)*(?:no"
     rf"(?=,? (?:the|an?|my|to|in|on|into|onto|at|next)\b)"
-    rf"|or no|or rather|pardon me|pardon|excuse me|no,? better|no,? rather|actually,? (?:no"
-    rf"|make (?:it|that))|make (?:it|that)|no,? make (?:it|that)|(?<=, )i mean|better)"
+    r"|or no|or rather|or actually|or better(?: yet| still)?"
+    rf"|pardon me|pardon|excuse me|no,? better|no,? rather|actually,? (?:no"
+    rf"|make (?:it|that))|make (?:it|that)|no,? make (?:it|that)|(?<=, )i mean|better"
+    r"|(?<=\w )sorry(?=,? (?!for|to|about|but|i|if|you)\w))"
     rf"(?:[\s,]+{_SLIP})*[\s,.;:!…–-]+(?P<rest>.+)$"
 )
 """A slip taken back without a pause that is written, or by words that mean nothing else."""

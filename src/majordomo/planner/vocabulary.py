@@ -78,7 +78,7 @@ SYNONYMS: tuple[tuple[str, ...], ...] = (
     ("newspaper", "paper"),
     ("pen", "ballpoint", "biro"),
     ("scissors", "shears"),
-    ("glasses", "eyeglasses", "spectacles"),
+    ("glasses", "eyeglasses", "spectacles", "reading glasses", "specs"),
     ("key", "keys"),
     ("medicine", "pill bottle", "medication", "pills"),
     ("towel", "tea towel", "dish towel"),
@@ -145,6 +145,8 @@ KINDS: dict[str, tuple[str, ...]] = {
     "vegetable": ("carrot", "broccoli", "tomato", "cucumber", "pepper"),
     "cutlery": ("fork", "knife", "spoon"),
     "dishes": ("plate", "bowl", "cup"),
+    "reading matter": ("book", "magazine", "newspaper"),
+    "writing tool": ("pen", "pencil", "marker"),
     "food": ("apple", "banana", "orange", "sandwich", "pizza", "cake", "hot dog", "donut", "carrot", "broccoli"),
 }
 """Words for a kind of thing, and labels that belong to it; an object's own ``categories`` count as well."""
@@ -164,6 +166,7 @@ COLORS: dict[str, str] = {
     **{c: c for c in ("cyan", "beige", "silver", "gold", "turquoise")},
     "grey": "gray",
     "violet": "purple",
+    "transparent": "clear",
     "crimson": "red",
     "scarlet": "red",
     "navy": "blue",

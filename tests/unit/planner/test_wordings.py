@@ -8,7 +8,11 @@ import pytest
 
 from majordomo.planner.grammar.paraphrase import RULES, paraphrased
 from wordings import MORE
+<<<<<<< HEAD
 from wordings_of_talk import TALK
+=======
+from wordings_spoken import SPOKEN
+>>>>>>> c6b4d97 (What is told around a request, notes, dictation, learners' English, “swap”, “to me at the reception” and slips of letters are understood by rules)
 
 SAME = [
     ("put the books away", "put the books"),
@@ -88,7 +92,7 @@ SAME = [
     ("are cups available", "is there cups"),
     ("is there anything to drink", "is there a drink"),
     ("bring me something to drink", "bring me a drink"),
-    ("bring me something to write with", "bring me a pen"),
+    ("bring me something to write with", "bring me a writing tool"),
     ("who is currently staying in the kitchen", "who is in the kitchen"),
     ("is anyone in the kitchen", "who is in the kitchen"),
     ("are there any people in the hall", "who is in the hall"),
@@ -162,7 +166,7 @@ SAME = [
     ("where might the candle be", "where is the candle"),
     ("label the pantry as larder", "call the pantry larder"),
     ("how many books do we have?", "how many books are there?"),
-    ("bring me something to read", "bring me a book"),
+    ("bring me something to read", "bring me a reading matter"),
     ("putthe soap in the cabinet", "put the soap in the cabinet"),
     ("i need you in the bathroom", "go to the bathroom"),
     ("is there a candle anywhere", "is there a candle"),
@@ -181,7 +185,7 @@ SAME = [
     ("grab the jar for me, will you", "grab the jar for me"),
     ("any idea where the remote is?", "where is the remote?"),
     ("fetch the book closest to you", "fetch the closest book"),
-    ("actually maria should have it", "actually give it to maria"),
+    ("actually maria should have it", "give it to maria"),
     ("i am thirsty, get me the milk", "get me the milk"),
     ("see if you can find the puzzle", "find the puzzle"),
     ("which color does the bowl have", "what color is bowl"),
@@ -262,7 +266,7 @@ SAME = [
     ("go to the kitchen, come back to me when you have been there", "go to the kitchen, come back to me"),
     (
         "the kids' cars should all be put in their box, the blue one",
-        "the kids' cars should be put in their box, the blue one",
+        "the kids' cars should go in their box, the blue one",
     ),
     (
         "when there is an apple on the terrace table, bring it to leo",
@@ -378,7 +382,11 @@ UNCHANGED = [
 ]
 
 
+<<<<<<< HEAD
 @pytest.mark.parametrize(("typed", "said"), [*SAME, *MORE, *TALK])
+=======
+@pytest.mark.parametrize(("typed", "said"), [*SAME, *MORE, *SPOKEN])
+>>>>>>> c6b4d97 (What is told around a request, notes, dictation, learners' English, “swap”, “to me at the reception” and slips of letters are understood by rules)
 def test_a_wording_is_read_as_the_one_that_the_grammar_knows(typed, said):
     assert paraphrased(typed) == said
 
@@ -388,10 +396,13 @@ def test_plain_words_stay_as_they_are(text):
     assert paraphrased(text) == text
 
 
+COMPILED = [(re.compile(pattern), said) for pattern, said in RULES]
+
+
 def changed_by(text):
     changed = set()
-    for number, (pattern, said) in enumerate(RULES):
-        after = re.sub(pattern, said, text)
+    for number, (pattern, said) in enumerate(COMPILED):
+        after = pattern.sub(said, text)
         if after != text:
             changed.add(number)
         text = after
@@ -399,5 +410,9 @@ def changed_by(text):
 
 
 def test_every_rule_has_an_example_here():
+<<<<<<< HEAD
     used = set().union(*(changed_by(typed) for typed, _ in [*SAME, *MORE, *TALK]))
+=======
+    used = set().union(*(changed_by(typed) for typed, _ in [*SAME, *MORE, *SPOKEN]))
+>>>>>>> c6b4d97 (What is told around a request, notes, dictation, learners' English, “swap”, “to me at the reception” and slips of letters are understood by rules)
     assert [RULES[number] for number in range(len(RULES)) if number not in used] == []

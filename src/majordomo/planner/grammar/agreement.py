@@ -7,9 +7,8 @@ from dataclasses import replace
 from majordomo.planner.grammar.syntax import NounPhrase, Quantity, Reference
 from majordomo.planner.vocabulary import is_plural, singular
 
-_MASSES = frozenset(
-    {"fruit", "food", "cutlery", "laundry", "medicine", "stationery", "crockery", "silverware", "clothing"}
-)
+_KINDS_IN_MASS = frozenset({"fruit", "food", "cutlery", "stationery", "crockery", "silverware", "clothing"})
+_MASSES = _KINDS_IN_MASS | {"laundry", "medicine"}
 
 
 def generic(reference: Reference) -> Reference:
@@ -19,6 +18,18 @@ def generic(reference: Reference) -> Reference:
     mass = reference.words[-1] in _MASSES and reference.quantity is Quantity.THE
     bare = reference.quantity is Quantity.BARE and (is_plural(reference.head) or reference.words[-1] in _MASSES)
     return replace(reference, quantity=Quantity.ALL) if mass or bare else reference
+
+
+def is_collective(phrase: NounPhrase) -> bool:
+    """*The fruit from the bowl*, *the keys on the desk*: all of it, though it is no plural in form."""
+    told = any(each.relation in _PLACED for each in phrase.restrictions)
+    definite = phrase.quantity is Quantity.THE and phrase.superlative is None and phrase.rank is None
+    return definite and ((told and bool(_KINDS_IN_MASS & {*phrase.words[-1:]})) or phrase.words[-1:] in _EITHER_NUMBER)
+
+
+_PLACED = frozenset({"in", "on", "from", "at", "off", "out of", "near"})
+_EITHER_NUMBER = (("keys",), ("chips",), ("dishes",))
+"""Plurals that are said of one thing as well."""
 
 
 def is_definite(reference: Reference) -> bool:
@@ -54,6 +65,10 @@ def apposed(first: Reference, second: Reference) -> tuple[Reference, ...]:
     return (replace(first, colors=colors, sizes=sizes, restrictions=restrictions, superlative=superlative, rank=rank),)
 
 
+def _is_several(reference: Reference | None) -> bool:
+    return isinstance(reference, NounPhrase) and bool(reference.words) and is_plural(reference.words[-1])
+
+
 def is_sensible(phrase: NounPhrase) -> bool:
     """Whether number and noun agree: *both the cup* is not English, so such a reading is dropped."""
     if not phrase.words:
@@ -61,5 +76,7 @@ def is_sensible(phrase: NounPhrase) -> bool:
     if phrase.other and phrase.rank is not None:
         return False
     if phrase.quantity in (Quantity.BOTH, Quantity.EXACTLY) and (phrase.count or 0) > 1:
-        return is_plural(phrase.words[-1]) or phrase.words[-1] in ("ones", "people")
+        return singular(phrase.words[-1]) != phrase.words[-1] or phrase.words[-1] in ("ones", "people")
+    if phrase.words == ("one",):
+        return not any(each.relation == "of" and _is_several(each.reference) for each in phrase.restrictions)
     return True

@@ -14,34 +14,51 @@ Tokens = Sequence[Terminal]
 
 _SUBJECTS = frozenset({"LOST", "I", "IT", "HIM", "THIS", "THAT", "THERE", "EVERYTHING", "ANYTHING", "HERE"})
 _VERBS_OF_BEING = frozenset({"BE", "HAVE", "LOSES", "BELONG"})
+_AUXILIARY = frozenset({"CAN", "DO", "SHOULD"})
 _SAID = frozenset(
     {"looks", "look", "seems", "seem", "smells", "sounds", "feels", "got", "went", "came", "left", "made",
      "broke", "keeps", "dropped", "forgot", "found", "bought", "put", "saw", "loves", "likes", "lives", "works",
      "said", "says", "gets", "becomes", "fell", "spilled", "finished", "called", "started", "stopped", "asked",
-     "cooked", "ate", "drank", "belongs", "comes", "goes", "just"}
+     "cooked", "ate", "drank", "belongs", "comes", "goes", "just", "thought", "knew", "slept", "caught", "cut",
+     "felt", "hurt", "hurts", "lost", "kept", "met", "ran", "sat", "stood", "told", "took", "woke", "wrote"},
 )  # fmt: skip
-"""Finite verbs of a statement, beside *is* and *has*."""
+"""Finite verbs of a statement, beside *is* and *has* and those that their ending tells."""
+_PLAIN = frozenset(
+    {"know", "think", "feel", "live", "work", "sleep", "like", "love", "play", "eat", "drink", "read", "cook",
+     "sit", "stay", "stand", "lie", "keep", "use", "remember", "forgot", "look", "hurt", "come", "go", "leave",
+     "start", "hear", "hope", "guess", "expect", "wonder", "seem", "smell", "hate", "fear", "hurts", "wash", "write",
+     "draw", "paint", "watch", "wait", "run", "walk", "get", "study", "train", "practice", "practise", "see", "meet"},
+)  # fmt: skip
+"""Verbs in the plain form that make a statement of what follows *I*, *we* and *they*."""
 _ASKING_FOR = frozenset(
     {"YOU", "WANT", "WANTS", "ENSURE", "NEEDED", "EXCEPT", "WHETHER", "UNLESS", "PROVIDED", "IF_SO", "IF_NOT",
      "BEFORE", "AFTER", "OTHERWISE", "CALLED", "CALL", "MY_NAME", "ONE", "SHOULD", "LET", "SUPPLY", "CAN_YOU",
-     "WHEN", "BUT_FIRST"}
+     "WHEN", "BUT_FIRST"},
 )  # fmt: skip
 """What asks for something, or makes it depend on something: nothing like that is left aside."""
 _DENYING = frozenset({"NOT", "NO", "NEITHER", "NOR"})
+_UNABLE_TO = frozenset(
+    {"reach", "get", "get to", "see", "find", "read", "sleep", "write", "work", "walk", "move", "hear", "wait", "cook",
+     "concentrate", "leave", "come", "go", "breathe", "stop", "remember", "know", "carry", "lift", "bend", "stand up",
+     "get up", "draw", "study", "play", "open", "fall asleep", "know of", "manage", "start", "begin", "have"},
+)  # fmt: skip
+"""What somebody cannot do, does not do or has not: why something is asked for, and not which."""
 _CHOOSING = frozenset(
-    {"COLOR", "ORANGE", "LARGEST", "SMALLEST", "NEAREST", "FARTHEST", "ORDINAL", "LEFTMOST", "RIGHTMOST", "OTHER"}
+    {"COLOR", "ORANGE", "LARGEST", "SMALLEST", "NEAREST", "FARTHEST", "ORDINAL", "LEFTMOST", "RIGHTMOST", "OTHER"},
 )
 _WILLING = frozenset(
     {"want", "wants", "wanted", "need", "needs", "prefer", "prefers", "hate", "hates", "must", "allergic", "only",
      "rather", "wish", "wishes", "better", "best", "favorite", "favourite", "forbidden", "allowed", "instead",
-     "never", "nothing", "nobody", "none", "until", "while", "because", "dislike", "dislikes", "mean",
+     "never", "nobody", "none", "until", "while", "because", "dislike", "dislikes", "mean",
      "means", "meant", "say", "why", "how", "what", "which", "who", "later", "tomorrow", "minutes", "every",
-     "always", "whenever", "please"}
+     "whenever", "please"},
 )  # fmt: skip
+_REPORTING = frozenset({"asked", "told", "said", "says", "ordered", "begged", "reminded", "wanted", "expects", "asks"})
+"""Verbs after which *to* and a verb say what is to be done."""
 _LANDMARK = frozenset({"ON", "IN", "NEAR", "AT", "FROM", "BESIDE", "BETWEEN", "INTO", "ONTO", "OFF", "TO", "WITH"})
 _IN_PHRASE = frozenset(
     {"THE", "MY", "A", "THIS", "THAT", "POSSESSIVE", "HIS", "ALL", "BOTH", "NUMBER", "COLOR", "ORANGE", "BIG", "SMALL",
-     "STATE", "OTHER"}
+     "STATE", "OTHER"},
 )  # fmt: skip
 _NAMES = frozenset({"NOUN", "NAME", "PERSON", "WORD", "IDENTIFIER", "DOOR"})
 _ANYBODY = frozenset({"somebody", "someone", "anybody", "anyone", "everybody", "everyone", "people"})
@@ -54,20 +71,46 @@ def is_told(clause: Tokens) -> bool:
     kinds = [token.type for token in clause]
     words = {token.typed for token in clause}
     verb = _verb(clause)
-    if verb is None or _ASKING_FOR & set(kinds) or _WILLING & words or words & {"n't"}:
+    asking = _ASKING_FOR - {"SHOULD"} if _is_misplaced(clause, verb) else _ASKING_FOR
+    if verb is None or asking & set(kinds) or _WILLING & words or words & {"n't"}:
         return False
     if any(kind in ACTING for kind in kinds) and not _is_going_on(clause, verb):
         return False
-    denied = bool(_DENYING & set(kinds))
-    return not (denied and (_CHOOSING | {"NOUN"}) & set(kinds))
+    if "nothing" in words and not ("HAVE" in kinds or "THERE" in kinds):
+        return False
+    denied = bool(_DENYING & set(kinds)) and not _is_misplaced(clause, verb)
+    named = _CHOOSING if _is_inability(clause, verb) else _CHOOSING | {"NOUN"}
+    return not (denied and named & set(kinds))
+
+
+def _is_misplaced(clause: Tokens, verb: int | None) -> bool:
+    """*The knife should not lie there*: why it is to be moved."""
+    rest = [token.type for token in clause[verb:]] if verb is not None else []
+    return rest[:2] == ["SHOULD", "NOT"] and rest[-1] in ("THERE", "HERE", "OVER_THERE")
+
+
+def _is_inability(clause: Tokens, verb: int) -> bool:
+    """*I can not reach it*, *she does not know it*, *he has no spoon*: no choice is denied by it."""
+    kind, rest = clause[verb].type, clause[verb + 1 :]
+    if kind == "HAVE":
+        return True
+    after = [token for token in rest if token.type != "NOT"]
+    return kind in _AUXILIARY and bool(after) and after[0].typed in _UNABLE_TO
 
 
 def _is_going_on(clause: Tokens, verb: int) -> bool:
     """*A kid was playing with it*, *I am done washing*: what people do, not what the robot is asked for."""
-    return all(
-        token.type not in ACTING or index == verb or (index > verb and token.typed.split()[0].endswith("ing"))
-        for index, token in enumerate(clause)
-    )
+    auxiliary = clause[verb].type in _AUXILIARY
+    reported = any(token.typed in _REPORTING for token in clause)
+    for index, token in enumerate(clause):
+        if token.type not in ACTING or index == verb:
+            continue
+        going_on = index > verb and token.typed.split()[0].endswith("ing")
+        helped = auxiliary and index <= verb + 2 and clause[index - 1].type in _AUXILIARY | {"NOT"}
+        purpose = index > verb and clause[index - 1].type == "TO" and token.type == "UNABLE" and not reported
+        if not (going_on or helped or purpose):
+            return False
+    return True
 
 
 def _verb(clause: Tokens) -> int | None:
@@ -75,13 +118,30 @@ def _verb(clause: Tokens) -> int | None:
     for index, token in enumerate(clause[: MAX_SUBJECT + 1]):
         if token.type == "LOST":
             return index
-        if index and (token.type in _VERBS_OF_BEING or token.typed in _SAID or _is_inflected(token)):
+        if index and (token.type in _VERBS_OF_BEING | _AUXILIARY or token.typed in _SAID or _is_inflected(token)):
+            return index
+        if index and _is_finite(token, clause[:index]):
             return index
         if index == 0 and token.type in _SUBJECTS:
             continue
         if token.type not in _IN_PHRASE | _NAMES | {"AND", "OF"} | _SUBJECTS | (_LANDMARK if index else frozenset()):
             return None
     return None
+
+
+def _is_finite(token: Terminal, subject: Tokens) -> bool:
+    """*attracts* after *it*, *drinks* after a name, *sleep* after *we*: a verb by its place and its ending."""
+    last = subject[-1].type
+    if token.type in ("WORD", "UNABLE", "MEANING") and last in ("IT", "HIM", "NAME", "THAT", "THIS"):
+        return (token.typed.endswith("s") and len(token.typed) > 3) or token.typed in _PLAIN
+    if token.type == "NOUN" and last == "NAME":
+        return token.typed in _PLURALS_OF_PLAIN
+    if len(subject) == 1 and last == "I":
+        return token.typed in _PLAIN
+    return token.type in ("WORD", "UNABLE") and last in _NAMES and token.typed in _PLURALS_OF_PLAIN
+
+
+_PLURALS_OF_PLAIN = frozenset(f"{verb}s" for verb in _PLAIN)
 
 
 def _is_inflected(token: Terminal) -> bool:

@@ -13,6 +13,7 @@ from majordomo.planner.grammar.settling import settled_uses
 from majordomo.planner.grammar.tagging import tagged
 from majordomo.planner.grammar.terminals import ACTING, ASKING, Terminal
 from majordomo.planner.grammar.tokens import Word, words_of
+from majordomo.planner.grammar.words import NUMERALS
 
 NAMING_LEADS = (("name", "is"), ("is", "called"), ("called",), ("named",), ("known", "as"), ("call", "me"))
 MAX_ROLE = 3
@@ -31,6 +32,8 @@ def sentences(text: str, lexicon: Lexicon) -> list[list[Terminal]]:
     for token in _owned(_by_name(settled_uses(tagged(words, lexicon), lexicon))):
         if token.type == "STOP":
             found.append([])
+        elif token.type == "COMMA" and found[-1][-1:] and found[-1][-1].type == "COMMA":
+            continue
         elif token.type not in ("FILLER", "FRAME"):
             found[-1].append(token)
     return [trimmed(sentence) for sentence in found if trimmed(sentence)]
@@ -42,9 +45,12 @@ def _is_name(words: Sequence[Word], index: int) -> bool:
 
 
 def _joined(words: Sequence[Word], lexicon: Lexicon) -> list[Word]:
-    """Compounds that were typed apart as one word each."""
+    """Compounds that were typed apart as one word each; *ward twelve* as *ward 12*."""
     kept: list[Word] = []
     for word in words:
+        if kept and word.text in NUMERALS and lexicon.is_noun((kept[-1].text, NUMERALS[word.text])):
+            kept.append(Word(NUMERALS[word.text], "word"))
+            continue
         whole = lexicon.joined(kept[-1].text, word.text) if kept and kept[-1].kind == word.kind == "word" else ""
         kept[-1:] = [Word(whole, "word")] if whole else [*kept[-1:], word]
     return kept

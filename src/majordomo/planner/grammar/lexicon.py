@@ -5,7 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
-from majordomo.planner.grammar.spelling import ORDINARY, closest, is_swapped, sound, sounding_alike, without_vowels
+from majordomo.planner.grammar.spelling import (
+    ORDINARY,
+    closest,
+    is_swapped,
+    other_vowel,
+    sound,
+    sounding_alike,
+    without_vowels,
+)
 from majordomo.planner.grammar.words import phrase_table
 from majordomo.planner.vocabulary import COLORS, known_nouns, normal, singular
 
@@ -27,6 +35,9 @@ def _by_letters() -> dict[tuple[str, str], tuple[str, ...]]:
 
 
 _SWAPPED = _by_letters()
+_LONG = frozenset(word for word in KNOWN_WORDS | COLORS.keys() if len(word) > 3)
+_TITLES = {"dr": "doctor", "doc": "doctor", "mr": "mister", "mrs": "missus", "prof": "professor", "sr": "sister"}
+"""Titles as they are written short."""
 _SHORT = frozenset(word for word in PHRASE_WORDS if len(word) < 4)
 _SOUNDS = sounding_alike(word for word in PHRASE_WORDS | KNOWN_WORDS if len(word) > 2)
 _UNDERSTOOD = KNOWN_WORDS | PHRASE_WORDS | ORDINARY
@@ -37,7 +48,7 @@ class Lexicon:
     """Names of the live graph as tuples of words: nouns (labels, taught names, rooms) and persons.
 
     ``parts``: the words of all of them. ``last``: the last words of nouns of several. ``verbs``: what
-    the skills of installed packages are for.
+    the skills of installed packages are for. ``colors``: those of things here.
     """
 
     nouns: frozenset[tuple[str, ...]] = frozenset()
@@ -46,35 +57,72 @@ class Lexicon:
     parts: frozenset[str] = frozenset()
     last: frozenset[str] = frozenset()
     verbs: frozenset[str] = frozenset()
+    colors: frozenset[str] = frozenset()
 
     @classmethod
-    def of(cls, nouns: Iterable[str], persons: Iterable[str] = (), verbs: Iterable[str] = ()) -> Lexicon:
+    def of(
+        cls,
+        nouns: Iterable[str],
+        persons: Iterable[str] = (),
+        verbs: Iterable[str] = (),
+        colors: Iterable[str] = (),
+    ) -> Lexicon:
         """From labels and names as they stand in the graph, and verbs for skills of installed packages."""
         split = frozenset(tuple(normal(noun).split()) for noun in nouns if normal(noun))
         people = frozenset(tuple(normal(person).split()) for person in persons if normal(person))
         longest = max((len(words) for words in split | people | KNOWN), default=1)
         parts = frozenset(part for words in split | people for part in words)
         return cls(
-            split, people, longest, parts, frozenset(noun[-1] for noun in split if len(noun) > 1), frozenset(verbs)
+            nouns=split,
+            persons=people,
+            longest=longest,
+            parts=parts,
+            last=frozenset(noun[-1] for noun in split if len(noun) > 1),
+            verbs=frozenset(verbs),
+            colors=frozenset(colors),
         )
+
+    def person(self, words: tuple[str, ...]) -> str:
+        """The whole name of the person called so: by it, or by a part that is nobody else's and no other word."""
+        if words in self.persons:
+            return " ".join(words)
+        if len(words) != 1 or words in PHRASES or self.is_noun(words):
+            return ""
+        found = [name for name in self.persons if len(name) > 1 and words[0] in name]
+        return " ".join(found[0]) if len(found) == 1 else ""
 
     def meant(self, word: str) -> str:
         """``word``, or the one name of the graph that it is a slip of."""
-        if word in _UNDERSTOOD or self.is_noun((word,)) or word in self.parts or singular(word) in self.parts:
+        if _TITLES.get(word, "") in self.parts and word not in self.parts:
+            return _TITLES[word]
+        if (
+            word in _UNDERSTOOD
+            or word in self.colors
+            or self.is_noun((word,))
+            or word in self.parts
+            or singular(word) in self.parts
+        ):
             return word
         alike_letters = _SWAPPED.get((word[:1], "".join(sorted(word))), ()) if len(word) > 2 else ()
         swapped = [other for other in alike_letters if is_swapped(word, other)]
         if len(swapped) == 1:
             return swapped[0]
         alike = _SOUNDS.get(sound(word), frozenset()) | {part for part in self.parts if sound(part) == sound(word)}
-        if len(alike) == 1 and len(word) > 3:
+        if len(alike) == 1 and word.isalpha() and (len(word) > 3 or alike <= self.parts):
             return min(alike)
-        return closest(word, self.parts) or without_vowels(word, PHRASE_WORDS | self.parts) or word
+        return (
+            closest(word, self.parts)
+            or other_vowel(word, self.parts | _LONG)
+            or closest(word, _LONG)
+            or without_vowels(word, PHRASE_WORDS | self.parts)
+            or word
+        )
 
     def joined(self, one: str, other: str) -> str:
         """*Hair brush* as *hairbrush*: two words typed apart that only together name something; else empty."""
         whole = one + other
-        apart = self.is_noun((one, other)) or not self.is_noun((whole,)) or one in _SHORT
+        known = self.is_noun((whole,)) or whole in self.parts
+        apart = self.is_noun((one, other)) or not known or one in _SHORT
         return "" if apart else whole
 
     def parted(self, word: str) -> tuple[str, ...]:

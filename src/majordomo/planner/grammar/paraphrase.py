@@ -15,18 +15,34 @@ from majordomo.planner.grammar.wording.bringing import BRINGING
 from majordomo.planner.grammar.wording.choosing import CHOOSING
 from majordomo.planner.grammar.wording.conditions import CONDITIONS
 from majordomo.planner.grammar.wording.courtesy import COURTESY, SLIPS, UNDOING
+from majordomo.planner.grammar.wording.dictating import DICTATING
 from majordomo.planner.grammar.wording.discarding import DISCARDING
+from majordomo.planner.grammar.wording.foreign import FOREIGN
 from majordomo.planner.grammar.wording.going import FINDING, GOING
+from majordomo.planner.grammar.wording.heading import HEADING
+from majordomo.planner.grammar.wording.holding import HOLDING
 from majordomo.planner.grammar.wording.inquiring import INQUIRING
+from majordomo.planner.grammar.wording.motives import MOTIVES
 from majordomo.planner.grammar.wording.naming import NAMING
+from majordomo.planner.grammar.wording.placing import PLACING
+from majordomo.planner.grammar.wording.relating import RELATING
 from majordomo.planner.grammar.wording.renaming import RENAMING
 from majordomo.planner.grammar.wording.returning import BACK
+from majordomo.planner.grammar.wording.visiting import VISITING
 from majordomo.planner.grammar.wording.wishing import WISHING
 
 RULES: tuple[tuple[str, str], ...] = (
     *(
+        *DICTATING,
         *ADDRESSING,
+        *FOREIGN,
+        *VISITING,
+        *HEADING,
         *SLIPS,
+        *MOTIVES,
+        *HOLDING,
+        *PLACING,
+        *RELATING,
         *COURTESY,
         *UNDOING,
         *ABOUT_ROBOT,
@@ -56,5 +72,6 @@ def paraphrased(text: str) -> str:
         text = pattern.sub(said, text)
     text = BACK.sub(r"\1 back where it was", text)
     text = re.sub(r"\b(?:leave|set|place|drop) ([^,.;]+? back where it was)", r"put \1", text)
+    text = re.sub(r"\b(back where it was), (?:in|on|at|to) [^,.;!?]+(?=$|[.!?])", r"\1", text)
     text = text.replace(" away back where it was", " back where it was")
     return " ".join(text.split()) if "\n" not in text else text

@@ -19,7 +19,19 @@ from majordomo.planner.grammar.lexicon import Lexicon
 from majordomo.planner.grammar.lookahead import LookaheadParser
 from majordomo.planner.grammar.reading import Reader
 from majordomo.planner.grammar.sentences import Clause, Forbidden, Fork, Part, Structure, Unclear
-from majordomo.planner.grammar.syntax import Ask, Carry, Mention, NounPhrase, Perhaps, Step, Teach, Wanted, along, leans
+from majordomo.planner.grammar.syntax import (
+    Ask,
+    Carry,
+    Mention,
+    NounPhrase,
+    Perhaps,
+    Reference,
+    Step,
+    Teach,
+    Wanted,
+    along,
+    leans,
+)
 from majordomo.planner.grammar.terminals import ACTING, Terminal
 
 MAX_STEPS = 20
@@ -176,8 +188,16 @@ def _linked(parts: Sequence[Part], steps: list[ParsedStep]) -> list[ParsedStep]:
 def _asks_nothing(step: ParsedStep) -> bool:
     """Whether a step means nothing by itself, or only *the desk is a mess*."""
     if isinstance(step, Understood):
-        return all(isinstance(r, Teach) and not r.named and not r.mine for r in step.readings)
+        return all(
+            (isinstance(r, Wanted) and _is_somebody(r.thing)) or (isinstance(r, Teach) and not r.named and not r.mine)
+            for r in step.readings
+        )
     return isinstance(step, NotUnderstood | Unable)
+
+
+def _is_somebody(thing: Reference) -> bool:
+    """*Ben drinks*, read as a name of two words."""
+    return isinstance(thing, NounPhrase) and thing.person and len(thing.words) > 1
 
 
 def _background(tokens: Sequence[Terminal]) -> Background:

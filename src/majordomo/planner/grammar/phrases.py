@@ -29,7 +29,7 @@ _COMPARATIVE = {
     "shorter": "smallest",
 }
 ORDINALS = {
-    "first": 1, "1st": 1, "second": 2, "2nd": 2, "third": 3, "3rd": 3, "fourth": 4, "4th": 4, "fifth": 5, "5th": 5
+    "first": 1, "1st": 1, "second": 2, "2nd": 2, "third": 3, "3rd": 3, "fourth": 4, "4th": 4, "fifth": 5, "5th": 5,
 }  # fmt: skip
 
 
@@ -273,6 +273,12 @@ class PhraseReader(Transformer[Token, Any]):
     def pronoun(self, children: Children) -> Pronoun:
         several = str(children[0]) in ("them", "they", "those ones", "these ones")
         return Pronoun(word="them" if several else children[0].type.lower())
+
+    def person_at(self, children: Children) -> NounPhrase:
+        """*To me at the reception*: the person, who is known to be there."""
+        tokens = tokens_of(children)
+        where = Restriction(relation=str(tokens[-1].type).lower(), reference=values_of(children)[0])
+        return NounPhrase(words=(tokens[0].type.lower(),), quantity=Quantity.THE, person=True, restrictions=(where,))
 
     def it(self, children: Children) -> Pronoun:
         if children[0].type == "IT":

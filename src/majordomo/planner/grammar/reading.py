@@ -70,6 +70,9 @@ class Reader(QuestionReader):
 
     def with_exception(self, children: Children) -> Step:
         deed, (_, left_out) = values_of(children)
+        if isinstance(deed, Perhaps):
+            inner = self.with_exception([deed.step, children[-1]])
+            return replace(deed, step=inner) if isinstance(inner, Carry) else inner
         things = tuple(
             replace(thing, exceptions=(*thing.exceptions, *left_out)) if isinstance(thing, NounPhrase) else thing
             for thing in getattr(deed, "things", ())

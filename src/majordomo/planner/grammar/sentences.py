@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
+from majordomo.planner.grammar.asides import apart
 from majordomo.planner.grammar.background import is_told
 from majordomo.planner.grammar.inquiry import plainly
 from majordomo.planner.grammar.lexer import asks, clauses, trimmed
@@ -81,7 +82,10 @@ class Structure:
             done = before.then[-1].tokens if before.then and isinstance(before.then[-1], Clause) else ()
             instead = self._inner(self._with_verb(rest, done))
             self.parts[-1] = Fork(
-                condition=before.condition, negated=before.negated, then=before.then, otherwise=instead
+                condition=before.condition,
+                negated=before.negated,
+                then=before.then,
+                otherwise=instead,
             )
         elif first in ("OTHERWISE", "IF_NOT") and isinstance(before, Clause):
             instead = self._inner(self._with_verb(rest, before.tokens))
@@ -150,7 +154,10 @@ class Structure:
                 condition, rest = trimmed(main[1:split]), trimmed(main[split:])
                 if rest and self._is_condition(condition):
                     return Fork(
-                        condition=tuple(condition), negated=negated, then=self._inner(rest), otherwise=otherwise
+                        condition=tuple(condition),
+                        negated=negated,
+                        then=self._inner(rest),
+                        otherwise=otherwise,
                     )
         return Unclear(tokens=tuple(main))
 
@@ -164,6 +171,8 @@ class Structure:
         before = sentence[index].type == "BEFORE"
         if index > 0:
             one, other = trimmed(sentence[:index]), trimmed(sentence[index + 1 :])
+            if before and one and is_told(other):
+                return [*self._of(one), Clause(tokens=tuple(other))]
             if not self._is_command(other):
                 return [Unclear(tokens=tuple(sentence[index:]))]
             return [*self._of(one), *self._of(other)] if before else [*self._of(other), *self._of(one)]
@@ -200,6 +209,8 @@ class Structure:
             return whole
         if not RELATING & {token.type for token in step} and self.parses("topic", step):
             return whole
+        if told := apart(step, self.parses):
+            return [Clause(tokens=tuple(part)) for part in told]
         for index, token in enumerate(step):
             if index == 0 or not (token.type in ("COMMA", "AND") or token.type in ACTING):
                 continue
@@ -247,7 +258,8 @@ def _second_if(sentence: Tokens) -> int | None:
         return None
     breaks = ("COMMA", "AND", "THEN")
     return next(
-        (k for k in range(3, len(sentence)) if sentence[k].type in _IF and sentence[k - 1].type in breaks), None
+        (k for k in range(3, len(sentence)) if sentence[k].type in _IF and sentence[k - 1].type in breaks),
+        None,
     )
 
 

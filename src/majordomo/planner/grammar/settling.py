@@ -44,7 +44,7 @@ def settled_uses(tokens: Sequence[Terminal], lexicon: Lexicon) -> list[Terminal]
         settled.append(
             _of_past(token, before, following, led=led)
             or _in_phrase(token, before, following, lexicon)
-            or _choose(token, before, following, lexicon)
+            or _choose(token, before, following, lexicon),
         )
         led = led and token.type != "STOP"
     return settled
@@ -96,6 +96,8 @@ def _choose(token: Terminal, before: str, following: Sequence[Terminal], lexicon
         kind = "FILLER"
     elif token.typed == "first" and (before in ("", "THEN", "STOP", "AND", "COMMA")):
         kind = "THEN"
+    elif kind == "SEE" and before in NO_NOUN_BEFORE and after in ("NAME", "PERSON"):
+        kind = "VISIT"
     elif kind == "NEXT":
         kind = "THEN" if before in NO_NOUN_BEFORE else "FILLER" if after in END else "MEANING"
     elif kind == "BUT":
@@ -157,4 +159,6 @@ def _is_verb_here(before: str, after: str) -> bool:
     """
     if before in NOMINAL and after in _OBJECTS:
         return True
+    if before == "NOT":
+        return after in NP_START
     return before in NO_NOUN_BEFORE and (after not in END or before in ("", "THEN", "STOP"))

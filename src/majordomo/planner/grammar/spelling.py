@@ -16,7 +16,7 @@ ORDINARY = frozenset(
     {"acre", "angel", "ate", "bare", "bat", "bean", "beard", "been", "best", "boat", "bond", "bone", "book",
      "boot", "bored", "brain", "bread", "break", "bride", "cap", "cape", "card", "care", "cart", "cat", "coat",
      "cone", "cook", "cord", "dairy", "dart", "dear", "diary", "done", "drain", "earth", "east", "eat", "eats",
-     "felt", "fine", "fond", "food", "foot", "form", "forms", "gap", "goat", "gone", "good", "grain", "hat",
+     "felt", "fine", "fond", "food", "foot", "form", "forms", "gallery", "gap", "goat", "gone", "good", "grain", "hat",
      "hate", "hated", "hates", "heart", "hood", "hook", "lame", "lap", "late", "least", "left", "line", "listen",
      "look", "loop", "lots", "male", "map", "mat", "meal", "mine", "moat", "nap", "nest", "night", "nine", "nook",
      "pain", "part", "party", "pasta", "paste", "pets", "phone", "pine", "plain", "plan", "plane", "play", "pond",
@@ -24,11 +24,21 @@ ORDINARY = frozenset(
      "rook", "root", "rose", "sacred", "sale", "save", "scared", "seal", "seat", "silent", "slate", "slot",
      "sore", "speak", "spot", "stale", "steak", "steal", "step", "stone", "tale", "tales", "tap", "tape", "taste",
      "tea", "teas", "test", "thing", "tone", "took", "tops", "trail", "train", "tray", "trial", "united", "vase",
-     "vest", "waste", "west", "wine", "wood", "zone"}
+     "vest", "waste", "west", "wine", "wood", "zone"},
 )  # fmt: skip
 """English words that are nobody's slip of another word, though letters or sounds would allow it."""
 _HARD_C = re.compile(r"c(?![eihky])")
-_SPELLINGS = (("ph", "f"), ("sc", "s"), ("ck", "k"), ("z", "s"), ("gh", "g"), ("wh", "w"), ("qu", "kw"), ("y", "i"))
+_SPELLINGS = (
+    ("ph", "f"),
+    ("sh", "ch"),
+    ("sc", "s"),
+    ("ck", "k"),
+    ("z", "s"),
+    ("gh", "g"),
+    ("wh", "w"),
+    ("qu", "kw"),
+    ("y", "i"),
+)
 
 
 @lru_cache(maxsize=8192)
@@ -46,6 +56,22 @@ def sounding_alike(words: Iterable[str]) -> dict[str, frozenset[str]]:
     for word in words:
         found[sound(word)] = found.get(sound(word), frozenset()) | {word}
     return found
+
+
+def other_vowel(word: str, words: Iterable[str]) -> str | None:
+    """*Docter*, *tabel*: the one of ``words`` with the same consonants and one other vowel; None of several."""
+    if len(word) < MIN_LETTERS - 1 or not word.isalpha():
+        return None
+    bare = _VOWELS.sub("_", word)
+    found = {
+        other
+        for other in words
+        if len(other) == len(word)
+        and other != word
+        and _VOWELS.sub("_", other) == bare
+        and sum(a != b for a, b in zip(word, other, strict=True)) == 1
+    }
+    return min(found) if len(found) == 1 else None
 
 
 def without_vowels(word: str, words: Iterable[str]) -> str | None:

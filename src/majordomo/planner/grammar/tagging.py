@@ -63,8 +63,10 @@ def _longest(words: Sequence[Word], index: int, lexicon: Lexicon) -> tuple[int, 
 def _match(words: tuple[str, ...], lexicon: Lexicon) -> Terminal | None:
     typed = " ".join(words)
     phrase = PHRASES.get(words)
-    if words in lexicon.persons and phrase is None:
-        return Terminal("NAME", typed, typed)
+    if phrase is None and (person := lexicon.person(words)):
+        return Terminal("NAME", person, typed)
+    if phrase is None and typed in lexicon.colors and not lexicon.is_noun(words):
+        return Terminal("COLOR", typed, typed)
     if phrase is None and len(words) == 1 and (typed in PERSON_WORDS or singular(typed) in PERSON_WORDS):
         return Terminal("PERSON", typed, typed)
     owner = tuple(typed.removesuffix("'s").removesuffix("s'").split())

@@ -54,7 +54,7 @@ CLOSED: dict[str, tuple[str, ...]] = {
     "BETWEEN": ("between", "in between"),
     "NEITHER": ("neither",),
     "NOR": ("nor", "or"),
-    "LIKE": ("looks like", "look like", "resembles", ),
+    "LIKE": ("looks like", "look like", "resembles" ),
     "LOSES": ( "lost", "has lost", "have lost", "misplaced", "has misplaced", "can not find", "is looking for",
         "is missing",
               "forgot", "has forgotten", "left behind", "mislaid"),
@@ -95,7 +95,7 @@ CLOSED: dict[str, tuple[str, ...]] = {
     "CAN": ("can", "could", "may", "might"),
     "HAVE": ("have", "has", "had", "got"),
     "SEE": ("see", "seen", "know", "know of", "know about", "remember", "noticed", "notice", "spot", "saw",
-        "recall",),
+        "recall"),
     "HOLDING": ("holding", "carrying", "gripping", "grasping"),
     "IN_HAND": ("in your hand", "in your gripper", "in your hands", "in the hand", "in the gripper", "in hand"),
     "WHATEVER": ("whatever",),
@@ -246,7 +246,8 @@ NUMBERS: dict[str, int] = {
     **{
         w: i
         for i, w in enumerate(
-            ["two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve"], start=2
+            ["two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve"],
+            start=2,
         )
     },
     "a couple of": 2,
@@ -260,10 +261,18 @@ NUMBERS: dict[str, int] = {
     "a couple": 2,
 }
 
+_NUMERALS = (
+    "one two three four five six seven eight nine ten eleven twelve thirteen fourteen "
+    "fifteen sixteen seventeen eighteen "
+    "nineteen twenty"
+)
+NUMERALS: dict[str, str] = {word: str(value) for value, word in enumerate(_NUMERALS.split(), start=1)}
+"""Numbers in words, as they are spoken after *ward* or *office*."""
+
 LYING = frozenset(
     {"lying", "standing", "sitting", "located", "placed", "situated", "found", "kept", "stored", "resting", "laying",
      "left", "put", "currently", "somewhere", "right", "just", "anywhere", "at present", "still", "also", "now",
-     "hanging"}
+     "hanging"},
 )  # fmt: skip
 """Say nothing new between a noun and *on*, *in* or *next to*; dropped there."""
 

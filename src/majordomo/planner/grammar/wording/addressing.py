@@ -27,10 +27,8 @@ _PLEASE = (
 )
 
 ADDRESSING: tuple[tuple[str, str], ...] = (
-    (r"\bplease,? to (?=(?:go|come|bring|take|put|move|drive|get|fetch|give|carry|find|look|pick)\b)", "please "),
     (rf"(?<=\w)(?:[,.!]* {_PLEASE})+(?=[.!?]*$)", ""),
     (rf"^(?:{_PLEASE}[,.!]* )+(?=\w)(?!do\b)", ""),
-    (r"\b((?:the|an?|my|that) \w+)(?:,? (?:yeah|yes|right|ok|so|like|um+|uh+|you know|er+|i mean))*,? \1\b", r"\1"),
     (r"\b(?:um+|uh+|uhm+|erm+|err+|er|hmm+|ach|pray|ugh|gosh|jeez|blimey)\b,? ?(?=\w)", ""),
     (rf"(^|[,.;!] |\b(?:but|and|or) ){_SIGH}[,!.]* (?=\w)(?!no\b)", r"\1"),
     (

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+_COLOR = r"(?:red|green|blue|yellow|black|white|brown|pink|purple|gray|grey|orange|gold|silver|clear)"
+
 BRINGING: tuple[tuple[str, str], ...] = (
     (
         (
@@ -100,7 +102,7 @@ BRINGING: tuple[tuple[str, str], ...] = (
     (
         (
             r"^(?:i|we) do not (?:want|need|like) the (\w+) (\w+)[,.;]+ (?:but |so "
-            r"|please )?(.*?)\bthe other(?: one)?(?=$|[ .!?])"
+            r"|please )?(.*?)\bthe other(?: one| \2)?(?=$|[ .!?])"
         ),
         r"\3the \2 that is not \1",
     ),
@@ -185,7 +187,6 @@ BRINGING: tuple[tuple[str, str], ...] = (
         ),
         "",
     ),
-    (r"\bcould i (?:trouble|bother) you for\b", "can i have"),
     (r"\bgo(?: and)? (?:bring|get|fetch) \b", "fetch "),
     (r"\b(?:over )?to where i am(?: now| standing| sitting)?\b", "to me"),
     (
@@ -198,7 +199,6 @@ BRINGING: tuple[tuple[str, str], ...] = (
     (r"^(?:and |ok |okay |then |now )*(?:and )?then (?=\w)", "then "),
     (r",? from there (?=(?:to|go|on|drive|head)\b)", ", then "),
     (r"\b(?:after|having done|once done with) that\b,?", "then"),
-    (r"\b(should|must|can|may) all (?=(?:be|go)\b)", r"\1 "),
     (r"^(?:please )?(?:gather|round|collect)(?: up)? (.+?) and (?=(?:put|bring|take|carry)\b)", r"pick up \1 and "),
     (r"\bback again\b", "back"),
     (r"\b(put|take|bring|return|move) (?:everything|it all|all of it|all of them|all that) back\b", r"\1 them back"),
@@ -213,7 +213,39 @@ BRINGING: tuple[tuple[str, str], ...] = (
     ),
     (r"^not (?:the |a |to the )[\w ]+?[,;] (?:but )?(?=(?:bring|take|put|go|fetch|get|carry|move|give)\b)", ""),
     (r"\bthat is not an? (\w+)(?=$|[.!?,])(?<! one)", r"except \1s"),
-    (r",? but (?:no|not an?|not the) (\w+?)(?: ones?)?(?=$|[.!?])", r" that is not \1"),
+    (rf",? but (?:no|not an?|not the) ({_COLOR})(?: ones?)?(?=$|[.!?])", r" that is not \1"),
+    (
+        r",? but (?:please )?(?:no|not any|not an?|not the|none of the) (?!one\b|other\b)(\w+(?: \w+)?)(?=$|[.!?])",
+        r" except the \1",
+    ),
+    (
+        (
+            r",? any (?:colou?r|one|kind|shade) (?:except|but|other than|apart from|as long as "
+            r"it is not) (?:for )?(?:the )?(\w+)"
+            r"(?: ones?)?(?=$|[.!?])"
+        ),
+        r" that is not \1",
+    ),
+    (r",? (?:all )?(?:without|save(?: for)?|bar) (the [\w ]*?ones?)\b", r" except \1"),
+    (
+        (
+            rf"^not the ({_COLOR}) (\w+)[,:;] (?:but |please,? )*(?:i (?:want|need|would like)|"
+            rf"(?:please )?(?:bring|give|get) me) "
+            r"the other(?: one| \2)?(?=$|[ .!?])"
+        ),
+        r"i want the \2 that is not \1",
+    ),
+    (
+        (
+            rf"^not the ({_COLOR}) (\w+)[,:;] (?:please[,:;]? )?(?:but )?the ({_COLOR}) one,? (?=(?:to|"
+            rf"for|in|on|into|onto) )"
+        ),
+        r"the \3 \2 ",
+    ),
+    (
+        rf"^not the ({_COLOR}) (\w+)[,:;] (?:but )?the other (?:one|\2)[.,;]+ (?=(?:to|for|in|on|into|onto) )",
+        r"the \2 that is not \1 ",
+    ),
     (
         r"\b(?:something|anything) (red|green|blue|yellow|black|white|brown|pink|purple|gray|grey|orange)\b",
         r"a \1 thing",

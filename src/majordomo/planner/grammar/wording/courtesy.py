@@ -156,13 +156,6 @@ COURTESY: tuple[tuple[str, str], ...] = (
     (r"^(?:can|could|would|will) (?:some(?:one|body)|anyone|anybody) (?:please )?(?=\w)", "can you "),
     (
         (
-            r"^(?:so |basically |well |ok |okay |,)*(?:what|all|the (?:only )?thing) (?:that )?(?:i|we) (?:really )?"
-            r"(?:want|need)(?: now| right now| from you)? is (?=(?:the|an?|my|some|one)\b)"
-        ),
-        "i want ",
-    ),
-    (
-        (
             r"^(?:(?:(?:i|we|they) have|(?:he|she|it) (?:has|is)|they are) )?(?:all )?(?:just |now )?(?:done|finished"
             r"|through|not \w+ after all|(?<=have )taken|(?<=has )taken)\b[^,.;!?]*[,.;!]+ (?:so |and |now )*(?="
             r"(?:please |you can |you may |kindly )*(?:put|return|take|bring|carry|it can|they can|it should|back)\b)"
@@ -226,8 +219,8 @@ COURTESY: tuple[tuple[str, str], ...] = (
     (" (?:at the moment|at present|right now|as we speak|these days)(?=[?.!]*$)", ""),
     (
         (
-            ",? (?:both|all|each and every one|each|every one)(?: (?:two|three|four))? of (?:them"
-            "|these|those)(?=$|,| (?:go|goes"
+            ",? (?:the )?(?:both|all|each and every one|each|every one)(?: (?:two|three|four))? of (?:them"
+            "|these|those)(?=$|,| (?:into|onto|in|on|to|go|goes"
             r"|should|must|can|belong|belongs)\b),?"
         ),
         "",
@@ -249,15 +242,9 @@ COURTESY: tuple[tuple[str, str], ...] = (
     ),
     (
         (
-            ",? so (?:that )?(?:i|we|he|she|they|it) (?:can|could|will|may|do not|does not|is|are"
-            r"|am)\b[^.;!?]*(?=$|[.;!?])"
-        ),
-        "",
-    ),
-    (
-        (
-            "^(?:hey|hi|ok|okay|oh|well|so|and|now|right|alright|listen|hello|yo|good|great|thanks|thank you"
-            "|cool|perfect)[,!.]+ "
+            r",? so (?:that )?(?:i|we|he|she|they|it) (?:can|could(?! (?:do with|use|go "
+            r"for|have|murder|get)\b)|will|may"
+            r"|do not|does not|is|are|am)\b(?! i (?:have|get|borrow)\b)[^.;!?]*(?=$|[.;!?])"
         ),
         "",
     ),

@@ -11,6 +11,30 @@ _END = r"(?=$|[.,;!?]| and | then | after | before | when | if )"
 _LEAD = r"(?:(?<=^)|(?<=[.,;!] )|(?<=\band )|(?<=\bthen )|(?<=\bplease )|(?<=\byou )|(?<=\bto ))"
 
 DISCARDING: tuple[tuple[str, str], ...] = (
+    (
+        (
+            r"^(?:please )?(?:get rid of|away with|out with|throw out|throw away|dispose "
+            r"of) ([^,.;!]+?)[,;.!]+ (?:[^.;!]*[.;!]+ )?"
+            r"(?:in|into) ([^,.;!]+?) with (?:it|them)(?=[.!]*$)"
+        ),
+        r"put \1 in \2",
+    ),
+    (
+        (
+            rf"{_LEAD}(?:swap|exchange|switch|swop|trade)(?: round| around| over)? ((?:the|"
+            rf"my|his|her|that|\w+'s) [^,.;]+?) (?:and|with|for|"
+            r"against) ((?:the|my|his|her|that|\w+'s) [^,.;]+?)(?: (?:round|around|over|please|for me))*(?=$|[.,;!])"
+        ),
+        r"put \1 where \2 is, then put \2 where \1 was",
+    ),
+    (
+        (
+            r"^(?:let |make |have )?((?:the|my|his|her|that) [^,.;]+?) and ((?:the|my|his|"
+            r"her|that) [^,.;]+?) (?:should |must |are to |can )?"
+            r"(?:swap|change|switch|trade|exchange) (?:places|positions|spots)(?=[.!]*$)"
+        ),
+        r"put \1 where \2 is, then put \2 where \1 was",
+    ),
     (rf"\b(?:throw|chuck|toss|fling|pitch) {_THING} (?:away|out){_END}(?! in)", r"put \1 in the trash can"),
     (rf"{_LEAD}(?:throw|chuck|toss|fling|pitch) (?:away|out) {_THING}{_END}", r"put \1 in the trash can"),
     (rf"{_LEAD}(?:bin|trash|dispose of|discard|junk) {_THING}{_END}", r"put \1 in the trash can"),

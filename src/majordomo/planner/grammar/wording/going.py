@@ -133,14 +133,6 @@ GOING: tuple[tuple[str, str], ...] = (
         r"get \2 from \1",
     ),
     (r"\bmake it (?:over |across |down |up |back )*(?:to|into) (?=\w)", "go to "),
-    (
-        (
-            r"^(?!(?:go|please|if|when|unless|once|after|before|should|in case|provided|as|where|is)\b)"
-            r"((?:the |my )?[\w' ]+?)[,:;]+ (?:go|drive|head|off you go)(?: there)?"
-            r"(?: now)?(?=[.!]*$)"
-        ),
-        r"go to \1",
-    ),
     (r"\byou have been (?:to|in|into|at) (?=\w)", "you went to "),
     (rf"{_START}{_MOTION}(?: yourself)?{_ALONG} (?:to|into|towards?) (?!bed\b)(?=\w)", "go to "),
     (

@@ -7,6 +7,12 @@ _USES = (
     r"take|enjoy|keep|work with|draw with|study|watch|taste|finish)"
 )
 
+_ANYBODY = r"((?!i\b|we\b|you\b|it\b|that\b|this\b|what\b|who\b|which\b|where\b|if\b|nobody\b)[a-z]+(?: [a-z]+)??)"
+_SENDING = (
+    r"[,.;!]* (?:so |and |please |can you |could you |then |now )*(?:bring|get|give|fetch|hand|pass|grab)(?: me)?"
+    r" (?:it|them|that|one)(?: to me| here| over| for me)?(?: please| now)?(?=[.!?]*$)"
+)
+
 WISHING: tuple[tuple[str, str], ...] = (
     (
         (
@@ -56,6 +62,44 @@ WISHING: tuple[tuple[str, str], ...] = (
         ),
         "",
     ),
+    (
+        (
+            rf"^(?:i|we) (?:would (?:rather|like to|love to|prefer to)|want to|need to|am going "
+            rf"to|have to|must|wish to|wanted to) "
+            rf"[a-z]+(?: (?:with|at|on|from|in|for))? ((?:the|my|an?|some|our|that) [^,.;!?]+?){_SENDING}"
+        ),
+        r"bring me \1",
+    ),
+    (
+        (
+            rf"^{_ANYBODY} (?:can not|could not|will not|never) [a-z]+(?: [a-z]+)? (?:without|unless "
+            rf"(?:he|she) (?:has|gets)) "
+            rf"(?=(?:the|his|her|an?|some|their|that)\b)"
+        ),
+        r"\1 wants ",
+    ),
+    (
+        r"^(?:i|we) (?:can not|could not|will not|never) [a-z]+(?: [a-z]+)? without (?=(?:the|my|our|an?|some)\b)",
+        "i want ",
+    ),
+    (
+        (
+            rf"\b{_ANYBODY} (?:would|will|could) (?:really |so |very much |certainly |also )*(?:appreciate|"
+            rf"enjoy|welcome|fancy|"
+            rf"be (?:happy|glad|grateful|pleased|delighted|thankful) (?:about|with|of|for|to (?:have|"
+            rf"get))|benefit from|do with) "
+        ),
+        r"\1 wants ",
+    ),
+    (
+        rf"\b{_ANYBODY} (?:says|said|tells me|told me)(?: that)? (?:he|she) (?:wants|needs|would like|wanted|needed) ",
+        r"\1 wants ",
+    ),
+    (
+        r"\b(?:might|may|could|can) (?:i|we) (?:please )?(?:trouble|bother|ask|pester|beg|bug) you for ",
+        "can i have ",
+    ),
+    (r"^(?:has )?any ?(?:one|body) (?:got|have|has) (?=(?:an?|the|some|my)\b)", "is there "),
     (r"\b(?:how about|what about) (?:bringing|fetching|getting|giving) ", "bring "),
     (r"\b(?:how about|what about) (?:taking|putting|moving|carrying) ", "put "),
 )

@@ -1,0 +1,55 @@
+"""Speech that a machine has typed: spoken punctuation, words to gain time, things said twice."""
+
+from __future__ import annotations
+
+_LEAD = (
+    r"(?:(?:hey|hi|hello) (?:there|again|you)|hey|hi|hiya|hello|ok|okay|okey dokey|yeah|"
+    r"yes|yep|so|well|right|alright|all right|like|um+|uh+|er+m?|robot|"
+    r"now|then|please|listen|listen up|you know|i mean|basically|anyway|actually|right then|now then|ok then|hm+|ah|"
+    r"oh|let me (?:think|see)(?: now| again| for a (?:second|moment))?|what was it(?: again|"
+    r" now)?|how do i say(?: this)?)"
+)
+_NP = r"(?:the|an?|my|that|his|her|some) (?:\w+ )?\w+"
+
+DICTATING: tuple[tuple[str, str], ...] = (
+    (r" ?\bcomma\b,?", ","),
+    (r" ?\b(?:full stop|period)(?=$|[.\s])(?! of)", "."),
+    (r" ?\b(?:question mark|exclamation (?:mark|point))\b", "."),
+    (r"\b(?:new line|new paragraph|next line)\b", "."),
+    (rf"^(?:{_LEAD}[,.!;:]* )+(?=\w)(?!do\b|that is\b)(?=\S+ \S)", ""),
+    (
+        (
+            r"(?<=\w),? (?:let me (?:think|see)|what was it|how do you (?:call|say) (?:it|that)|what is it called|"
+            r"what do you call it|you know what i mean|you know which one|what is the word)(?: again| now)?,? (?=\w)"
+        ),
+        " ",
+    ),
+    (
+        (
+            r"^(?!.*\b(?:bring|take|put)\b.*never ?mind).{1,40}?(?:\.{2,}|…|[,.;-])\s*(?:(?:ah|"
+            r"oh|uh|um|well|no)[,.]? )*"
+            r"(?:never ?mind|forget (?:it|that)|scrap that|doesn't matter|does not matter)"
+            r"[,.!;]+ (?:just |please |so |and )*(?=(?:"
+            r"bring|take|put|get|fetch|give|go|come|find|drive)\b)"
+        ),
+        "",
+    ),
+    (r",(?:\s*,)+", ","),
+    (rf"\b({_NP}),? (?:yes|yeah|right|exactly|i said|that is right|ok|okay),? \1\b", r"\1"),
+    (
+        r"^(?:so |and )?(?:what|all) (?:that )?(?:i|we) (?:really )?(?:want|need|would like)(?: now)? is (?=\w)",
+        "i want ",
+    ),
+    (
+        r"(?<=\w) (?:okay|ok|yeah|right),? (?=(?:bring|take|put|go|get|fetch|give|come|can you|could you|please)\b)",
+        ", ",
+    ),
+    (
+        (
+            r"(?<=\w),? (?:and )?(?:that is (?:it|all)|that will be all|over and out|end of "
+            r"message)(?=[.!]*$)(?<! is over)"
+        ),
+        "",
+    ),
+)
+"""In the order in which they are tried."""

@@ -1,0 +1,105 @@
+"""Where something is to be, said as a fact or a wish: *it lives on the shelf*, *I'd like it moved to the hall*."""
+
+from __future__ import annotations
+
+_WHAT = r"((?:the|my|our|his|her|that|those|these|this|all|both|every|it|they|them|an?|\w+'s)(?: [\w' ]+?)??)"
+_PREP = r"(?=(?:to|in|on|into|onto|at|next to|by|near|inside|back|from)\b)"
+_DONE = (
+    r"(?:moved|brought|put|taken|placed|carried|delivered|returned|transferred|transported|set|stored|laid|shifted|"
+    r"relocated|dropped off|left|stowed|kept)"
+)
+_BELONGS = (
+    r"(?:goes|belongs|should (?:go|be|live|stand)|go|belong|lives?|is kept|are kept|needs "
+    r"to (?:go|be)|has to (?:go|be)|"
+    r"must (?:go|be)|ought to (?:go|be)|is supposed to (?:go|be)|is meant to (?:go|be)|can go|is to go)"
+)
+_MISPLACED = (
+    r"(?:has no business|have no business|does not belong|do not belong|should not (?:be|lie|stand|stay|live|sit)|"
+    r"is not supposed to (?:be|lie|stand)|is out of place|is in the wrong place|is wrong|is not right|has no place|"
+    r"can not (?:stay|remain|lie|stand|be)|must not (?:be|lie|stand|stay))"
+)
+
+PLACING: tuple[tuple[str, str], ...] = (
+    (
+        (
+            rf"\b(?:i|we) (?:would (?:like|love|prefer)|want|need|wish)(?: to (?:have|see|"
+            rf"get))? {_WHAT} (?:to be )?{_DONE}"
+            rf"(?: over| back| away)? {_PREP}"
+        ),
+        r"move \1 ",
+    ),
+    (
+        (
+            rf"(?:^|(?<=[.;!] )){_WHAT} {_MISPLACED}(?: [^,.;!]*)?[,.;!]+ (?:and |but |so |please )*(?:it|they|that) "
+            rf"{_BELONGS}(?: back)? {_PREP}"
+        ),
+        r"put \1 ",
+    ),
+    (
+        (
+            rf"(?:^|(?<=[.;!] )){_WHAT} (?:lives?|belongs?|goes|is kept|are kept|is at home|"
+            rf"has its place|is supposed to be|"
+            rf"should be) ((?:in|on|at|inside|next to|with) [^,.;!]+?)(?:,|;|\.)? (?:and "
+            rf"|so |then |please |could you |can "
+            rf"you )*(?:put|take|bring|return|carry|move|place) (?:it|them) (?:back )?(?:there|in there|on there|back)"
+            rf"(?=[.!?]*$)"
+        ),
+        r"put \1 \2",
+    ),
+    (
+        (
+            rf"(?:^|(?<=[.;!] ))(?:i (?:have |always |have always )*(?:thought|think|find|feel)(?: that)? )?{_WHAT} "
+            rf"(?:looks?|would look|fits?|would fit|is|would be|does|stands) (?:much |far "
+            rf"|so much )?(?:better|nicer|best) "
+            rf"((?:in|on|at|next to|by|near) [^,.;!]+?)[,.;]+ (?:so |please |could you |"
+            rf"can you |would you |and )*(?:put|"
+            rf"take|bring|carry|move|place) (?:it|them) there(?=[.!?]*$)"
+        ),
+        r"put \1 \2",
+    ),
+    (
+        (
+            rf"(?:^|(?<=[.;!,] )){_WHAT} (?:has|have|needs?|should|must|ought)(?: to)? (?:get|"
+            rf"come|go|travel|move|be moved|be "
+            rf"taken|be brought|be carried) (?=from [^,.;]+? (?:to|into|onto|over to)\b)"
+        ),
+        r"take \1 ",
+    ),
+    (
+        (
+            r"\b(should|must|have to|has to|needs? to|ought to|can) (?:both|all|each|all three|"
+            r"now|please|then|also) (?=\w)"
+        ),
+        r"\1 ",
+    ),
+    (
+        (
+            r"\b(?:should|must|have to|has to|needs? to|ought to) (?:end up|find (?:its|"
+            r"their) way|come|get|wind up|land|make "
+            r"(?:its|their) way|arrive)(?: inside| in| out| back| over)?,? (?=(?:to|in|on|into|onto|at|next)\b)"
+        ),
+        "should go ",
+    ),
+    (
+        r"\b(?<!you )(?:is|are) (?:required|needed|wanted|expected|due|missing|missed) (?=(?:in|on|at) (?:the|my|\w+))",
+        "should be ",
+    ),
+    (r"\b((?:the|my|that) [\w ]+?) (?:is|are) (?:required|needed|wanted|expected) by (?=\w)", r"\1 should go to "),
+    (
+        (
+            r"(?:(?<=^)|(?<=[.,;!] )|(?<=\band )|(?<=\bthen ))(?:pack|stuff|squeeze|cram|load)"
+            r" ([^,.;!]+?)(?: up| away)? "
+            r"(?=(?:in|into|inside) (?:the|a|my|that)\b)"
+        ),
+        r"put \1 ",
+    ),
+    (r"\b(bring|carry|take) (it|them) in(?:side)?(?: to| for) (me|us|him|her)\b", r"\1 \2 to \3"),
+    (
+        (
+            r"\b(bring|carry|take|get|put|move) (?!from\b)([\w' ]+?) (?:over )?here (?=(?:to|"
+            r"in|into|at|on) (?:the|my|me|us)\b)"
+        ),
+        r"\1 \2 ",
+    ),
+)
+"""In the order in which they are tried."""

@@ -1,0 +1,91 @@
+"""Who wants to see the robot, and how one looks in on somebody: *Emil would like to see you*, *see how Leo is*."""
+
+from __future__ import annotations
+
+_WHO = r"((?!(?:i|we|it|that|this|what|who|if|when|nobody|someone|somebody)\b)[a-z]+(?: [a-z]+)??)"
+_GO = (
+    r"(?:[,.;!]+ (?:so |please |can you |could you |and )*(?:go|come|drive|head|pop|run|"
+    r"walk)(?: over| on over| along| down| up)*"
+    r"(?: (?:to|see|and see|and meet|and join|and find|meet|join|find|visit) (?:him|her|them)| there| over there)"
+    r"(?: please)?)"
+)
+_PLACE = r"((?:in|at|on|by|near|next to) [^,.;!?]+?)"
+
+VISITING: tuple[tuple[str, str], ...] = (
+    (
+        (
+            rf"^{_WHO} (?:wants|needs|would like|wishes|would love|has) to (?:see|meet|talk to|"
+            rf"speak to|speak with|talk with|have)"
+            rf" you {_PLACE}{_GO}?(?=[.!]*$)"
+        ),
+        r"go to \1 \2",
+    ),
+    (
+        (
+            rf"^{_WHO} (?:wants|needs|would like|wishes|would love|has) to (?:see|meet|talk to|"
+            rf"speak to|speak with|talk with) you"
+            rf"{_GO}?(?=[.!]*$)"
+        ),
+        r"go to \1",
+    ),
+    (
+        (
+            rf"^{_WHO} (?:is|has been|keeps) (?:asking|looking|waiting|calling|shouting|hoping|"
+            rf"yelling|crying) for you {_PLACE}{_GO}"
+            r"(?=[.!]*$)"
+        ),
+        r"go to \1 \2",
+    ),
+    (
+        (
+            rf"^{_WHO} (?:is|has been|keeps) (?:asking|looking|waiting|calling|shouting|hoping|"
+            rf"yelling|crying)(?: (?:for|on) you)?"
+            rf"{_GO}(?=[.!]*$)"
+        ),
+        r"go to \1",
+    ),
+    (
+        (
+            rf"^{_WHO} (?:wants|needs|expects|would like|requests|is expecting) you {_PLACE}(?: "
+            rf"now| right now| please)?(?=[.!]*$)"
+        ),
+        r"go \2",
+    ),
+    (
+        (
+            r"\b(?:go |come |run |pop )?(?:over )?(?:and )?(?:see|check|look|find out|ask) (?:how|"
+            r"what|whether|if) (\w+(?: \w+)?) "
+            r"(?:is|are) (?:doing|up to|feeling|getting on|ok|okay|all right|alright|well|fine|"
+            r"keeping|coming along)(?=[.!?,]*$|,)"
+        ),
+        r"go to \1",
+    ),
+    (
+        (
+            r"(?:(?<=^)|(?<=[.,;!] )|(?<=\band )|(?<=\bthen )|(?<=\bplease ))(?:move|go|get|come|"
+            r"drive|roll) out of (?:here|there|"
+            r"this room|the [\w ]+?)(?:,| and)+ (?:then )?(?:go )?(?:over )?(?:in)?to "
+        ),
+        "go to ",
+    ),
+    (
+        (
+            r"\b(?:make|do|take|go on|go for) (?:a|the|your|one) (?:little |quick |short )?(?:round|"
+            r"rounds|tour|trip|circuit|lap|"
+            r"loop)(?: of| through| past| via)?(?: the rooms?)?[:,]* (?=(?:the |my )?\w+,)"
+        ),
+        "go to ",
+    ),
+    (
+        (
+            r"^((?:the |my )?(?!(?:go|drive|come|bring|take|put|to|into|pop|run|nip|walk|visit|"
+            r"please|off|over|out|look|move|head|"
+            r"get|fetch|find|see)\b)\w+(?: (?!to\b|into\b|in\b|the\b)\w+){0,2}?),? and (?:then )?(?:straight |right )?"
+            r"back (?:here |again )?(?:to me|here|again)(?=[.!]*$)"
+        ),
+        r"go to \1, then come back to me",
+    ),
+    (r"(?:,| and|, and)(?: then)? be (?:back )?(?=(?:at|in) (?:the|my|\w+)\b)", " and go "),
+    (r"\b(and go (?:at|in) [^,.;]+?) (?:after (?:that|this)|afterwards|then)(?=[.!]*$)", r"\1"),
+)
+"""In the order in which they are tried."""

@@ -8,11 +8,8 @@ import pytest
 
 from majordomo.planner.grammar.paraphrase import RULES, paraphrased
 from wordings import MORE
-<<<<<<< HEAD
 from wordings_of_talk import TALK
-=======
 from wordings_spoken import SPOKEN
->>>>>>> c6b4d97 (What is told around a request, notes, dictation, learners' English, “swap”, “to me at the reception” and slips of letters are understood by rules)
 
 SAME = [
     ("put the books away", "put the books"),
@@ -382,11 +379,7 @@ UNCHANGED = [
 ]
 
 
-<<<<<<< HEAD
-@pytest.mark.parametrize(("typed", "said"), [*SAME, *MORE, *TALK])
-=======
-@pytest.mark.parametrize(("typed", "said"), [*SAME, *MORE, *SPOKEN])
->>>>>>> c6b4d97 (What is told around a request, notes, dictation, learners' English, “swap”, “to me at the reception” and slips of letters are understood by rules)
+@pytest.mark.parametrize(("typed", "said"), [*SAME, *MORE, *TALK, *SPOKEN])
 def test_a_wording_is_read_as_the_one_that_the_grammar_knows(typed, said):
     assert paraphrased(typed) == said
 
@@ -410,9 +403,5 @@ def changed_by(text):
 
 
 def test_every_rule_has_an_example_here():
-<<<<<<< HEAD
-    used = set().union(*(changed_by(typed) for typed, _ in [*SAME, *MORE, *TALK]))
-=======
-    used = set().union(*(changed_by(typed) for typed, _ in [*SAME, *MORE, *SPOKEN]))
->>>>>>> c6b4d97 (What is told around a request, notes, dictation, learners' English, “swap”, “to me at the reception” and slips of letters are understood by rules)
+    used = set().union(*(changed_by(typed) for typed, _ in [*SAME, *MORE, *TALK, *SPOKEN]))
     assert [RULES[number] for number in range(len(RULES)) if number not in used] == []

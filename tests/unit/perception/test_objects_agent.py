@@ -351,6 +351,18 @@ def test_a_person_whose_legs_and_body_are_seen_as_two_masks_is_one():
     assert [node.id for node in story.run(6).of_type(PersonNode)] == ["person_1", "person_2"]
 
 
+def test_what_looks_like_a_leg_below_a_desk_is_nobody_and_takes_nobody_there():
+    leg = Solid(label="person", center=(1.0, -1.2, 0.2), size_m=(0.1, 0.1, 0.4), confidence=0.7)
+    body = Solid(label="person", center=(1.0, 0.8, 0.85), size_m=(0.4, 0.4, 1.7), cylinder=True)
+    story = Story([leg], eye=(-2.0, 0.0), target=(1.0, 0.0, 1.0))
+    assert not list(story.run(8).of_type(PersonNode))
+    story.room.solids = [leg, body]
+    story.run(6)
+    story.room.solids = [leg]
+    graph = story.run(2)
+    assert np.linalg.norm(graph.position("person_1", "room_1")[:2] - (1.0, 0.8)) < 0.2
+
+
 def test_a_bottle_seen_again_elsewhere_after_a_while_is_the_same_bottle_where_one_had_looked_before():
     desk = Solid(label="desk", center=(0.0, 2.2, 0.375), size_m=(1.2, 0.6, 0.75), color=(90.0, 90.0, 90.0))
     story = Story([TABLE, desk, BLUE_BOTTLE], eye=(-1.2, 0.0))

@@ -27,12 +27,25 @@ _BODY_SIZE_M = (0.4, 0.4, 1.7)
 class PeopleSettings:
     """``gate_m``: how far a person walks between two frames. ``gone_below``: probability under which an unnamed one
     is forgotten.
+
+    The foot of a desk may look like a person's leg. That there is somebody, or somewhere else than before, is taken
+    only from what reaches up to ``upright_m`` and is a person with probability ``likely``, or with ``sure`` whatever
+    of it is seen.
     """
 
     gate_m: float = 0.8
     smoothing: float = 0.4
-    confirm_hits: int = 2
+    confirm_hits: int = 3
     gone_below: float = 0.15
+    upright_m: float = 0.8
+    likely: float = 0.6
+    sure: float = 0.9
+
+    def convinces(self, detection: Detection) -> bool:
+        """Whether a detection is enough to believe in a person where nobody was."""
+        probability = dict(detection.distribution).get(detection.label, 0.0)
+        top_m = float(detection.cloud.points[:, 2].max())
+        return probability >= (self.likely if top_m >= self.upright_m else self.sure)
 
 
 class PersonTrack:
@@ -86,15 +99,16 @@ class People:
         in_range = sorted((d for d in detections if d.in_range), key=lambda d: -d.cloud.pixels)
         unseen = [t for t in self.tracks if t.room in surroundings.T_here_room]
         taken: list[Array] = []
-        for spot in [_feet(detection, view) for detection in in_range]:
+        for detection in in_range:
+            spot, convinces = _feet(detection, view), self._settings.convinces(detection)
             if any(float(np.linalg.norm(spot - other)) < 2.0 * _BODY_RADIUS_M for other in taken):
                 continue
             taken.append(spot)
-            track = self._same_person(spot, unseen, surroundings, view.stamp_s)
-            if track is None:
-                track = self._new(spot, surroundings)
-            else:
+            track = self._same_person(spot, unseen, surroundings, view.stamp_s, anywhere=convinces)
+            if track is not None:
                 unseen.remove(track)
+            elif convinces:
+                track = self._new(spot, surroundings)
             if track is not None:
                 self._observe(track, spot, surroundings, view.stamp_s)
         for track in unseen:
@@ -102,14 +116,23 @@ class People:
         self.tracks = [t for t in self.tracks if t.node_id is not None or view.stamp_s - t.last_seen_s < 1.0]
 
     def _same_person(
-        self, spot: Array, unseen: list[PersonTrack], surroundings: Surroundings, stamp_s: float
+        self,
+        spot: Array,
+        unseen: list[PersonTrack],
+        surroundings: Surroundings,
+        stamp_s: float,
+        *,
+        anywhere: bool,
     ) -> PersonTrack | None:
-        """The nearest person who can have walked to ``spot`` since last seen, at one meter a second."""
+        """The nearest person who can have walked to ``spot`` since last seen, at one meter a second; one who has not
+        gone away, unless ``anywhere``.
+        """
         reach = [(float(np.linalg.norm(_here(t, surroundings) - spot)), t) for t in unseen]
         reach = [
             (d, t)
             for d, t in reach
-            if d <= self._settings.gate_m + min(stamp_s - t.last_seen_s, 60.0) or t.confidence < 0.3
+            if d <= self._settings.gate_m
+            or (anywhere and (d <= self._settings.gate_m + min(stamp_s - t.last_seen_s, 60.0) or t.confidence < 0.3))
         ]
         return min(reach, key=lambda pair: pair[0])[1] if reach else None
 

@@ -25,7 +25,9 @@ _LIGHT = np.array((0.3, 0.5, 0.81))
 
 @dataclass(frozen=True, kw_only=True)
 class Solid:
-    """A box, or a cylinder of diameter ``size_m[0]``; ``center`` is its middle, ``color`` RGB 0 to 255."""
+    """A box, or a cylinder of diameter ``size_m[0]``; ``center`` is its middle, ``color`` RGB 0 to 255, ``confidence``
+    with what probability it is recognized.
+    """
 
     label: str
     center: Point3
@@ -33,6 +35,7 @@ class Solid:
     yaw_rad: float = 0.0
     cylinder: bool = False
     color: Point3 = (200.0, 30.0, 30.0)
+    confidence: float = 0.95
 
     def moved_to(self, center: Point3) -> Solid:
         """The same thing elsewhere."""
@@ -152,7 +155,12 @@ def panoptic_scene(
         mask = rendering.ids == index
         if index not in blind and int(mask.sum()) >= minimum_pixels:
             instances.append(
-                Instance(label=solid.label, score=0.95, mask=mask, label_distribution=((solid.label, 0.95),))
+                Instance(
+                    label=solid.label,
+                    score=solid.confidence,
+                    mask=mask,
+                    label_distribution=((solid.label, solid.confidence),),
+                )
             )
     return PanopticScene(stamp_s=stamp_s, instances=tuple(instances), relations=())
 

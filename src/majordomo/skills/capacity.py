@@ -56,7 +56,7 @@ class Capacity:
         """Whether discs of these radii fit beside what is ``here``, each set down at the first free point."""
         done: list[tuple[Points, float]] = []
         for radius_m in radii_m:
-            points = lattice(self._snapshot.object(support).size_m, radius_m, step_m)
+            points = lattice(self._snapshot.object(support), radius_m, step_m)
             air_m = room_m(self._snapshot, support, points, here) - radius_m
             for point, other_m in done:
                 air_m = np.minimum(air_m, np.hypot(*(points - point).T) - other_m - radius_m)

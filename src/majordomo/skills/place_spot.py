@@ -28,6 +28,8 @@ STRIP_M = 0.48
 TOP_TOLERANCE_M = 0.12
 SEAT_SHARES = {"chair": 0.5, "couch": 0.5, "sofa": 0.5, "bed": 0.55, "toilet": 0.5}
 """Height of the surface as a share of the whole, for furniture that rises above what things are put on."""
+SEAT_RIMS_M = {"chair": (0.03, 0.03), "couch": (0.2, 0.22), "sofa": (0.2, 0.22), "bed": (0.06, 0.06)}
+"""What arms and back take of the surface at the ends and at both of the long sides: which has the back is not known."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -54,7 +56,7 @@ def spots_on(snapshot: Snapshot, support_id: str, size_m: tuple[float, float, fl
     radius_m = outline_radius_m(size_m)
     others = stands_on(snapshot, support_id, held)
     for step_m in (STEP_M, FINE_STEP_M):
-        points = lattice(support.size_m, radius_m, step_m)
+        points = lattice(support, radius_m, step_m)
         room = room_m(snapshot, support_id, points, others) - radius_m
         if (room >= GAP_M).any():
             break
@@ -76,7 +78,7 @@ def surface_m(snapshot: Snapshot, support_id: str, held: str | None) -> float:
         for node in _objects_beside(snapshot, support_id)
         if node.id != held and node.state is ObjectState.PRESENT and snapshot.support_of(node.id) == support_id
     ]
-    share = SEAT_SHARES.get(support.label.replace("_", " "), 1.0)
+    share = SEAT_SHARES.get(_plain(support.label), 1.0)
     expected_m = (share - 0.5) * support.size_m[2]
     return expected_m if share == 1.0 or not bottoms else float(np.median(bottoms))
 
@@ -106,6 +108,10 @@ def stands_on(snapshot: Snapshot, support_id: str, held: str | None) -> list[Obj
     return found
 
 
+def _plain(label: str) -> str:
+    return label.replace("_", " ")
+
+
 def _objects_beside(snapshot: Snapshot, support_id: str) -> list[ObjectNode]:
     """Objects of the support's room, and whatever is said to be on it."""
     room = snapshot.room_of(support_id)
@@ -115,13 +121,15 @@ def _objects_beside(snapshot: Snapshot, support_id: str) -> list[ObjectNode]:
     return [node for node in nodes if isinstance(node, ObjectNode)]
 
 
-def lattice(size_m: tuple[float, float, float], radius_m: float, step_m: float = STEP_M) -> Points:
-    """Points (N, 2) about ``step_m`` apart on a top of ``size_m``, in rows, where a disc stands within the arm's reach;
-    none where it is too large.
+def lattice(support: ObjectNode, radius_m: float, step_m: float = STEP_M) -> Points:
+    """Points (N, 2) about ``step_m`` apart on the top of ``support``, in rows, where a disc stands within the arm's
+    reach, clear of arms and back; none where it is too large.
     """
+    size_m, rim_m = support.size_m, SEAT_RIMS_M.get(_plain(support.label), (0.0, 0.0))
     half = np.array(size_m[:2]) / 2 - EDGE_MARGIN_M - radius_m
     if (half < 0).any():
         return np.zeros((0, 2))
+    half = np.maximum(half - (rim_m if size_m[0] >= size_m[1] else rim_m[::-1]), 0.0)
     x, y = (np.linspace(-h, h, max(int(2 * h / step_m) + 1, 1)) if h > 0 else np.zeros(1) for h in half)
     points = np.stack([axis.ravel() for axis in np.meshgrid(x, y, indexing="ij")], axis=1)
     return np.asarray(points[_edge_distance_m(points, size_m) <= STRIP_M])

@@ -75,3 +75,19 @@ def test_a_seat_is_lower_than_its_back_and_what_stands_there_tells_better(flat):
 
 def test_a_table_is_its_top(flat):
     assert surface_m(flat().table().bottle().memory.snapshot(), "table_1", None) == 0.375
+
+
+def test_nothing_is_put_on_the_arms_or_the_back_of_a_sofa(flat):
+    built = flat().thing("sofa_1", (0.0, 0.0, 0.4), (1.8, 0.9, 0.8), support=True)
+    spots = spots_on(built.memory.snapshot(), "sofa_1", (0.08, 0.08, 0.1), None)
+    assert spots
+    for spot in spots:
+        x, y, z = spot.anchor.point_m
+        assert abs(x) <= 0.9 - 0.2 - 0.04
+        assert abs(y) <= 0.45 - 0.22 - 0.04
+        assert z == 0.0
+
+
+def test_a_narrow_chair_is_used_in_its_middle(flat):
+    built = flat().thing("chair_1", (0.0, 0.0, 0.45), (0.2, 0.2, 0.9), support=True)
+    assert {spot.anchor.point_m[:2] for spot in spots_on(built.memory.snapshot(), "chair_1", (0.1, 0.1, 0.1), None)}

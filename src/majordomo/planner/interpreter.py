@@ -199,7 +199,8 @@ class Interpreter:
     ) -> Reading | None:
         for wording in restated(said, rest):
             reading = self._whole(wording, snapshot, dialogue, choices)
-            if reading.interpretation.kind is Kind.PLAN:
+            asked = reading.interpretation.kind is Kind.ANSWER and reading.interpretation.query is not None
+            if reading.interpretation.kind is Kind.PLAN or asked:
                 return reading
         return None
 

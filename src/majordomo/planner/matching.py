@@ -110,7 +110,7 @@ def _rank(head: str, node: Place, *, fixed: bool) -> int | None:
     if isinstance(node, ObjectNode | PersonNode) and node.name and normal(node.name) in {head, f"my {head}"}:
         return 0
     if isinstance(node, PersonNode):
-        return 1 if forms & PERSON_WORDS else None
+        return 0 if forms & set(normal(node.name or "").split()) else 1 if forms & PERSON_WORDS else None
     if isinstance(node, DoorNode):
         return 1 if "door" in forms else None
     if isinstance(node, RoomNode) and forms & ROOM_WORDS:
@@ -150,7 +150,8 @@ def own_name(room_label: str) -> str:
 def _sort_of_own_name(room_label: str) -> str:
     """*Meeting room* of *meeting room Oslo*, *classroom* of *classroom 12*; empty of others."""
     sort, _, last = room_label.rpartition(" ")
-    return sort if last.isdecimal() or _is_own_name(room_label) else ""
+    named = last.isdecimal() or (_is_own_name(room_label) and (is_room_label(sort) or sort.endswith("room")))
+    return sort if named else ""
 
 
 def _is_sort(room_label: str) -> bool:

@@ -13,17 +13,33 @@ from majordomo.planner.grounding import Context, Grounding
 from majordomo.planner.meaning import Meaning, Outcome
 from majordomo.planner.meant import Meant
 from majordomo.planner.plan import Exchange
-from majordomo.planner.vocabulary import normal
+from majordomo.planner.vocabulary import COLORS, normal
 from majordomo.scene_graph.nodes import ObjectNode, PersonNode, RoomNode
 
-_COURTESY = r"(?:(?:sorry|oops|wait|hm+|um|ah|oh|hang on|hold on|excuse me|please|ok|okay|well|stop)\b[\s,.!]*)*"
-_TRAILING = re.compile(r"[\s,]+(?:instead|please|rather|actually|i mean|i meant)[\s.!]*$")
+_COURTESY = (
+    r"(?:(?:i am (?:so |very |terribly )?sorry|i'm (?:so |very )?sorry|sorry|oops|wait|hm+|um|ah|oh|hang on|hold on"
+    r"|excuse me|please|ok|okay|well|stop)\b[\s,.!]*)*"
+)
+_THANKED = re.compile(
+    r"^(?:(?:thanks|thank you|thx|cheers|great|good|perfect|fine|nice|lovely|wonderful|excellent|well done|ok"
+    r"|okay|right"
+    r"|alright|all right|very good|many thanks)(?: (?:so much|a lot|very much|job|work|robot"
+    r"|then))*[,.!;]+\s*)+(?=\w)"
+)
+"""Praise before the next request."""
+_TRAILING = re.compile(
+    r"[\s,]+(?:(?:would|will|might) be (?:better|best|nicer|good|great|fine|preferable)|is better|instead|please"
+    r"|rather|actually|i mean|i meant)[\s.!]*$"
+)
 _LED = re.compile(rf"^{_COURTESY}")
 _SAID = re.compile(r"^(?:i|we) (?:meant|mean|said)(?: to say)?[\s,:]+")
+_FORGOTTEN = re.compile(r"^(?:forget|skip|never mind)(?: about)? (?:the|that|my) [\w ]+?[,;.]+ *(?:and |just )*")
 _MADE = re.compile(r"^(?:make (?:it|that)|let us make it|i mean)[\s,]+(?=\w)")
 _NO = re.compile(
     rf"^{_COURTESY}(?:no+|nope|not (?:that|this)(?: one)?"
     r"|not (?:to|on|in|into|onto|at) [\w ]+?(?=[,;.])|not \w+(?: ones?)?(?=[,;.] )"
+    r"|(?:forget|skip|never mind)(?: about)? (?:the|that|my) [\w ]+?(?=[,;.])"
+    r"|change of plans?(?=[:,.])"
     r"|instead of [\w ]+?(?:,|(?= (?:take|bring|give|put|use|the)\b))"
     r"(?:\s*(?:take|bring|give|put|use)\b(?: me| him| her)?)?|wrong(?: (?!is\b)\w+)?|that(?: is|'s) wrong|not "
     r"the \w+(?: one)?)\b"
@@ -34,14 +50,16 @@ _REPAIR = re.compile(
     r"|i mean(?:t)?(?: to say)?|no,? (?:sorry|wait)|(?:sorry|wait),? no|scratch "
     r"that|or rather|make that"
     r"|no,? i mean(?:t)?|correction)\b|\s*(?:[,.;:!…]+|\s[-–—])\s*(?:(?:oh|ah|oops|uh|um|er+"
-    r"|hm+)\b[\s,]*)?(?:err?|erm|uh+|um+|oops|no|sorry|actually|rather|wait|oops|make it|not "
+    r"|hm+|or)\b[\s,]*)?(?:i(?: a|')m (?:so |very |terribly )?sorry|err?|erm|uh+|um+|oops|no|sorry|actually"
+    r"|rather|wait|oops|make it|not "
     r"that"
     r"|well|hang on|hold on)\b(?!\s+(?:matter|problem|rush|hurry|one|longer)))+[\s,.;:!…-]*(?P<rest>.+)$"
 )
 _SLIP = (
     r"(?:no|nope|wait|sorry|pardon(?: me)?|excuse me|i (?:do )?mean(?:t)?(?: to say)?|rather"
     r"|better|actually|make (?:it|that)|scratch that|correction|not that|"
-    r"my (?:bad|mistake)|hang on|hold on|oops|whoops|what am i saying|forget (?:it|that)|(?:i )?should say|let us say)"
+    r"my (?:bad|mistake)|hang on|hold on|oops|whoops|what am i saying|forget (?:it|that)|(?:i )?should say|let"
+    r" us say)"
 )
 _BARE = re.compile(
     rf"^(?P<said>.+?\w)[\s,.;:!…–-]+(?:(?:or|oh|ah|uh|um|er|hm+|and|but|well|hmm+)[\s,]+)*(?:no"
@@ -71,7 +89,8 @@ _SORRY = re.compile(
     r" to)\b.+)$"
 )
 _NOT = re.compile(
-    r"^(?P<rest>(?:(?:to|on|in|the) ){0,2}\w+(?: \w+)?),? not (?:(?:to|on|in|the) ){0,2}\w+(?: \w+)?[\s.!]*$"
+    rf"^{_COURTESY}(?:(?:i|we) (?:meant|mean|said|wanted) )?(?P<rest>(?:(?:to|on|in|the) ){0, 2}\w+(?: \w+)?),?"
+    rf" not (?:(?:to|on|in|the) ){0, 2}\w+(?: \w+)?[\s.!]*$"
 )
 _INSTEAD = re.compile(r"^(?P<rest>.+?)[\s,]+(?:instead|rather|i meant|i mean)[\s.!]*$")
 _AGAIN = re.compile(
@@ -92,6 +111,10 @@ _TOO = re.compile(
 _AMOUNT = r"\b(?:(?:all|the|just|only)(?: the)? )?(?:one|two|three|four|five|six|seven|eight|both|all|\d+)\b"
 _COUNTED = re.compile(rf"^(?P<amount>{_AMOUNT[2:]})(?: of them)?(?P<more>,? (?:to|in|on|into|onto|for|at|next)\b.*|)$")
 """*Two cans, or rather all three, to the counter*: only the number is taken back."""
+_COLORED = re.compile(
+    rf"^(?:the )?(?P<color>{'|'.join(COLORS)})(?: one)?(?P<more>(?:,? (?:to|in|on|into|onto|for|at|next) .+)?)$"
+)
+"""*The red cup, sorry, the blue one, to Ben*: only the color is taken back."""
 MAX_REPLACED = 5
 _WHERE = frozenset({"to", "on", "onto", "in", "into", "at", "under", "beside", "near", "next", "by", "for"})
 """Words that a remark may stand for."""
@@ -111,7 +134,7 @@ class Revision:
 
 def revision(text: str) -> Revision | None:
     """The remark that ``text`` is, if it is one; ``rest`` may still turn out to be a request of its own."""
-    said = " ".join(text.casefold().replace("’", "'").split())
+    said = _THANKED.sub("", " ".join(text.casefold().replace("’", "'").split()))
     if len(said) > MAX_CHARACTERS:
         return None
     if _AGAIN.match(said):
@@ -119,7 +142,7 @@ def revision(text: str) -> Revision | None:
     for pattern in (_INSTEAD, _NO, _MEANT, _SORRY, _NOT):
         found = pattern.match(said)
         if found and found["rest"].strip(" .!?"):
-            rest = _MADE.sub("", _SAID.sub("", _LED.sub("", found["rest"])))
+            rest = _MADE.sub("", _FORGOTTEN.sub("", _SAID.sub("", _LED.sub("", found["rest"]))))
             rest = _NOT_THAT.sub("", _TRAILING.sub("", rest))
             return Revision(how="correct", rest=rest.strip(" .!?"))
     found = _TOO.match(said)
@@ -148,6 +171,12 @@ def restated(said: str, rest: str) -> Iterator[str]:
     words = said.split()
     if rest in NUMBERS or rest.isdecimal():
         yield " ".join(rest if word in NUMBERS or word.isdecimal() else word for word in words)
+    colored = _COLORED.match(rest)
+    spoken = [word for word in words if word in COLORS]
+    if colored and len(spoken) == 1:
+        yield " ".join(colored["color"] if word in COLORS else word for word in words) + colored["more"].replace(
+            ",", ""
+        )
     if re.search(r" and (?!nothing else)", said) or " then " in said:
         return
     counted = _COUNTED.match(rest)

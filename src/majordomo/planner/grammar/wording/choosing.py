@@ -35,7 +35,8 @@ CHOOSING: tuple[tuple[str, str], ...] = (
     (r"\b(that|those) (\w+(?: \w+)?) there(?=,)", r"\1 \2"),
     (
         (
-            r"^(\w+),? (?:the )?(red|green|blue|yellow|black|white|brown|pink|purple|gray|grey|gold"
+            r"^(?!(?:take|bring|give|carry|get|fetch|put|move|hand|deliver|send|pass|want|need|and|then|no|not|just|also)\b)"
+            r"(\w+),? (?:the )?(red|green|blue|yellow|black|white|brown|pink|purple|gray|grey|gold"
             r"|silver) one,? (?:2 |to |for )(?=\w)"
         ),
         r"the \2 \1 to ",

@@ -9,6 +9,22 @@ _HUNT = (
 )
 
 FINDING: tuple[tuple[str, str], ...] = (
+    (r"\b(?:hunt|track|chase|run) (them|it|the [\w' ]+?|my [\w' ]+?) down(?=$|[?.!,;])", r"find \1"),
+    (r"\b(?:have|take) a (?:good |quick |proper )?look (?:around|about|everywhere)(?: here)? for ", "find "),
+    (
+        r"\b(?:take|have|go for) a (?:little |short |quick )?(?:walk|stroll|trip|drive|spin)(?: over| down| up)? to ",
+        "go to ",
+    ),
+    (
+        (
+            r"^(\w+|the \w+) (?:wants|would like|would love|needs|has|is dying) to (?:see|read|have|look at|have"
+            r" a look at"
+            r"|use|try|borrow|taste|hear|play with) (?:it|that|this|them)(?: too| as well| also)?[,;.]+ (?:so "
+            r"|please )*"
+            r"(?=(?:take|bring|give|carry|hand|deliver|get|pass)\b)"
+        ),
+        r"\1 is waiting, ",
+    ),
     (
         (
             r"^(?:has|have|did) ((?:the|my|our|his|her) [\w' ]+?) (?:turned up|shown up|been found"
@@ -74,10 +90,13 @@ FINDING: tuple[tuple[str, str], ...] = (
 
 _ALONG = r"(?: (?:on|off|over|out|down|up|along|across|round|around|back|through|straight|right|quickly|slowly))*"
 _MOTION = (
-    r"(?:amble|toddle|trundle|stroll|wander|saunter|shuffle|scurry|scamper|scoot|scuttle|skip|hop|zoom|whizz|zip|dash|"
+    r"(?:amble|toddle|trundle|stroll|wander|saunter|shuffle|scurry|scamper|scoot|scuttle|skip|hop|zoom|whizz|zip"
+    r"|dash|"
     r"dart|race|rush|hurry|hasten|speed|march|stride|pace|plod|trudge|trek|hike|jog|sprint|trot|gallop|bounce|"
-    r"creep|crawl|sneak|tiptoe|slip|slide|glide|roll|wheel|cruise|mosey|meander|waddle|waltz|totter|potter|pootle|nip|"
-    r"pop|bob|swing|drift|float|ride|motor|steer|travel|journey|proceed|advance|venture|repair|betake|retire|withdraw|"
+    r"creep|crawl|sneak|tiptoe|slip|slide|glide|roll|wheel|cruise|mosey|meander|waddle|waltz|totter|potter"
+    r"|pootle|nip|"
+    r"pop|bob|swing|drift|float|ride|motor|steer|travel|journey|proceed|advance|venture|repair|betake|retire"
+    r"|withdraw|"
     r"retreat|buzz|bomb|leg it|head|drive|walk|run|move|step|wend your way|find your way|make your way|make tracks|"
     r"get going|get moving|get over|get down|get up|get along|push on|press on|carry on|move on|drop)"
 )

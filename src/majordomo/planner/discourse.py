@@ -200,6 +200,7 @@ def carried_on(context: Context, meant: Meant) -> Context:
     return replace(
         context,
         fresh=meant.things or context.fresh,
+        taken=context.taken | {goal.args[0] for goal in meant.goals if goal.object_id is not None},
         unsettled=None if meant.things else context.unsettled,
         mentioned=tuple(dict.fromkeys((*meant.things, *meant.places, *context.mentioned))),
         places=(*meant.places, *context.places),

@@ -55,6 +55,7 @@ class Context:
     ``mentioned``: identifiers, the newest first. ``places``: places spoken of, the newest first. ``choices``: answers
     to earlier questions, by phrase. ``focus``: the room the request has just gone to. ``noun``: for *the red one*.
     ``origins``: where things were before they were moved. ``earlier``: what was asked before, the newest first.
+    ``taken``: things of the steps before, which *one more* is not.
     ``unsettled``: why *it* names nothing, when what was spoken of last is not known.
     """
 
@@ -68,6 +69,7 @@ class Context:
     origins: Mapping[str, str] = field(default_factory=dict)
     earlier: tuple[Exchange, ...] = ()
     unsettled: NoReferent | Ambiguous | None = None
+    taken: frozenset[str] = frozenset()
 
 
 class Grounding:
@@ -261,6 +263,12 @@ class Grounding:
     def _any(self, phrase: NounPhrase, found: tuple[str, ...], avoid: frozenset[str]) -> Grounded:
         """The nearest of those that will do, unless there are too few."""
         wanted = phrase.count or 1
+        if phrase.share:
+            left = int(phrase.share.rpartition(" ")[2]) if phrase.share != "half" else len(found) / 2
+            if left != int(left) or len(found) <= left:
+                seen = "; ".join(describe(i, self.snapshot) for i in found[:4])
+                return NoReferent(reason=f"I know of {len(found)}, which is not to be shared so: {seen}.", asks=True)
+            wanted = len(found) - int(left)
         fit = [i for i in found if i not in avoid and i != self.state.holding and i not in self.state.missing]
         fit = self._narrowing.by_distance(fit) or list(found)
         if len(fit) < wanted:

@@ -216,7 +216,7 @@ class Meaning:
         )
         if isinstance(self._snapshot.get(place), PersonNode):
             context = replace(context, mentioned=(place, *context.mentioned))  # *the desk beside him*: the recipient
-        things = self._gathering.to_carry(step.things, context, avoid=there | {place})
+        things = self._gathering.to_carry(step.things, context, avoid=there | context.taken | {place})
         if not isinstance(things, tuple):
             return things
         goals = tuple(Goal(predicate=predicate, args=(i, place)) for i in things)
@@ -250,7 +250,8 @@ class Meaning:
                 return outcome
             goals, things, places = goals + outcome.goals, things + outcome.things, outcome.places + places
             mentioned = (*outcome.things, *outcome.places, *context.mentioned)
-            context = replace(context, mentioned=mentioned, noun=outcome.noun or context.noun)
+            taken = context.taken | {*outcome.things}
+            context = replace(context, mentioned=mentioned, noun=outcome.noun or context.noun, taken=taken)
         origins = {i: place for i in things if (place := self._grounding.origin(i)) is not None}
         doubt = step.verbless and all(holds(goal, self._state) for goal in goals)
         return Meant(goals=goals, things=things, places=places, noun=context.noun, origins=origins, doubt=doubt)

@@ -27,6 +27,15 @@ TOLD = [
     ("the pen fell over, put it on the couch", "on(pen_1, couch_1)"),
     ("the kettle is whistling, bring me the key", "given(key_1, person_2)"),
     ("that was silly, bring me the key", "given(key_1, person_2)"),
+    ("I can't reach the key, pass it to me", "given(key_1, person_2)"),
+    ("put the key on the desk before it gets lost", "on(key_1, desk_1)"),
+    ("Anna is cooking and needs the key", "given(key_1, person_1)"),
+    ("bring me the key I am off to work", "given(key_1, person_2)"),
+    ("the pen shouldn't lie there, put it on the couch", "on(pen_1, couch_1)"),
+    ("my back is killing me, bring me the key", "given(key_1, person_2)"),
+    ("as I'm cooking right now please fetch the key", "given(key_1, person_2)"),
+    ("bring me the key, I want to lie down", "given(key_1, person_2)"),
+    ("bring the key to Anna in the living room she works there", "given(key_1, person_1)"),
 ]
 ABOUT = [
     ("the key, bring it to Anna", "given(key_1, person_1)"),
@@ -53,6 +62,10 @@ KEPT = [
     "the door must be shut, bring me the key",
     "the pen is to go to the office, bring me the key and the cups have to be washed",
     "Anna asked me to wash the cups, bring me the key",
+    "bring me the key when I call",
+    "I can't drink from the red cup, bring me a cup",
+    "I want to drink the juice, bring me a cup",
+    "bring me the key if I am off to work",
 ]
 """What says more than it tells, or leaves open what *it* is: nothing is done."""
 

@@ -50,7 +50,7 @@ _WILLING = frozenset(
     {"want", "wants", "wanted", "need", "needs", "prefer", "prefers", "hate", "hates", "must", "allergic", "only",
      "rather", "wish", "wishes", "better", "best", "favorite", "favourite", "forbidden", "allowed", "instead",
      "never", "nobody", "none", "until", "while", "because", "dislike", "dislikes", "mean",
-     "means", "meant", "say", "why", "how", "what", "which", "who", "later", "tomorrow", "minutes", "every",
+     "means", "meant", "say", "why", "how", "what", "which", "who", "later", "minutes", "every",
      "whenever", "please"},
 )  # fmt: skip
 _REPORTING = frozenset({"asked", "told", "said", "says", "ordered", "begged", "reminded", "wanted", "expects", "asks"})
@@ -58,7 +58,7 @@ _REPORTING = frozenset({"asked", "told", "said", "says", "ordered", "begged", "r
 _LANDMARK = frozenset({"ON", "IN", "NEAR", "AT", "FROM", "BESIDE", "BETWEEN", "INTO", "ONTO", "OFF", "TO", "WITH"})
 _IN_PHRASE = frozenset(
     {"THE", "MY", "A", "THIS", "THAT", "POSSESSIVE", "HIS", "ALL", "BOTH", "NUMBER", "COLOR", "ORANGE", "BIG", "SMALL",
-     "STATE", "OTHER"},
+     "STATE", "OTHER", "BACK"},
 )  # fmt: skip
 _NAMES = frozenset({"NOUN", "NAME", "PERSON", "WORD", "IDENTIFIER", "DOOR"})
 _ANYBODY = frozenset({"somebody", "someone", "anybody", "anyone", "everybody", "everyone", "people"})
@@ -68,10 +68,15 @@ MAX_PHRASES = 4
 
 def is_told(clause: Tokens) -> bool:
     """Whether a clause states something and asks for nothing: a subject, a finite verb, no wish, rule or condition."""
+    if len(clause) > 1 and clause[0].typed in _SUBORDINATE:
+        clause = clause[1:]
     kinds = [token.type for token in clause]
     words = {token.typed for token in clause}
+    if _is_own_plan(kinds):
+        return True
     verb = _verb(clause)
     asking = _ASKING_FOR - {"SHOULD"} if _is_misplaced(clause, verb) else _ASKING_FOR
+    asking -= {"WANTS"} if kinds[:2] == ["IT", "WANTS"] else set()  # *it gets cold*
     if verb is None or asking & set(kinds) or _WILLING & words or words & {"n't"}:
         return False
     if any(kind in ACTING for kind in kinds) and not _is_going_on(clause, verb):
@@ -81,6 +86,16 @@ def is_told(clause: Tokens) -> bool:
     denied = bool(_DENYING & set(kinds)) and not _is_misplaced(clause, verb)
     named = _CHOOSING if _is_inability(clause, verb) else _CHOOSING | {"NOUN"}
     return not (denied and named & set(kinds))
+
+
+def _is_own_plan(kinds: Sequence[str]) -> bool:
+    """*I want to lie down*, *she needs to sign something*: what somebody else is going to do, with no thing named."""
+    start = 1 if kinds[:1] == ["WANT"] else 2 if kinds[1:2] == ["WANTS"] and kinds[0] in ("NAME", "HIM") else 0
+    does = bool(start) and kinds[start : start + 1] == ["TO"] and kinds[start + 1 : start + 2] in (["WORD"], ["UNABLE"])
+    return does and not (set(kinds[start + 2 :]) & (_NAMES - {"WORD"} | ACTING | _ASKING_FOR | _CHOOSING | _DENYING))
+
+
+_SUBORDINATE = frozenset({"as", "since", "because", "while"})
 
 
 def _is_misplaced(clause: Tokens, verb: int | None) -> bool:

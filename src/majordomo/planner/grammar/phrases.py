@@ -91,6 +91,13 @@ class PhraseReader(Transformer[Token, Any]):
     def some(self, children: Children) -> dict[str, Any]:
         return {"quantity": Quantity.SOME, "count": _number(children)}
 
+    def half(self, _: Children) -> dict[str, Any]:
+        return {"quantity": Quantity.SOME, "share": "half"}
+
+    def all_but(self, children: Children) -> dict[str, Any]:
+        left = next(token for token in tokens_of(children) if token.type in ("NUMBER", "ONE"))
+        return {"quantity": Quantity.SOME, "share": f"all but {'1' if left.type == 'ONE' else left}"}
+
     def exactly(self, children: Children) -> dict[str, Any]:
         return {"quantity": Quantity.EXACTLY, "count": _number(children)}
 

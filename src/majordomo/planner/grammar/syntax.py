@@ -40,6 +40,7 @@ class NounPhrase:
 
     ``rank``: of a superlative, 2 for *second largest*; alone, *the second cup*. ``other``: *the other cup*, not one
     spoken of. ``either``: one of the colors is enough, *the red and green cups*. ``exceptions``: what is left out.
+    ``share``: *half*, or *all but 1*.
     """
 
     words: tuple[str, ...]
@@ -55,6 +56,7 @@ class NounPhrase:
     other: bool = False
     either: bool = False
     exceptions: tuple[Reference, ...] = ()
+    share: str = ""
 
     @property
     def head(self) -> str:

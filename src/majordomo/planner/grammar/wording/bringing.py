@@ -154,6 +154,14 @@ BRINGING: tuple[tuple[str, str], ...] = (
         ),
         r"\1 it ",
     ),
+    (r"\b(give|hand|pass|deliver) (?=to (?:me|him|her|us|[a-z]+)[.!]*$)", r"\1 it "),
+    (
+        (
+            r"\b(?:make sure|see to it|ensure|see|take care)(?: that)? (\w+) (?:has|gets|receives|is given) "
+            r"(?=(?:the|his|her|an?|some|my|their|one|two)\b)"
+        ),
+        r"bring \1 ",
+    ),
     (r"\b(bring|take|carry|drop) (?=to (?:me|him|her|(?:the|my) \w+(?: \w+)?)[.!]*$)", r"\1 it "),
     (r"\b(?:is|are) to (?:be|go|stay|stand|come|end up) (?=(?:in|on|at|to|into|onto|next)\b)", "should be "),
     (

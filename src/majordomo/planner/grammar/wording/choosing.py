@@ -4,6 +4,18 @@ from __future__ import annotations
 
 CHOOSING: tuple[tuple[str, str], ...] = (
     (
+        r"\ball (?:but|except|save|minus) (one|two|three|four|five|\d+) (?:of )?(?:the |my |our )?(?=\w+s\b)",
+        r"allbut \1 of the ",
+    ),
+    (
+        (
+            r"\b(?:all )?(?:the|my|our) (\w+s),? (?:all )?(?:but|except|minus) (one|two|three|four|five)"
+            r"(?=,| (?:to|in|on|into|onto|for)\b|[.!]*$)"
+        ),
+        r"allbut \2 of the \1",
+    ),
+    (r",? but not (?:one )?(?:from|out of|in) (the [\w ]+?)(?=[.!]*$)", r" that is not in \1"),
+    (
         (
             r"\b(except|but not|other than|apart from|besides|excluding) (?:those|the ones|that|any"
             r"|anything) (?=(?:on|in|at|from|next|near|by|under)\b)"

@@ -6,6 +6,7 @@ _DEED = r"(?:bring|take|put|go|get|fetch|give|come|carry|move|find|drop|return|l
 _DET = r"(?:the|an?|my|some|one|two|three|his|her|that|those|any|all|both|every)"
 
 FOREIGN: tuple[tuple[str, str], ...] = (
+    (r"\b([a-z]+)'s got (?=an?\b|the\b|no\b|some\b|to\b|his\b|her\b)", r"\1 has "),
     (r"^(?:ich meine|entschuldigung|bitte|por favor|s'il vous plait|alors|also)[,.!]* (?=\w)", ""),
     (r"\b(?:da|tha|ze|dah)\b(?= \w)", "the"),
     (r"\b(?:dis)\b(?= \w)", "this"),
@@ -56,6 +57,13 @@ FOREIGN: tuple[tuple[str, str], ...] = (
             r"library|laundry|pantry|storage|terrace|balcony|gym|lab)\b)"
         ),
         r"\1 to ",
+    ),
+    (
+        (
+            rf"\b({_DEED} (?:me |him |her )?(?:the|an?|my)) (\w+) (red|green|blue|yellow|black|white|brown|pink|"
+            r"purple|gray|grey)(?=[.,!?]*$| (?:to|on|in|for|from|at|into|onto)\b)"
+        ),
+        r"\1 \3 \2",
     ),
 )
 """In the order in which they are tried."""

@@ -11,6 +11,10 @@ _KEEP = (
 
 HOLDING: tuple[tuple[str, str], ...] = (
     (
+        r"\bhold ([^,.;]+?) for (?:me|us)(?: please| now| a (?:second|moment|minute|bit|while))*(?=[.!]*$)",
+        r"pick up \1",
+    ),
+    (
         (
             rf"(?:(?<=^)|(?<=[.,;!] )|(?<=\band )|(?<=\bthen )|(?<=\bplease )|(?<=\byou )|(?<=\bto ))"
             rf"(?:take|get|hold|put|keep|grab|pick up|grip|carry) (?!.* (?:to|and) )([^,.;!]+?)"

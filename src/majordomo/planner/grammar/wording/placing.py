@@ -22,6 +22,13 @@ _MISPLACED = (
 PLACING: tuple[tuple[str, str], ...] = (
     (
         (
+            r"^there (?:is|are) (?:an?|some|the) ([^,.;!?]+?) (?:which|that) (?:(?:should|must|needs? to|has to|"
+            rf"have to|ought to) (?:go|be|come)|belongs?|goes?) {_PREP}"
+        ),
+        r"put the \1 ",
+    ),
+    (
+        (
             rf"\b(?:i|we) (?:would (?:like|love|prefer)|want|need|wish)(?: to (?:have|see|"
             rf"get))? {_WHAT} (?:to be )?{_DONE}"
             rf"(?: over| back| away)? {_PREP}"

@@ -13,6 +13,17 @@ _PLACE = r"((?:in|at|on|by|near|next to) [^,.;!?]+?)"
 
 VISITING: tuple[tuple[str, str], ...] = (
     (
+        r"\b(?:go|drive|walk|head|travel|come)(?: over| on)? (?:via|through|by way of|past) ([^,.;]+?) to (?=\w)",
+        r"go to \1, then go to ",
+    ),
+    (
+        (
+            r"\b(?:go|drive|walk|head|travel)(?: over| on)? (?:in)?to ([^,.;]+?),? (?:but )?(?:via|through|by way of|"
+            r"past) ([^,.;]+?)(?=[.!]*$)"
+        ),
+        r"go to \2, then go to \1",
+    ),
+    (
         (
             rf"^{_WHO} (?:wants|needs|would like|wishes|would love|has) to (?:see|meet|talk to|"
             rf"speak to|speak with|talk with|have)"

@@ -99,6 +99,7 @@ WISHING: tuple[tuple[str, str], ...] = (
         r"\b(?:might|may|could|can) (?:i|we) (?:please )?(?:trouble|bother|ask|pester|beg|bug) you for ",
         "can i have ",
     ),
+    (r"^(?:is there )?any chance (?:of|for)(?: getting| having)? (?=(?:an?|the|some|my)\b)", "can i have "),
     (r"^(?:has )?any ?(?:one|body) (?:got|have|has) (?=(?:an?|the|some|my)\b)", "is there "),
     (r"\b(?:how about|what about) (?:bringing|fetching|getting|giving) ", "bring "),
     (r"\b(?:how about|what about) (?:taking|putting|moving|carrying) ", "put "),

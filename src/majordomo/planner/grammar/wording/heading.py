@@ -54,6 +54,10 @@ HEADING: tuple[tuple[str, str], ...] = (
         r"^((?:the|my|an?|that|this|his|her|both|all) [^.;:!?,]+?)[.!]+ (?=(?:to|into|onto|in|on|for) [\w' ]+[.!]*$)",
         r"\1 ",
     ),
-    (r"(?<=\w)[.!;,] (?:just )?(?:do it|go|do so|make it so|off you go|now|quick)(?: please| now)?(?=[.!]*$)", ""),
+    (
+        r"(?<=\w)(?:[.!;] (?:just )?go|[.!;,] (?:just )?(?:do it|do so|make it so|off you go|now|quick))"
+        r"(?: please| now)?(?=[.!]*$)",
+        "",
+    ),
 )
 """In the order in which they are tried."""

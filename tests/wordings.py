@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 MORE: list[tuple[str, str]] = [
+    ("bring me a book. it must not be green", "bring me a book that is not green"),
     ("kitchen, go", "go to kitchen"),
     ("back it goes", "put it back"),
     ("pause for now", "pause"),

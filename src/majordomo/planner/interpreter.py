@@ -178,6 +178,9 @@ class Interpreter:
         self, said: str, rest: str, snapshot: Snapshot, dialogue: Dialogue, choices: Choices
     ) -> Reading | None:
         """A request that corrects itself: as two requests, else with its end replaced; None if neither makes sense."""
+        place, _, why = rest.partition(", ")
+        if is_place(place) and why:  # *to Victor, Leo might hurt himself*
+            return self._restated(said, place, snapshot, dialogue, choices)
         first = self._whole(said, snapshot, dialogue, choices).interpretation
         if first.kind is Kind.PLAN:
             earlier = Exchange(request=said, goals=first.goals, status="", explanation="")

@@ -154,6 +154,21 @@ def test_what_is_not_known_is_the_thing_and_not_a_room_on_a_desk(text, unknown):
     assert found.reply.startswith(f"I know of no {unknown} from the ")
 
 
+@pytest.mark.parametrize(
+    ("text", "goal"),
+    [
+        ("take the key to Ben... on second thought to Anna, Ben might lose it", "given(key_1, person_1)"),
+        ("take the key to the office, wait, to the kitchen, I am there", "in(key_1, room_1)"),
+        ("take the key to the office, I mean to the kitchen, Anna is there", "in(key_1, room_1)"),
+        ("put the key on the desk, no, in the box, it is safer there", "in(key_1, box_1)"),
+        ("I need a book. It mustn't be green.", "given(book_2, person_2)"),
+        ("bring me a book, but it really can't be blue", "given(book_1, person_2)"),
+    ],
+)
+def test_a_place_taken_back_and_a_color_ruled_out_afterwards_count_whatever_is_told_of_them(text, goal):
+    assert goals_of(text) == [goal]
+
+
 @pytest.mark.parametrize(("text", "control"), CONTROLS)
 def test_controls_are_known_by_their_shape(text, control):
     assert control_word(text) is control

@@ -44,6 +44,15 @@ CHOOSING: tuple[tuple[str, str], ...] = (
         ),
         r"a \1 or \3 \2",
     ),
+    (
+        (
+            r"[.;,!] (?:but |and )?(?:it|they|that)(?: really| definitely)? "
+            r"(?:must not|mustn't|mustnt|should not|shouldn't|shouldnt|can not|cannot|can't|may not) be "
+            r"(?:an? |the )?(red|green|blue|yellow|black|white|brown|pink|purple|gray|grey|gold|silver|orange)"
+            r"(?: ones?)?(?=[.!]*$)"
+        ),
+        r" but not the \1 one",
+    ),
     (r"\b(that|those) (\w+(?: \w+)?) there(?=,)", r"\1 \2"),
     (
         (

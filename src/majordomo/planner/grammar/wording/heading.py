@@ -55,8 +55,10 @@ HEADING: tuple[tuple[str, str], ...] = (
         r"\1 ",
     ),
     (
-        r"(?<=\w)(?:[.!;] (?:just )?go|[.!;,] (?:just )?(?:do it|do so|make it so|off you go|now|quick))"
-        r"(?: please| now)?(?=[.!]*$)",
+        (
+            r"(?<=\w)(?:[.!;] (?:just )?go|[.!;,] (?:just )?(?:do it|do so|make it so|off you go|now|quick))"
+            r"(?: please| now)?(?=[.!]*$)"
+        ),
         "",
     ),
 )

@@ -13,6 +13,7 @@ from majordomo.skills.actions.arm import Stow
 from majordomo.skills.actions.doors import ApproachDoor, CrossDoor, EnterRoom
 from majordomo.skills.actions.driving import DriveTo
 from majordomo.skills.actions.looking import LookAt, SweepCamera, gaze_points
+from majordomo.skills.actions.watching import AccountFor
 from majordomo.skills.anchor import Anchor
 from majordomo.skills.failures import Evidence, Failure, FailureCode
 from majordomo.skills.navigation.goals import around, at_poses, freest, near_origin, overlooking
@@ -54,7 +55,8 @@ def cross(context: RobotContext, door_id: str) -> list[Action]:
 
 def look(context: RobotContext, node_id: str, standoff_m: float = 0.8, side_rad: float | None = None) -> list[Action]:
     """Actions that look at a node from ``standoff_m``: around a room from its origin, over the whole of an object from
-    where all of it is near, and from the side ``side_rad`` (a direction in its frame) if that can be.
+    where all of it is near, from the side ``side_rad`` (a direction in its frame) if that can be; then at whatever
+    should be there and is not seen.
     """
     node = context.building.node(node_id)
     if isinstance(node, RoomNode):
@@ -68,6 +70,7 @@ def look(context: RobotContext, node_id: str, standoff_m: float = 0.8, side_rad:
         *travel(context, context.building.room_of(node_id)),
         DriveTo(context, node_id, where),
         *(LookAt(context, node_id, Anchor(node_id, point), dwell_s=LOOK_DWELL_S) for point in points),
+        AccountFor(context, node_id),
     ]
 
 

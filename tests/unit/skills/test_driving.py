@@ -11,10 +11,13 @@ from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 from py_trees.common import Status
 
+from majordomo.scene_graph.edits import PutNode
+from majordomo.scene_graph.nodes import ObjectState
 from majordomo.skills import journeys
 from majordomo.skills.action import Action
 from majordomo.skills.actions.driving import DriveTo, TurnTo
 from majordomo.skills.actions.looking import VIEWS, LookAt, SweepCamera
+from majordomo.skills.actions.watching import AccountFor
 from majordomo.skills.anchor import Anchor
 from majordomo.skills.doubles import BoxWorld, FakeBody, Rehearsal
 from majordomo.skills.failures import FailureCode
@@ -291,3 +294,37 @@ async def test_an_interrupted_action_stops_the_base_and_freezes_the_arm(flat):
     action.stop(Status.INVALID)
     assert context.commands.drive == (0.0, 0.0)
     assert context.commands.arm == context.body.arm
+
+
+async def test_what_should_be_on_a_table_and_is_not_seen_is_looked_at_until_that_is_certain(flat, onlooker):
+    built = flat().table().bottle().thing("cup_1", (1.3, 1.4, 0.8), (0.08, 0.08, 0.1), on="table_1")
+    rehearsal = Rehearsal(memory=built.memory, observe=onlooker, body=FakeBody(stamp_s=20.0))
+    onlooker.blind_to = {"cup_1"}
+    context = await rehearsal.prepare()
+    aimed_s = 0.0
+
+    def watch(rehearsal):
+        nonlocal aimed_s
+        onlooker(rehearsal)
+        x_m, y_m, _ = Anchor("cup_1").in_base(context)
+        aimed_s += rehearsal.dt_s * (abs(wrap_rad(rehearsal.body.camera[0] - atan2(y_m, x_m - 0.05))) < 0.03)
+        if aimed_s > 1.5:
+            cup = rehearsal.memory.snapshot().object("cup_1")
+            rehearsal.memory.commit(
+                [PutNode(replace(cup, state=ObjectState.MISSING))], agent="objects", stamp_s=rehearsal.body.stamp_s
+            )
+
+    rehearsal.observe = watch
+    began_s = rehearsal.body.stamp_s
+    assert await rehearsal.run([AccountFor(context, "table_1", since_s=0.5)]) is None
+    assert aimed_s > 1.5
+    assert rehearsal.body.stamp_s - began_s < 6.0
+
+
+async def test_a_thing_that_nobody_can_tell_about_is_not_looked_at_forever(flat, onlooker):
+    rehearsal = Rehearsal(memory=flat().table().bottle().memory, observe=onlooker, body=FakeBody(stamp_s=20.0))
+    onlooker.blind_to = {"bottle_1"}
+    context = await rehearsal.prepare()
+    began_s = rehearsal.body.stamp_s
+    assert await rehearsal.run([AccountFor(context, "table_1", since_s=0.5, patience_s=2.0)]) is None
+    assert 2.0 < rehearsal.body.stamp_s - began_s < 6.0

@@ -14,6 +14,7 @@ _TAGS = (
 _BETWEEN = r"(?:of (?:them|these|those|the two) )?"
 
 INQUIRING: tuple[tuple[str, str], ...] = (
+    (r"^((?:in|on|at|and|tell me) )*(?:wich|whitch|wihch|whcih)\b", r"\1which"),
     (
         (
             rf"^(?:excuse me|pardon me|pardon|hello|hey|hi|good (?:morning|day|evening|afternoon)|oh|dear|say"

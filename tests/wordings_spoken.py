@@ -207,4 +207,8 @@ SPOKEN: list[tuple[str, str]] = [
     ("there is a sock on the bed which should go in the basket", "put the sock on the bed in the basket"),
     ("bring me the knife. careful, it is sharp", "bring me the knife"),
     ("where did i... never mind, bring me the cup", "bring me the cup"),
+    ("the banana is for tom and the apple for maria", "the banana to tom and the apple to maria"),
+    ("when you have got a minute, bring me the cup", "bring me the cup"),
+    ("put the photo nxt to the vase", "put the photo next to the vase"),
+    ("bring me the pen its in the office", "bring me the pen that is in the office"),
 ]

@@ -258,7 +258,11 @@ BRINGING: tuple[tuple[str, str], ...] = (
         r"\b(?:something|anything) (red|green|blue|yellow|black|white|brown|pink|purple|gray|grey|orange)\b",
         r"a \1 thing",
     ),
-    (r"\bout of (the [\w ]+?) and (?:in)?to\b", r"from \1 to"),
+    (r"\bout of (the [\w ]+?) and (?:over |back |up |down |across )?(?:in|on)?to\b", r"from \1 to"),
+    (
+        r"^(the [\w ]+?) (?:is|goes) (for|to) (\w+),? and (the [\w ]+?) (?:(?:is|goes) )?(for|to) (\w+)(?=[.!]*$)",
+        r"\1 to \3 and \4 to \6",
+    ),
     (r"^(?:could|can|may) (the [\w ]+?) be (?:moved|put|brought|taken|placed|delivered|carried) ", r"put \1 "),
     (
         r"^(?:please )?(?:have|get) (the (?:(?!and\b)\w+ )+?)(?:brought|taken|moved|delivered|carried|put|placed) ",

@@ -220,7 +220,7 @@ COURTESY: tuple[tuple[str, str], ...] = (
     (
         (
             ",? (?:the )?(?:both|all|each and every one|each|every one)(?: (?:two|three|four))? of (?:them"
-            "|these|those)(?=$|,| (?:into|onto|in|on|to|go|goes"
+            "|these|those)(?=$|,| (?:except|but|apart|without|into|onto|in|on|to|go|goes"
             r"|should|must|can|belong|belongs)\b),?"
         ),
         "",

@@ -6,6 +6,8 @@ _DEED = r"(?:bring|take|put|go|get|fetch|give|come|carry|move|find|drop|return|l
 _DET = r"(?:the|an?|my|some|one|two|three|his|her|that|those|any|all|both|every)"
 
 FOREIGN: tuple[tuple[str, str], ...] = (
+    (r"\bits (?=(?:in|on|at|under|next|near|by|not|an?|the|too|so|very|here|there)\b)", "it is "),
+    (r"\bnxt\b", "next"),
     (r"\b([a-z]+)'s got (?=an?\b|the\b|no\b|some\b|to\b|his\b|her\b)", r"\1 has "),
     (r"^(?:ich meine|entschuldigung|bitte|por favor|s'il vous plait|alors|also)[,.!]* (?=\w)", ""),
     (r"\b(?:da|tha|ze|dah)\b(?= \w)", "the"),

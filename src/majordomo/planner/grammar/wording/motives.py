@@ -10,6 +10,13 @@ _MEAL = (
 _DEED = r"(?:bring|take|put|go|get|fetch|give|come|carry|move|find|drop|return|look|hand|pick|place|pass|grab|drive)"
 
 MOTIVES: tuple[tuple[str, str], ...] = (
+    (
+        (
+            r"(?:^|(?<=\w),? )when(?:ever)? you (?:have|get|find|can spare)(?: got)? (?:a|an|some|the) (?:free )?"
+            r"(?:minute|moment|second|time|chance|sec|while)(?: to spare)?(?=$|[.!?,]| \w),? ?"
+        ),
+        "",
+    ),
     (r"(?<=\w)[,;.!]+ (?:but |and )?(?:please )?(?:be )?(?:careful|gentle|cautious)\b[^.;!?]*(?=[.!]*$)", ""),
     (rf"(?<=\w),? (?:for|after|before|with|during|in time for) {_MEAL}(?=$|[.,!?;]| (?:and|please|to)\b)", ""),
     (rf"^(?:for|after|before|with|during|in time for) {_MEAL},? (?=\w)", ""),

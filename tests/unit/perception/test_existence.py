@@ -39,6 +39,14 @@ def test_seeing_through_its_place_is_strong_evidence_of_absence():
     assert evidence(BOTTLE, [TABLE]) == -SETTINGS.through_limit
 
 
+@pytest.mark.parametrize(("label", "height_m"), [("can", 0.12), ("cup", 0.1), ("box", 0.14)])
+def test_from_near_and_above_the_rays_that_meet_the_top_close_behind_its_foot_do_not_speak_for_it(label, height_m):
+    thing = Solid(label=label, center=(-0.2, 0.0, 0.75 + height_m / 2), size_m=(0.07, 0.07, height_m), cylinder=True)
+    over = {"eye": (-0.95, 0.0, 1.4), "target": (-0.2, 0.0, 0.8)}
+    assert evidence(thing, [TABLE], **over) < -0.8 * SETTINGS.through_limit
+    assert evidence(thing, [TABLE, thing], **over) == 0.0
+
+
 def test_a_miss_of_the_network_is_no_evidence_where_depth_shows_the_thing():
     assert evidence(BOTTLE, [TABLE, BOTTLE]) == 0.0
 

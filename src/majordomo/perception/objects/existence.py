@@ -36,12 +36,16 @@ class ExistenceSettings:
     speed_limit_radps: float = 0.8
 
 
+_LEAST_TELLING = 6
+"""Sample points: two rows of a thing."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class Visibility:
     """How the place of a thing looks in one depth image; shares of its sample points, all of them together one at most.
 
-    ``pixels``: side of the square that it would cover. ``depth_tells``: whether depth would differ if it were gone.
-    ``center_px``: (u, v) of its middle.
+    ``pixels``: side of the square that it would cover. ``depth_tells``: whether depth would differ somewhere if it were
+    gone; ``gone``: share that is seen through of where it would. ``center_px``: (u, v) of its middle.
     """
 
     through: float = 0.0
@@ -49,6 +53,7 @@ class Visibility:
     hidden: float = 0.0
     pixels: float = 0.0
     depth_tells: bool = False
+    gone: float = 0.0
     center_px: tuple[float, float] = (0.0, 0.0)
 
     @property
@@ -79,12 +84,14 @@ def visibility(box: Box, view: View, settings: ExistenceSettings) -> Visibility:
     through = known & (measured_m > depth_m + half_depth_m + tolerance_m)
     hidden = known & (measured_m < depth_m - half_depth_m - tolerance_m)
     consistent = known & ~through & ~hidden
+    telling = _telling(box, samples, view, half_depth_m + tolerance_m) & (through | consistent)
     return Visibility(
         through=float(through.mean()),
         consistent=float(consistent.mean()),
         hidden=float(hidden.mean()),
         pixels=float(np.sqrt(box.size_m[2] * max(box.size_m[:2])) * view.intrinsics.fx / center_m),
-        depth_tells=_depth_tells(box, view, half_depth_m + tolerance_m),
+        depth_tells=int(np.count_nonzero(telling)) >= _LEAST_TELLING,
+        gone=float(through[telling].mean()) if telling.any() else 0.0,
         center_px=(float(center_px[0]), float(center_px[1])),
     )
 
@@ -105,10 +112,9 @@ def absence_evidence(seen: Visibility, *, replaced: bool, settings: ExistenceSet
         return 0.0
     p_detect = detection_probability(seen, settings)
     miss = float(np.log(max(1.0 - p_detect, 1e-3)))
-    through_share = seen.through / seen.visible
     if replaced:
         return -settings.through_limit * p_detect
-    if through_share > 0.6:
+    if seen.depth_tells and seen.gone > 0.6:
         return max(miss + float(np.log(0.05 / 0.95)), -settings.through_limit) * min(1.0, p_detect / 0.5)
     if seen.depth_tells:
         return min(0.0, max(miss + float(np.log(0.95 / 0.05)), -settings.miss_limit))
@@ -167,9 +173,9 @@ def _measured(view: View, pixels: Array, inside: NDArray[np.bool_]) -> Array:
     return np.where(inside, view.depth_m[v, u].astype(np.float64), 0.0)
 
 
-def _depth_tells(box: Box, view: View, slack_m: float) -> bool:
-    """Whether the surface below would be clearly farther along the ray if the thing were gone."""
-    camera = view.T_room_camera.translation_m
-    offset = camera - box.center
-    sine = max(float(offset[2]) / max(float(np.linalg.norm(offset)), 1e-6), 0.05)
-    return bool(box.size_m[2] / 2.0 / sine > slack_m)
+def _telling(box: Box, samples: Array, view: View, slack_m: float) -> NDArray[np.bool_]:
+    """Of ``samples`` (N, 3) on a thing, those behind which its support would clearly be farther if it were gone."""
+    away = samples - view.T_room_camera.translation_m
+    sine = np.maximum(-away[:, 2] / np.maximum(np.linalg.norm(away, axis=1), 1e-6), 0.05)
+    over_m = samples[:, 2] - (box.center[2] - box.size_m[2] / 2.0)
+    return np.asarray(over_m / sine > slack_m)

@@ -7,7 +7,7 @@ from majordomo.planner.grounding import Ambiguous, Context, Grounding, NoReferen
 from majordomo.planner.meant import Meant
 from majordomo.planner.naming import name_of
 from majordomo.planner.plan import Lesson
-from majordomo.planner.vocabulary import is_known, is_room_label
+from majordomo.planner.vocabulary import is_known, is_room_label, words_for
 from majordomo.scene_graph.nodes import ObjectNode, PersonNode, RoomNode
 
 
@@ -28,7 +28,7 @@ class Teaching:
         if not isinstance(self._snapshot.get(found[0]), RoomNode | ObjectNode | PersonNode):
             return NoReferent(reason=f"I can give names to rooms, things and people only, not to {said}.")
         lesson, reply = self._lesson(found[0], said, step)
-        doubt = not step.named and not is_known(said)
+        doubt = (not step.named and not is_known(said)) or self._is_remark(found[0], said, step, context)
         return Meant(answer=reply, lessons=(lesson,), things=found, doubt=doubt)
 
     def _target(self, step: Teach, said: str, context: Context) -> tuple[str, ...] | NoReferent | Ambiguous:
@@ -47,7 +47,32 @@ class Teaching:
         objects = [i for i in (self._grounding.state.holding, *context.fresh) if i is not None]
         if len(set(objects)) == 1:
             return tuple(objects[:1])
+        if spoken_of := self._spoken_of_last(said, context):
+            return spoken_of
         return NoReferent(reason=f"I do not see what you point at. Tell me which thing is “{said}”.", asks=True)
+
+    def _spoken_of_last(self, said: str, context: Context) -> tuple[str, ...]:
+        """The one thing that the request before moved; else the last one spoken of that is what it is said to be."""
+        goals = context.earlier[0].goals if context.earlier else ()
+        moved = {goal.object_id for goal in goals if goal.object_id is not None}
+        objects = [i for i in context.mentioned if isinstance(self._snapshot.get(i), ObjectNode)]
+        spoken = [i for i in objects if i in moved] if len(moved) == 1 else []
+        return tuple(spoken or [i for i in objects if self._is_sort(i, said)])[:1]
+
+    def _is_sort(self, node_id: str, said: str) -> bool:
+        """Whether a thing is what the last word of its name says: a cup called *my mug*."""
+        node = self._snapshot.get(node_id)
+        sorts = words_for(said.rpartition(" ")[2])
+        return isinstance(node, ObjectNode) and bool(sorts & words_for(node.label or ""))
+
+    def _is_remark(self, node_id: str, said: str, step: Teach, context: Context) -> bool:
+        """*That is the wrong cup*, of what was brought: it may be a name, or only said about the thing."""
+        if not isinstance(step.target, Pronoun) or not isinstance(self._snapshot.get(node_id), ObjectNode):
+            return False
+        if step.called or node_id in (self._grounding.state.holding, *context.fresh):
+            return False
+        owned = step.mine or step.words[0].endswith("'s")
+        return not (owned and self._is_sort(node_id, said))
 
     def _says_this(self, step: Teach) -> bool:
         return isinstance(step.target, Pronoun) and step.target.word == "this"

@@ -126,11 +126,18 @@ class Lexicon:
         return "" if apart else whole
 
     def parted(self, word: str) -> tuple[str, ...]:
-        """*Thegreen* as *the green*: an article typed together with a word that is known."""
+        """*Thegreen* as *the green*: an article typed together with a word that is known, or two words of one name."""
         rest = word.removeprefix("the")
         known = rest in _UNDERSTOOD or rest in COLORS or self.is_noun((rest,)) if len(rest) > 2 else False
         new = word not in _UNDERSTOOD and not self.is_noun((word,)) and word not in self.parts
-        return ("the", rest) if rest != word and known and new else (word,)
+        if rest != word and known and new:
+            return ("the", rest)
+        return self._compound(word) if new and word not in COLORS and len(word) > 5 else (word,)
+
+    def _compound(self, word: str) -> tuple[str, ...]:
+        """*Toycar* as *toy car*: a name of two words that was typed as one."""
+        halves = ((word[:cut], word[cut:]) for cut in range(3, len(word) - 2))
+        return next((pair for pair in halves if self.is_noun(pair)), (word,))
 
     def can_own(self, words: tuple[str, ...]) -> bool:
         """Whether *'s* may follow: the name of a person, of a thing or room, or the last word of a room's name."""

@@ -27,15 +27,20 @@ from majordomo.planner.grammar.wording.naming import NAMING
 from majordomo.planner.grammar.wording.placing import PLACING
 from majordomo.planner.grammar.wording.relating import RELATING
 from majordomo.planner.grammar.wording.renaming import RENAMING
-from majordomo.planner.grammar.wording.returning import BACK
+from majordomo.planner.grammar.wording.returning import BACK, RETURNING
+from majordomo.planner.grammar.wording.slips import MISTYPED
+from majordomo.planner.grammar.wording.sorting import SORTING
 from majordomo.planner.grammar.wording.visiting import VISITING
 from majordomo.planner.grammar.wording.wishing import WISHING
 
 RULES: tuple[tuple[str, str], ...] = (
     *(
+        *MISTYPED,
         *DICTATING,
         *ADDRESSING,
         *FOREIGN,
+        *RETURNING,
+        *SORTING,
         *VISITING,
         *HEADING,
         *SLIPS,

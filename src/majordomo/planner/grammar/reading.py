@@ -241,7 +241,8 @@ class Reader(QuestionReader):
         return replace(_teach(children), target=Pronoun(word="this"))
 
     def teach_that(self, children: Children) -> Teach:
-        return replace(_teach(children), target=Pronoun(word="that"))
+        called = any(token.type in ("CALL", "CALLED") for token in tokens_of(children))
+        return replace(_teach(children), target=Pronoun(word="that"), called=called)
 
     def teach_me(self, children: Children) -> Teach:
         sure = tokens_of(children)[0].type == "MY_NAME"

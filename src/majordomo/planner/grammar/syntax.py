@@ -131,12 +131,16 @@ class Wanted:
 
 @dataclass(frozen=True, kw_only=True)
 class Teach:
-    """*This room is the office*: what ``target`` is called from now on. ``target`` None: whatever is pointed at."""
+    """*This room is the office*: what ``target`` is called from now on. ``target`` None: whatever is pointed at.
+
+    ``called``: it was said to be a name, as in *call it Bruno*; *that is the wrong cup* gives none.
+    """
 
     words: tuple[str, ...]
     target: Reference | None = None
     mine: bool = False
     named: bool = False
+    called: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -39,7 +39,6 @@ SLIPS: tuple[tuple[str, str], ...] = (
     (r"\b(go|goes|come|drive|head|back|walk|move) (?:too|ot|2)(?= )", r"\1 to"),
     (r"\b(?:u+m+|e+r+m+|u+h+m*|h+m+|pleas|plase|pleese|pls+|plz+|plox|thx|tnx|thanx)\b(?=.)", "please"),
     (r"\byuo\b", "you"),
-    (r"^(?:wher|whre|were)(?= (?:is|are)\b)", "where"),
     (r"\b(?:fo|4|fro)(?= (?:me|you|her|him)\b)", "for"),
     (r"\bhow? m[an]?[an]?y\b", "how many"),
 )

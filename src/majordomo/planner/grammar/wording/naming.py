@@ -14,6 +14,47 @@ NAMING: tuple[tuple[str, str], ...] = (
     (r"^(?:the |that |this )((?:\w+ )*?)(\w+) is mine(?=[.!]*$)", r"call the \1\2 my \2"),
     (
         (
+            rf"^{_OURS}{_HABIT} (?:call|calls|called|name|named|refer to|label|nickname|dub|know) "
+            r"(it|this|that|them)(?: as| by the name)? (?=\w)"
+        ),
+        r"call \1 ",
+    ),
+    (
+        (
+            rf"^{_OURS}{_HABIT} (?:say|use|write) (?:the )?([\w' ]+?) (?:for|instead of|when (?:i|we) mean) "
+            r"((?:the|this) [\w' ]+?)(?=[.!]*$)"
+        ),
+        r"call \2 the \1",
+    ),
+    (
+        (
+            r"^((?:the|this) [\w' ]+?) (?:is|are) (?:for|full of|where) [^,.;]+?[,;.]+ (?:so |and )*"
+            r"(?:(?:we|i|they|people) (?:all )?)?call (?:it|that|them) (?=\w)"
+        ),
+        r"call \1 ",
+    ),
+    (
+        (
+            r"^(?![^,;:]* (?:is|are|belongs?|has|needs|wants|goes|should|was)\b)((?:the|this) [\w' ]+?)[,;:]+ "
+            r"(?:(?:it|that|this) is (?:our|the|my)|(?:we|i) call (?:it|that) "
+            r"(?:the|our|my)) ([\w' ]+?)(?: (?:for|to) (?:us|me))?(?=[.!]*$)"
+        ),
+        r"call \1 the \2",
+    ),
+    (
+        (
+            r"^((?:the|this) [\w' ]+?|(?:meeting room|ward|office|classroom) \w+) will be (?=(?:the|my|our|\w+'s)\b)"
+            r"([\w' ]+?)(?: (?:this|next|for the|for this) (?:week|month|year|term|day)| today| for now)*(?=[.!]*$)"
+        ),
+        r"\1 is \2",
+    ),
+    (r"^its (?:new |proper |real )?name is ", "it is called "),
+    (
+        r"^the room (?:that )?(\w+) is in (?:is|should be|will be) (?=(?:the|my|our|called)\b)",
+        r"the room where \1 is is ",
+    ),
+    (
+        (
             rf"^{_OURS}{_HABIT} (?:call|calls|called|name|named|refer to|label|nickname|dub|know)"
             rf"(?: the)? ((?:the |this |my |our )?[\w' ]+?)(?: as| by the name)? (the|my|our|a|an) "
             rf"([\w' ]+?)"

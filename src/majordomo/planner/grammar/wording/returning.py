@@ -14,7 +14,92 @@ _OLD = (
     r"(?:old|original|previous|former|usual|proper|right|rightful|own|initial|first|earlier|normal|prior|same|"
     r"correct)"
 )
-_ADDED = r"(?: before| originally| earlier| at first| initially| in the first place| again| previously)?"
+_ADDED = (
+    r"(?: before| originally| earlier| at first| lying| standing|"
+    r" sitting| kept| initially| in the first place| again| previously)?"
+)
+_AS_IT_WAS = (
+    rf"(?:exactly |just )?(?:how|as|like|the way|the same way) {_THEY} (?:was|were|had (?:it|them)|found (?:it|them))"
+)
+_OWN_PLACE = rf"(?:in|on|to|into|at) (?:its|their) (?:{_OLD} )?{_SPOT}"
+_DONE = (
+    r"(?:(?:read|used|seen|heard|had|finished|done)(?: (?:reading|using|drinking|eating|with))?"
+    r"(?: (?:it|them|that|this|those))?|(?:done|finished|through)(?: (?:reading|using|drinking|eating|looking|with it"
+    r"|with them|with that))?)"
+)
+
+RETURNING: tuple[tuple[str, str], ...] = (
+    (
+        (
+            rf"^(?:(?:i|we|he|she|they) (?:have|has|am|are|is)|[a-z]+'s|[a-z]+ (?:is|has)|all)(?: now| all|"
+            rf" just| already)? {_DONE}"
+            r"(?: now| already| again)?[,.;!]+ (?:and |so |now )*"
+            r"(?=(?:back|put|take|bring|return|carry|move|it|they|you can|could|can|please)\b)"
+        ),
+        "",
+    ),
+    (
+        (
+            r"^((?:i|we|he|she) (?:do|does) not (?:want|need) (?:it|them|that)(?: any ?more| now| any"
+            r" longer)?) (?=(?:put|take|bring|return)\b)"
+        ),
+        r"\1, ",
+    ),
+    (
+        (
+            rf"^back (?:it|they|that) (?:goes|go)(?: again| now| please| then| {_OWN_PLACE}"
+            rf"| (?:to )?where {_THEY} (?:was|were|came from|found it|got it from|belongs?))+(?=[.!]*$)"
+        ),
+        "put it back where it was",
+    ),
+    (
+        (
+            rf"(?:^|(?<=[.;!] ))back(?: again| {_OWN_PLACE}| (?:to )?where it (?:was|came from|belongs))? with"
+            rf" (?:it|them|that)(?=[.!]*$)"
+        ),
+        "put it back where it was",
+    ),
+    (
+        (
+            r"\b(?:stick|pop|shove|slip|tuck|stow|chuck|plonk|hang|lay|stand|whack|bung|chuck|pack|slot)"
+            r" ((?:it|them|that|those|these|both|(?:the|my) [\w ]+?)) back(?! (?:and|up|down)\b)"
+        ),
+        r"put \1 back",
+    ),
+    (r"\b(put|return|take|bring|carry|move|get|fetch|give) both of (?:them|these|those)\b", r"\1 both"),
+    (
+        (
+            rf"\b(?:put|set|leave|move|return) (?:it|them|that|things|everything|it all)(?: back)?(?: to)?"
+            rf" {_AS_IT_WAS}(?: before| originally)?(?=[.!]*$)"
+        ),
+        "put it back where it was",
+    ),
+    (
+        (
+            r"\b(?:go |go and )?(?:get|fetch|take|collect|grab|retrieve|pick up) (it|them) (?:back )?(?:from|off) \w+"
+            r"(?:,| and)+ (?:then )?(?:put|return|bring|take|carry) (?:it|them) back(?: again)?(?=[.!]*$)"
+        ),
+        r"put \1 back",
+    ),
+    (
+        (
+            rf"\b(?:return|take|bring|put|carry) (it|them|these|those|that) (?:back )?(?:to|on|in|onto|into) "
+            rf"(?:the|my|\w+'s) [\w ]+?,? where {_THEY} (?:was|were|found it|got it from|came from|belongs?)(?=[.!]*$)"
+        ),
+        r"put \1 back where it was",
+    ),
+    (
+        (
+            r"^(\w+ (?:needs|wants|would like)) (it|them|(?:the|his|her|my) [\w ]+?) back(?: now| again|"
+            r" please)?(?=[.!]*$)"
+        ),
+        r"\1 \2",
+    ),
+    (r"^(?:please )?(?:undo|revert|reverse|roll back)(?=[.!]*$)", "undo that"),
+    (r"\bgoe?s? back where (?:it|they) (?:was|were)\b(?=[.!]*$)", "should go back where it was"),
+)
+"""In the order in which they are tried."""
+
 _RESTORING = r"\b(?:put|return|take|bring|carry|move|place|set|leave|drop|get|give|restore|go)\w*\b"
 
 _ORIGIN = (

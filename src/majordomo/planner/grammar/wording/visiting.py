@@ -98,5 +98,72 @@ VISITING: tuple[tuple[str, str], ...] = (
     ),
     (r"(?:,| and|, and)(?: then)? be (?:back )?(?=(?:at|in) (?:the|my|\w+)\b)", " and go "),
     (r"\b(and go (?:at|in) [^,.;]+?) (?:after (?:that|this)|afterwards|then)(?=[.!]*$)", r"\1"),
+    (
+        (
+            rf"^{_WHO} (?:wants|needs|would like|wishes|expects) you to "
+            r"(?:come|(?:drop|pop|swing|stop) (?:by|over|round|in))"
+            r"(?: (?:by|over|round|around|in|along|up|down))*(?: to (?:see )?(?:him|her|them))?(?: now|"
+            r" please)?(?=[.!]*$)"
+        ),
+        r"go to \1",
+    ),
+    (
+        (
+            r"\b(?<!need )(?<!needs )(?<!wants )(?<!is )(?<!are )"
+            r"(?:popping|nipping|heading|driving|coming|walking|rolling|moving|running|stepping|swinging|wandering"
+            r"|scooting|trundling|hopping|dashing|zipping|strolling|trotting)(?: yourself)?"
+            r"(?: (?:over|down|up|along|across|back|through|round|around|out|off|on))* (?:in)?to (?=\w)"
+        ),
+        "going to ",
+    ),
+    (
+        r"\b(go(?:ing)? to [^,.;!?]+?) for (?:a|one|half a) (?:sec|second|bit|minute|mo|moment|while|tick)(?=[.!?]*$)",
+        r"\1",
+    ),
+    (r"\b((?:over )?here),? (?:to )?where (?:i|we) (?:am|are)(?: now| standing| sitting)?(?=[.!?,]|$)", r"\1"),
+    (
+        (
+            r"\b(?:let us|i want to|i would like to|can i|can we|could i|could we|i will|we will|may i) have you "
+            r"(?:over |back |down |up )?(?=(?:in|at|by|near|next to) )"
+        ),
+        "go ",
+    ),
+    (
+        r"\b(?:follow|take|go down|go along) the (?:hall|hallway|corridor|passage)(?: (?:along|down|up))* to (?=\w)",
+        "go to ",
+    ),
+    (
+        (
+            r"\b(?:be|wait) ((?:in|at|by) [^,.;!?]+?) (?:when|before|by the time|until) (?:i|we) (?:get|come|arrive|am"
+            r"|are|return)(?: there| back| home| in| over)*(?=[.!?]*$)"
+        ),
+        r"go \1",
+    ),
+    (
+        (
+            r"\b(?:move|go|drive|come|get|roll|step|pull|edge) (?:(?:a (?:little |tiny )?bit|a little|much|right|in|up)"
+            r" )*(?:closer|nearer|close|up) to (?=\w)"
+        ),
+        "go to ",
+    ),
+    (
+        (
+            r"\b(?:move|go|get|come|step|drive|back|keep) (?:away|off|clear) (?:from|of) [^,.;]+?(?:,| and)+ (?:then )?"
+            r"(?:go|come|drive|move|head)(?: over| back)? (?=(?:in)?to )"
+        ),
+        "go ",
+    ),
+    (r"\b(?:nav|navig|navigat)\b(?: to)? (?=\w)", "go to "),
+    (r"\breport (?:back )?to (\w+(?: \w+)?) (?=(?:in|at) (?:the |my |\w+[.!]*$))", r"go to \1 "),
+    (
+        (
+            r"(?:(?<=^)|(?<=[.,;!] )|(?<=\band )|(?<=\bthen )|(?<=\bplease )|(?<=\byou ))(?:scoot|pop|nip"
+            r"|hop|roll|trundle"
+            r"|head|run|walk|wander|step|swing|shuffle|drive|zip)(?: (?:over|down|up|along|across|back"
+            r"|round|around|on))*"
+            r" (?=(?:next to|beside|near|by) (?:the|my|\w+'s)\b)"
+        ),
+        "go ",
+    ),
 )
 """In the order in which they are tried."""

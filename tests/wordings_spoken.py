@@ -269,4 +269,7 @@ SPOKEN: list[tuple[str, str]] = [
     ("put it back were it was", "put it back where it was"),
     ("take the cup too ben", "take the cup to ben"),
     ("the gold cup belongs to ben, it is my favorite cup", "call the gold cup my favorite cup"),
+    ("its called bruno", "it is called bruno"),
+    ("my name's oliver", "my name is oliver"),
+    ("just call me ollie", "my name is ollie"),
 ]

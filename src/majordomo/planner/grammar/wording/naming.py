@@ -48,7 +48,9 @@ NAMING: tuple[tuple[str, str], ...] = (
         ),
         r"\1 is \2",
     ),
-    (r"^its (?:new |proper |real )?name is ", "it is called "),
+    (r"^its (?:(?:new |proper |real )?name is|called|named) ", "it is called "),
+    (r"^(?:my )?name's (?=\w+[.!]*$)", "my name is "),
+    (r"^just (?=call me \w+[.!]*$)", ""),
     (
         r"^the room (?:that )?(\w+) is in (?:is|should be|will be) (?=(?:the|my|our|called)\b)",
         r"the room where \1 is is ",

@@ -11,7 +11,7 @@ from majordomo.planner.naming import listed
 from majordomo.planner.narrowing import Narrowing
 from majordomo.planner.phrasing import describe, phrase_text
 from majordomo.planner.plan import QueryKind
-from majordomo.planner.reports import Report
+from majordomo.planner.reports import Report, one_place
 from majordomo.planner.vocabulary import singular
 from majordomo.planner.whereabouts import capital
 
@@ -109,12 +109,7 @@ class Comparing:
 
     def _one(self, reference: Reference, context: Context) -> str | NoReferent | Ambiguous:
         known = replace(reference, quantity=Quantity.THE) if isinstance(reference, NounPhrase) else reference
-        found = self._grounding.place(known, context)
-        if not isinstance(found, tuple):
-            return found
-        if len(found) > 1:
-            return Ambiguous(question="Which one of them do you mean?", phrase="", candidates=found)
-        return found[0]
+        return one_place(self._grounding, known, context)
 
     def _number_at(self, place: str, counted: Sequence[str]) -> int:
         return sum(self._narrowing.is_at(i, place) for i in counted)

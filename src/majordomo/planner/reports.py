@@ -44,6 +44,16 @@ class Report:
     nodes: tuple[str, ...] = ()
 
 
+def one_place(grounding: Grounding, reference: Reference, context: Context) -> str | NoReferent | Ambiguous:
+    """The one place, thing or person that a question is about."""
+    found = grounding.place(reference, context)
+    if not isinstance(found, tuple):
+        return found
+    if len(found) > 1:
+        return Ambiguous(question="Which one of them do you mean?", phrase="", candidates=found)
+    return found[0]
+
+
 class Reports:
     """Answers the kinds of ``REPORTED`` on one graph."""
 
@@ -56,7 +66,7 @@ class Reports:
         """The answer, or why there is none."""
         nodes: list[str] = []
         for reference in ask.things:
-            found = self._node(reference, context)
+            found = one_place(self._grounding, reference, context)
             if not isinstance(found, str):
                 return found
             nodes.append(found)
@@ -95,14 +105,6 @@ class Reports:
                 return _sentence(context.earlier[0]) if context.earlier else "You have not asked me for anything yet."
             case _:
                 return _told(kind, context.earlier)
-
-    def _node(self, reference: Reference, context: Context) -> str | NoReferent | Ambiguous:
-        found = self._grounding.place(reference, context)
-        if not isinstance(found, tuple):
-            return found
-        if len(found) > 1:
-            return Ambiguous(question="Which one of them do you mean?", phrase="", candidates=found)
-        return found[0]
 
     def _distance(self, nodes: list[str]) -> Report:
         start = nodes[1] if len(nodes) > 1 else self._state.robot_at

@@ -100,9 +100,14 @@ class LabelBelief:
 
     def measure(self, size_m: Point3) -> None:
         """Take in the extent of the thing: some names do not go with it."""
-        self._size_m = size_m
-        if self._looks and not self._taught:
+        before, self._size_m = self._oversized(), size_m
+        if self._looks and not self._taught and self._oversized() != before:
             self.distribution = self._ranked(self._fused())
+
+    def _oversized(self) -> frozenset[str]:
+        """Of the labels that were heard, those that the thing is too long for."""
+        heard = {label for look in self._looks.values() for label in look.log if label is not None}
+        return frozenset(label for label in heard if is_oversized(label, self._size_m))
 
     def _likelihood(self, distribution: LabelDistribution) -> dict[str, float]:
         """Of each label, given that it is right; classes of a frame that is unsure share everything among them."""
@@ -126,9 +131,8 @@ class LabelBelief:
             share = look.evidence(self._evidence_of_view) / look.weight
             for label in labels:
                 log[label] += share * look.log.get(label, look.log[None])
-        for label in labels:
-            if label is not None and is_oversized(label, self._size_m):
-                log[label] -= _OVERSIZE_COST
+        for label in self._oversized():
+            log[label] -= _OVERSIZE_COST
         top = max(log.values())
         return {label: max(value - top, -self._bound) for label, value in log.items()}
 

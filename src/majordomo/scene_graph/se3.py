@@ -33,13 +33,14 @@ class SE3:
         translation_m: (3,) read-only origin of b in a.
     """
 
-    __slots__ = ("_q", "_t", "quat_wxyz", "translation_m")
+    __slots__ = ("_q", "_rotation", "_t", "quat_wxyz", "translation_m")
     __array_ufunc__ = None  # numpy must not take SE3 @ array for a product of object arrays
 
     quat_wxyz: Array
     translation_m: Array
     _q: tuple[float, float, float, float]
     _t: tuple[float, float, float]
+    _rotation: Array | None
 
     def __init__(self, quat_wxyz: ArrayLike = (1.0, 0.0, 0.0, 0.0), translation_m: ArrayLike = (0.0, 0.0, 0.0)) -> None:
         quat = np.asarray(quat_wxyz, dtype=np.float64)
@@ -61,6 +62,7 @@ class SE3:
         # Adding 0.0 turns -0.0 into 0.0, so that equal transforms have equal bytes and equal hashes.
         self._set("_q", (w + 0.0, x + 0.0, y + 0.0, z + 0.0))
         self._set("_t", (tx + 0.0, ty + 0.0, tz + 0.0))
+        self._set("_rotation", None)
         self._set("quat_wxyz", _read_only(self._q))
         self._set("translation_m", _read_only(self._t))
 
@@ -166,8 +168,13 @@ class SE3:
         return np.asarray(points, dtype=np.float64) @ self.rotation().T + self.translation_m
 
     def rotation(self) -> Array:
-        """The (3, 3) rotation matrix."""
-        return matrix_of(self._q)
+        """The (3, 3) rotation matrix, read-only."""
+        if self._rotation is None:
+            matrix = matrix_of(self._q)
+            matrix.flags.writeable = False
+            self._set("_rotation", matrix)
+            return matrix
+        return self._rotation
 
     def matrix(self) -> Array:
         """The (4, 4) homogeneous matrix."""

@@ -121,3 +121,19 @@ async def test_turns_are_counted_and_the_longest_wait_between_two_is_kept():
         await turns.take(0.0)
     assert turns.taken == 4
     assert 0.2 <= turns.longest_wait_s < 0.5
+
+
+async def test_in_real_time_one_late_turn_costs_no_other():
+    book = []
+
+    class OnceLate(Diary):
+        async def step(self, stamp_s):
+            await super().step(stamp_s)
+            if len(self.book) % 4 == 0:
+                await asyncio.sleep(0.15)
+
+    scheduler = RealTimeScheduler([OnceLate("a", 0.1, book)], asyncio.get_running_loop().time)
+    with pytest.raises(TimeoutError):
+        async with asyncio.timeout(2.05):
+            await scheduler.run()
+    assert len(book) >= 19, "without making up for the late ones there are 18"

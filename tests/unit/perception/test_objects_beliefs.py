@@ -10,7 +10,7 @@ from majordomo.perception.objects.center import CenterBelief, CenterSettings
 from majordomo.perception.objects.color import PALETTE, color_votes, named_color
 from majordomo.perception.objects.confirmation import is_double, is_fragment
 from majordomo.perception.objects.identity import IdentitySettings, departed, likeness, same_thing_moved
-from majordomo.perception.objects.membership import Surroundings, outside_distance_m
+from majordomo.perception.objects.membership import Outline, Surroundings
 from majordomo.perception.objects.projection import View
 from majordomo.perception.objects.raycast import Solid, look_at, render, rgbd_frame
 from majordomo.perception.objects.scripted import furnished_memory
@@ -288,7 +288,7 @@ ELL = ((0.0, 0.0), (4.0, 0.0), (4.0, 2.0), (2.0, 2.0), (2.0, 4.0), (0.0, 4.0))
 @given(st.floats(-3.0, 3.0), st.floats(-3.0, 3.0))
 def test_the_signed_distance_from_a_square_has_the_right_sign_and_size(x, y):
     expected = max(abs(x), abs(y)) - 1.0
-    distance = outside_distance_m(SQUARE, np.array((x, y)))
+    (distance,) = Outline(SQUARE).outside_m(np.array(((x, y),)))
     if expected <= 0.0 or min(abs(x), abs(y)) <= 1.0:
         assert distance == pytest.approx(expected, abs=1e-9)
     else:
@@ -296,8 +296,9 @@ def test_the_signed_distance_from_a_square_has_the_right_sign_and_size(x, y):
 
 
 def test_a_room_may_have_a_corner_cut_out():
-    assert outside_distance_m(ELL, np.array((3.0, 3.0))) == pytest.approx(1.0)
-    assert outside_distance_m(ELL, np.array((1.0, 3.0))) < 0.0
+    outside_m, inside_m = Outline(ELL).outside_m(np.array(((3.0, 3.0), (1.0, 3.0))))
+    assert outside_m == pytest.approx(1.0)
+    assert inside_m < 0.0
 
 
 def door_between(room, other):

@@ -55,7 +55,7 @@ def warp_labels(labels: Labels, previous: View, current: View) -> Labels:
 
     Both views must be in the same room frame.
     """
-    T_now_before = current.T_room_camera.inverse() @ previous.T_room_camera
+    T_now_before = current.T_camera_room @ previous.T_room_camera
     if T_now_before.is_close(SE3.identity(), 1e-4):
         return labels
     depth_m = previous.depth_m[::STEP_PX, ::STEP_PX]

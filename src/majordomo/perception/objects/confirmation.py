@@ -116,6 +116,10 @@ def is_double(one: Track, other: Track) -> bool:
     """
     if not (one.is_furniture and other.is_furniture and one.room == other.room):
         return False
+    away_m = float(np.hypot(*(one.position - other.position)[:2]))
+    reach_m = sum(float(np.hypot(*track.box.size_m[:2])) / 2.0 for track in (one, other))
+    if away_m > reach_m + _BOX_MARGIN_M:
+        return False
     shares = _share_inside(one, other), _share_inside(other, one)
     return (max(shares) if one.label.best == other.label.best else min(shares)) > _SAME_SPACE
 

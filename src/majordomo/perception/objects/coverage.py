@@ -28,43 +28,43 @@ _TURNED_AWAY = 0.5
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class SeenSurface:
-    """What a depth image shows: ``points`` (N, 3) and ``camera`` (3,) in the room frame of its view, and
-    ``pixels_per_m2`` (N,), the pixels that something flat would have at a point, by its area.
-    """
+    """What a depth image shows finely enough: ``points`` (N, 3) and ``camera`` (3,) in the room frame of its view."""
 
     camera: Array
     points: Array
-    pixels_per_m2: Array
 
     @classmethod
-    def of(cls, view: View) -> SeenSurface:
-        """Every second pixel of every second row that has depth."""
-        depth_m = view.depth_m[::_STEP_PX, ::_STEP_PX].astype(np.float64)
-        v, u = np.nonzero(depth_m > 0.0)
+    def of(cls, view: View, *, pixels_per_m2: float) -> SeenSurface:
+        """Of every second pixel of every second row what is near enough to have that many pixels by its area."""
+        camera = view.T_room_camera.translation_m
+        densest = view.intrinsics.fx * view.intrinsics.fy
+        reach_m = np.cbrt(densest * max(camera[2] + _FOOT_M, 0.0) / pixels_per_m2)
+        depth_m = view.depth_m[::_STEP_PX, ::_STEP_PX]
+        v, u = np.nonzero((depth_m > 0.0) & (depth_m < reach_m))
         points_camera = back_project(
-            u.astype(np.float64) * _STEP_PX, v.astype(np.float64) * _STEP_PX, depth_m[v, u], view.intrinsics
+            u.astype(np.float64) * _STEP_PX,
+            v.astype(np.float64) * _STEP_PX,
+            depth_m[v, u].astype(np.float64),
+            view.intrinsics,
         )
         points = view.T_room_camera.apply(points_camera)
-        range_m = np.linalg.norm(points_camera, axis=1)
-        camera = view.T_room_camera.translation_m
-        above_m = np.maximum(camera[2] - points[:, 2], 0.0)
-        pixels_per_m2 = view.intrinsics.fx * view.intrinsics.fy * above_m / range_m**3
-        return cls(camera=camera, points=points, pixels_per_m2=pixels_per_m2)
+        fine = densest * (camera[2] - points[:, 2]) >= pixels_per_m2 * (points_camera**2).sum(axis=1) ** 1.5
+        return cls(camera=camera, points=points[fine])
 
 
 class Coverage:
     """Frames that showed each part of one support well enough; parts lie across its footprint, whatever its size."""
 
-    def __init__(self, *, pixels_per_m2: float, frames: int) -> None:
-        self._pixels_per_m2, self._frames = pixels_per_m2, frames
+    def __init__(self, *, frames: int) -> None:
+        self._frames = frames
         self._seen = np.zeros((_COLUMNS, _ROWS), dtype=np.int64)
         self._camera = np.zeros(3)
 
     def add(self, box: Box, seen: SeenSurface, *, inside: bool = False) -> None:
         """One frame; ``box`` is in the room frame of its view. ``inside``: only what is below its rim counts."""
         self._camera = seen.camera
-        fine = seen.points[seen.pixels_per_m2 >= self._pixels_per_m2]
-        local = box.local(fine[np.linalg.norm(fine[:, :2] - box.center[:2], axis=1) < max(box.size_m[:2])])
+        away_m = np.hypot(seen.points[:, 0] - box.center[0], seen.points[:, 1] - box.center[1])
+        local = box.local(seen.points[away_m < max(box.size_m[:2])])
         height_m = local[:, 2] + box.size_m[2] / 2.0
         share = local[:, :2] / np.maximum(_INNER * np.asarray(box.size_m[:2]), 1e-6) + 0.5
         over = (share >= 0.0).all(axis=1) & (share < 1.0).all(axis=1) & (height_m > _FOOT_M)

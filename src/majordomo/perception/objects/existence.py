@@ -63,10 +63,11 @@ class Visibility:
 
 def visibility(box: Box, view: View, settings: ExistenceSettings) -> Visibility:
     """How the place ``box`` (room frame of the view) looks now."""
-    T_camera_room = view.T_room_camera.inverse()
-    center, half_depth_m, samples = _samples(box, view.T_room_camera.translation_m)
-    pixels, depth_m = project(T_camera_room.apply(samples), view.intrinsics)
-    (center_px,), (center_m,) = project(T_camera_room.apply(center[None]), view.intrinsics)
+    (center_px,), (center_m,) = project(view.T_camera_room.apply(box.center[None]), view.intrinsics)
+    if center_m <= 0.2 or center_m > settings.range_limit_m:
+        return Visibility()
+    half_depth_m, samples = _samples(box, view.T_room_camera.translation_m)
+    pixels, depth_m = project(view.T_camera_room.apply(samples), view.intrinsics)
     border = settings.border_px
     with np.errstate(invalid="ignore"):
         inside = (
@@ -76,7 +77,7 @@ def visibility(box: Box, view: View, settings: ExistenceSettings) -> Visibility:
             & (pixels[:, 1] < view.intrinsics.height - border)
             & (depth_m > 0.2)
         )
-    if not inside.any() or center_m <= 0.2 or center_m > settings.range_limit_m:
+    if not inside.any():
         return Visibility()
     tolerance_m = 0.02 + 3.0 * 1.5e-3 * center_m**2 + 2.0 * float(np.sqrt(np.trace(view.pose_covariance[:3, :3]) / 3.0))
     measured_m = _measured(view, pixels, inside)
@@ -129,7 +130,7 @@ def surface_absent(points: Array, view: View, settings: ExistenceSettings) -> fl
     if len(points) == 0:
         return 0.0
     samples = points[:: -(-len(points) // 80)]
-    pixels, depth_m = project(view.T_room_camera.inverse().apply(samples), view.intrinsics)
+    pixels, depth_m = project(view.T_camera_room.apply(samples), view.intrinsics)
     with np.errstate(invalid="ignore"):
         inside = (
             ((pixels >= settings.border_px).all(axis=1))
@@ -151,8 +152,8 @@ def bounded(log_odds: float, settings: ExistenceSettings) -> float:
     return float(np.clip(log_odds, -settings.bound, settings.bound))
 
 
-def _samples(box: Box, camera: Array) -> tuple[Array, float, Array]:
-    """Center (3,), half the extent along the view in meters, and 15 points in the plane that faces the camera."""
+def _samples(box: Box, camera: Array) -> tuple[float, Array]:
+    """Half the extent along the view in meters, and 15 points in the plane that faces the camera."""
     direction = box.center - camera
     direction /= max(float(np.linalg.norm(direction)), 1e-9)
     left = np.array((-direction[1], direction[0], 0.0)) / max(float(np.hypot(direction[0], direction[1])), 1e-6)
@@ -163,7 +164,7 @@ def _samples(box: Box, camera: Array) -> tuple[Array, float, Array]:
         + (across.ravel() * half_width_m)[:, None] * left
         + (up.ravel() * box.size_m[2] / 2.0)[:, None] * np.array((0.0, 0.0, 1.0))
     )
-    return box.center, half_depth_m, samples
+    return half_depth_m, samples
 
 
 def _measured(view: View, pixels: Array, inside: NDArray[np.bool_]) -> Array:

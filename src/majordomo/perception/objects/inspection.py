@@ -88,7 +88,7 @@ class Inspection:
                 continue
             if track.room not in surroundings.T_here_room or node.size_m[2] > view.T_room_camera.z_m - _ABOVE_M:
                 continue
-            seen = seen or SeenSurface.of(view)
+            seen = seen or SeenSurface.of(view, pixels_per_m2=self._settings.pixels_per_m2)
             if self._covered(node.id, track, seen, surroundings):
                 self.inspected[node.id] = view.stamp_s
 
@@ -99,7 +99,7 @@ class Inspection:
         settings = self._settings
         coverage = self._coverage.get(node_id)
         if coverage is None:
-            coverage = Coverage(pixels_per_m2=settings.pixels_per_m2, frames=settings.frames)
+            coverage = Coverage(frames=settings.frames)
             self._coverage[node_id] = coverage
         coverage.add(box, seen, inside=track.category.container)
         self._sides[node_id] = coverage.hidden_side_rad(box)

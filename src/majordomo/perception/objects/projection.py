@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 
 import cv2
 import numpy as np
@@ -62,9 +63,13 @@ class View:
     T_base_camera: SE3
     pose_covariance: Array
 
-    @property
+    @cached_property
     def T_room_camera(self) -> SE3:
         return self.T_room_base @ self.T_base_camera
+
+    @cached_property
+    def T_camera_room(self) -> SE3:
+        return self.T_room_camera.inverse()
 
     @classmethod
     def of(

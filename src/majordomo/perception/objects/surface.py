@@ -184,9 +184,7 @@ class SurfaceBelief:
 
     def deny_outside(self, mask: NDArray[np.bool_], view: View, T_view_room: SE3) -> None:
         """Doubt what is in plain sight and yet outside ``mask`` (H, W), all that the network took for this piece."""
-        pixels, depth_m = project(
-            (view.T_room_camera.inverse() @ T_view_room).apply(self.memory.points), view.intrinsics
-        )
+        pixels, depth_m = project((view.T_camera_room @ T_view_room).apply(self.memory.points), view.intrinsics)
         height, width = mask.shape
         with np.errstate(invalid="ignore"):
             cells = np.nan_to_num(np.round(pixels), nan=-1.0)

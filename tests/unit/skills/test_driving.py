@@ -22,7 +22,7 @@ from majordomo.skills.anchor import Anchor
 from majordomo.skills.doubles import BoxWorld, FakeBody, Rehearsal
 from majordomo.skills.failures import FailureCode
 from majordomo.skills.geometry import Box2, Pose2, wrap_rad
-from majordomo.skills.navigation.goals import around, at_poses
+from majordomo.skills.navigation.goals import around, at_poses, overlooking
 from majordomo.skills.navigation.grid import Canvas
 from majordomo.skills.navigation.pose import ANYWHERE
 from majordomo.skills.navigation.route import find_routes
@@ -109,6 +109,21 @@ async def test_stands_at_a_table_facing_it_with_the_table_within_reach(flat):
     assert PHYSICAL_RADIUS_M < rehearsal.least_clearance_m < 0.6
     bearing = rehearsal.body.pose.bearing_rad((1.0, 1.2))
     assert abs(wrap_rad(rehearsal.body.pose.yaw_rad - bearing)) < 0.05
+
+
+@pytest.mark.parametrize("hemmed_in", [False, True])
+async def test_what_cannot_be_come_near_to_is_looked_at_from_farther_away(flat, hemmed_in):
+    table = Box2(Pose2(1.0, 1.2), 1.2, 0.8)
+    in_front, beside = Box2(Pose2(1.2, 0.3), 3.2, 0.8), Box2(Pose2(-0.1, 1.6), 0.6, 1.8)
+    world = BoxWorld(boxes=(table, in_front, beside) if hemmed_in else (table,))
+    rehearsal = Rehearsal(memory=flat().table().memory, world=world, body=FakeBody(pose=Pose2(-2.0, -1.5)))
+    context = await rehearsal.prepare()
+    assert await rehearsal.run([DriveTo(context, "table_1", overlooking(context, "table_1", 0.5))]) is None
+    pose = rehearsal.body.pose
+    away_m = float(table.distance_m(np.array([pose.point]))[0])
+    assert (0.95 < away_m < 1.9) if hemmed_in else away_m < 0.9
+    assert abs(wrap_rad(pose.yaw_rad - pose.bearing_rad((1.0, 1.2)))) < 0.1
+    assert rehearsal.least_clearance_m > PHYSICAL_RADIUS_M
 
 
 async def test_something_that_appears_on_the_way_is_driven_around(flat):

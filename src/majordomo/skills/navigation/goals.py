@@ -20,6 +20,10 @@ SPACING_M = 0.15
 OTHER_SIDE_M = 6.0
 """So much way is made to look at a thing from the side that is wanted and not from the opposite one."""
 PERSON_SIZE_M = 0.4
+_NEAR_M = (0.0, 0.1, 0.2, 0.35)
+_FAR_M = (0.6, 0.9, 1.3)
+_LAST_RESORT_M = 20.0
+"""As how many meters of way it counts to look from farther away than one should."""
 
 
 def at_poses(context: RobotContext, node_id: str, poses: Sequence[tuple[float, float, float | None]]) -> GoalSource:
@@ -80,23 +84,25 @@ def around(context: RobotContext, node_id: str, standoff_m: float) -> GoalSource
 
 def overlooking(context: RobotContext, node_id: str, standoff_m: float, *, side_rad: float | None = None) -> GoalSource:
     """The same, those preferred from which all of it is near, and on the side ``side_rad``, a direction in its own
-    frame.
+    frame; places farther away for what cannot be come near to.
     """
 
     def goals(routes: Routes | None) -> list[Goal]:
         del routes
         box = _footprint(context, node_id)
+        afar = [replace(goal, cost_m=goal.cost_m + _LAST_RESORT_M) for goal in _facing(box, standoff_m, _FAR_M)]
         return [
-            replace(goal, cost_m=goal.cost_m + _askew_m(box, goal.point, side_rad)) for goal in _facing(box, standoff_m)
+            replace(goal, cost_m=goal.cost_m + _askew_m(box, goal.point, side_rad))
+            for goal in (*_facing(box, standoff_m), *afar)
         ]
 
     return goals
 
 
-def _facing(box: Box2, standoff_m: float) -> list[Goal]:
-    """Goals on curves around a rectangle, the nearer ones preferred."""
+def _facing(box: Box2, standoff_m: float, extras_m: Sequence[float] = _NEAR_M) -> list[Goal]:
+    """Goals on curves around a rectangle, ``standoff_m`` and ``extras_m`` away, the nearer ones preferred."""
     found = []
-    for extra_m in (0.0, 0.1, 0.2, 0.35):
+    for extra_m in extras_m:
         for x_m, y_m in _outline(box, standoff_m + extra_m):
             yaw = Pose2(x_m, y_m).bearing_rad(box.pose.point)
             found.append(Goal(point=(x_m, y_m), yaw_rad=yaw, cost_m=3.0 * extra_m))

@@ -87,7 +87,7 @@ class CrossDoor(Action):
         self._free_s = 0.0
         self._giving_up: tuple[FailureCode, str] | None = None
         self._lane, self._lanes = Lane(), 0
-        self._anew = self._squeezes = False
+        self._anew = self._squeezes = self._foresaw = False
 
     def fail(self, code: FailureCode, message: str, nodes: Sequence[str] = (), observation: str = "") -> Status:
         """Record why, and that this door is blocked if it is."""
@@ -98,7 +98,7 @@ class CrossDoor(Action):
         """Say which door, and line up first when not in front of it."""
         self._free_s, self._giving_up, self._driver = self.context.stamp_s, None, None
         self._lane, self._lanes = Lane(), 0
-        self._anew = self._squeezes = False
+        self._anew = self._squeezes = self._foresaw = False
         self.context.announce(f"crossing {self.door_id}")
         if self.door_id in self.context.snapshot and not self._lined_up(self._base_on_axis()):
             self._line_up_on(Lane())
@@ -122,7 +122,7 @@ class CrossDoor(Action):
             return self._back_out(base, *self._giving_up)
         if base.x_m - WALL_M >= BEYOND_M:
             return Status.SUCCESS
-        return self._advance(base)
+        return Status.RUNNING if self._foresees(base) else self._advance(base)
 
     def _line_up(self, driver: Driver) -> Status:
         progress = driver.step()
@@ -131,6 +131,23 @@ class CrossDoor(Action):
         if progress is Progress.ARRIVED:
             self._driver, self._free_s = None, self.context.stamp_s
         return Status.RUNNING
+
+    def _foresees(self, base: Pose2) -> bool:
+        """Whether what is seen from before the door lies in the way and leaves room beside: that lane is taken at once,
+        but for a person, who gets time to move away.
+        """
+        if self._foresaw or base.x_m > -self.context.limits.footprint_radius_m:
+            return False
+        self._foresaw = True
+        points = base.apply(self._points_base())
+        if self._lane.is_clear(points, self._radius_m(), base.x_m) or self._person_in_gap() is not None:
+            return False
+        lane = self._clear_lane(base)
+        if lane is None or lane.is_like(self._lane):
+            return False
+        self._lanes += 1
+        self._line_up_on(lane)
+        return True
 
     def _advance(self, base: Pose2) -> Status:
         context, config = self.context, self._config

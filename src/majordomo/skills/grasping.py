@@ -89,6 +89,15 @@ def choose_grasp(
     raise first or _too_wide(size_m, T_base_object)
 
 
+def can_grasp(size_m: Size3, T_base_object: SE3, *, geometry: ArmGeometry, limits: BodyLimits) -> bool:
+    """Whether the arm can take an object that is so before it, in any way."""
+    try:
+        choose_grasp(size_m, T_base_object, level_first=False, geometry=geometry, limits=limits)
+    except Unreachable:
+        return False
+    return True
+
+
 def grasp_options(size_m: Size3, T_base_object: SE3, *, level_first: bool, limits: BodyLimits) -> tuple[Grasp, ...]:
     """Grasps in order of preference; none for what is too wide for the fingers."""
     above, level = _from_above(size_m, T_base_object, limits), _level(size_m, T_base_object, limits)
@@ -172,7 +181,7 @@ def _from_above(size_m: Size3, pose: SE3, limits: BodyLimits) -> Grasp | None:
 def _level(size_m: Size3, pose: SE3, limits: BodyLimits) -> Grasp | None:
     yaw = pose.yaw_rad
     width_m = abs(size_m[0] * sin(yaw)) + abs(size_m[1] * cos(yaw))
-    if width_m > MAX_WIDTH_M:
+    if width_m > MAX_WIDTH_M or size_m[2] < LEVEL_CLEARANCE_M:
         return None
     pads_z_m = pose.z_m - size_m[2] / 2 + max(LEVEL_CLEARANCE_M, LEVEL_SHARE * size_m[2])
     depth_m = abs(size_m[0] * cos(yaw)) + abs(size_m[1] * sin(yaw))

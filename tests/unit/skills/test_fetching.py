@@ -266,3 +266,15 @@ async def test_a_table_higher_than_the_lift_is_told_before_driving_there(kitchen
     assert await carry_out(rehearsal, ("PICK", "bottle_1")) is None
     failure = await carry_out(rehearsal, ("PLACE", "bottle_1", "shelf_1"))
     assert failure.code is FailureCode.UNREACHABLE
+
+
+async def test_what_is_too_high_for_a_hand_from_above_is_taken_from_the_side_that_fits_between_the_fingers(
+    flat, onlooker, fingers
+):
+    built = flat().thing("counter_1", (1.0, 1.2, 0.5), (0.5, 0.5, 1.0), support=True)
+    built.thing("bear_1", (1.0, 1.2, 1.1), (0.14, 0.07, 0.2), on="counter_1", graspable=True)
+    body = FakeBody(pose=Pose2(1.0, 0.3, 1.57), grasped_width_m=fingers(built.memory))
+    world = BoxWorld(boxes=(Box2(Pose2(1.0, 1.2), 0.5, 0.5),), heights_m=(0.3, 0.6))
+    rehearsal = Rehearsal(memory=built.memory, body=body, world=world, observe=onlooker)
+    assert await carry_out(rehearsal, ("GOTO", "bear_1"), ("PICK", "bear_1")) is None
+    assert abs(rehearsal.body.pose.y_m - 1.2) < 0.2

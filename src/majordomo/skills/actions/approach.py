@@ -3,22 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import cos, pi
+from math import atan2, cos, hypot, pi
 
 import numpy as np
+from numpy.typing import NDArray
 from py_trees.common import Status
 
 from majordomo.scene_graph.nodes import ObjectNode, ObjectState
+from majordomo.scene_graph.se3 import SE3
 from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.skills.action import RobotContext
 from majordomo.skills.actions.driving import DriveTo
 from majordomo.skills.anchor import AnchorSource, resolved
 from majordomo.skills.failures import FailureCode
 from majordomo.skills.geometry import Point2, Points
-from majordomo.skills.grasping import DOWN_RAD, HOVER_M, is_tall, underside_m
+from majordomo.skills.grasping import DOWN_RAD, HOVER_M, can_grasp, is_tall, underside_m
 from majordomo.skills.navigation.driver import DriverConfig
 from majordomo.skills.navigation.plan import Goal
-from majordomo.skills.navigation.pose import robot_frame
+from majordomo.skills.navigation.pose import planar_pose, robot_frame
 from majordomo.skills.navigation.route import Routes
 
 NEAREST_M = 0.40
@@ -88,6 +90,8 @@ class ApproachForReach(DriveTo):
         costs += CLEARANCE_WEIGHT * np.clip(0.6 - routes.grid.clearance_at(points), 0.0, None)
         low_m = self._underside_m(float(target[2]))
         costs += IN_THE_WAY_COST_M * _arm_passes_over(snapshot, frame, target, low_m, points, self._spared())
+        fits = self._fits(points, target)
+        costs += np.where(fits | ~fits.any(), 0.0, np.inf)
         for failed in self._failed:
             costs += np.where(np.hypot(*(points - failed).T) < 0.25, np.inf, 0.0)
         yaws = np.arctan2(target[1] - points[:, 1], target[0] - points[:, 0])
@@ -103,7 +107,10 @@ class ApproachForReach(DriveTo):
             return False
         x_m, y_m, _ = anchor.in_base(self.context)
         nearest_m, *_, farthest_m, _ = self._reaches_m()
-        return nearest_m < float(np.hypot(x_m, y_m)) < farthest_m
+        frame = robot_frame(self.context.snapshot)
+        here = np.array([planar_pose(self.context, frame).point])
+        fits = self._fits(here, anchor.position(self.context.snapshot, frame))[0]
+        return bool(nearest_m < float(np.hypot(x_m, y_m)) < farthest_m and fits)
 
     def _reaches_m(self) -> tuple[float, ...]:
         """Level with what the hand holds and with what it will grasp around its middle, else from above."""
@@ -113,6 +120,20 @@ class ApproachForReach(DriveTo):
             return reaches_m(context, context.body.arm.wrist_pitch_rad)
         level = isinstance(node, ObjectNode) and node.graspable and is_tall(node.size_m)
         return reaches_m(context, 0.0 if level else DOWN_RAD)
+
+    def _fits(self, points: Points, target: Points) -> NDArray[np.bool_]:
+        """Which of (N, 2) places the hand can take hold from: from above or level, as it is turned towards there."""
+        context = self.context
+        node = context.snapshot.get(resolved(self._where).node_id)
+        if context.grip is not None or not isinstance(node, ObjectNode) or not node.graspable:
+            return np.ones(len(points), np.bool_)
+        yaw_rad = context.snapshot.transform(robot_frame(context.snapshot), node.id).yaw_rad
+        aside = target[:2] - points
+        poses = (
+            SE3.from_xyz_yaw(hypot(dx, dy), 0.0, float(target[2]), yaw_rad - atan2(dy, dx)) for dx, dy in aside.tolist()
+        )
+        grasps = (can_grasp(node.size_m, pose, geometry=context.geometry, limits=context.limits) for pose in poses)
+        return np.fromiter(grasps, np.bool_, len(points))
 
     def _underside_m(self, z_m: float) -> float:
         """Height over which the arm passes on its way to the target."""

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from math import hypot, pi
+from collections.abc import Sequence
+from math import dist, hypot, pi
 
 import numpy as np
 
@@ -23,6 +24,10 @@ FLOOR_GAP_M = 0.10
 DOORWAY_M = 0.6
 HIGHEST_M = 1.15
 LOWEST_M = 0.15
+BLOCKED_M = 0.12
+"""What stopped the arm may be so large."""
+BLOCKED_S = 120.0
+"""So long it is expected to be there."""
 
 
 def free_spots(context: RobotContext, held: str, target: str) -> list[Spot]:
@@ -35,7 +40,7 @@ def free_spots(context: RobotContext, held: str, target: str) -> list[Spot]:
     if node is None:
         return []
     if isinstance(node, ObjectNode):
-        return spots_on(snapshot, target, size_m, held)
+        return _unblocked(context, spots_on(snapshot, target, size_m, held))
     near_m = HANDOVER_M if isinstance(node, PersonNode) else np.inf
     spots = [
         spot
@@ -43,7 +48,18 @@ def free_spots(context: RobotContext, held: str, target: str) -> list[Spot]:
         for spot in spots_on(snapshot, support, size_m, held)
         if near_m == np.inf or _distance_m(snapshot, spot.anchor, target) < near_m - 0.3
     ]
+    spots = _unblocked(context, spots)
     return spots or _floor_spots(context, target if isinstance(node, PersonNode) else ROBOT_ID, size_m)
+
+
+def _unblocked(context: RobotContext, spots: Sequence[Spot]) -> list[Spot]:
+    """Those not near a point over which the arm was stopped lately: something is there that is not in the graph."""
+    lately = [at for at, since_s in context.blocked_spots.items() if context.stamp_s - since_s < BLOCKED_S]
+    return [
+        spot
+        for spot in spots
+        if not any(spot.anchor.node_id == on and dist(spot.anchor.point_m, point) < BLOCKED_M for on, point in lately)
+    ]
 
 
 def held_size_m(context: RobotContext, held: str) -> tuple[float, float, float]:

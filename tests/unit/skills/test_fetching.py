@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from itertools import pairwise
 
+import numpy as np
 import pytest
 
 from majordomo.scene_graph.edges import RtEdge
@@ -14,6 +15,7 @@ from majordomo.skills.actions.grasp import CloseGripper
 from majordomo.skills.doubles import BoxWorld, FakeBody, Rehearsal
 from majordomo.skills.failures import FailureCode
 from majordomo.skills.geometry import Box2, Pose2
+from majordomo.skills.kinematics import gripper_pose
 from majordomo.skills.registry import load_registry
 from majordomo.skills.state import PlanState
 
@@ -278,3 +280,24 @@ async def test_what_is_too_high_for_a_hand_from_above_is_taken_from_the_side_tha
     rehearsal = Rehearsal(memory=built.memory, body=body, world=world, observe=onlooker)
     assert await carry_out(rehearsal, ("GOTO", "bear_1"), ("PICK", "bear_1")) is None
     assert abs(rehearsal.body.pose.y_m - 1.2) < 0.2
+
+
+async def test_where_something_unseen_stopped_the_arm_nothing_is_put_next_time(kitchen, onlooker):
+    rehearsal = kitchen()
+    assert await carry_out(rehearsal, ("PICK", "bottle_1"), ("GOTO", "table_2")) is None
+    context = await rehearsal.prepare()
+    actions = SKILLS["PLACE"].actions(context, ["bottle_1", "table_2"])
+    assert await rehearsal.run(actions[:5], 900.0) is None
+    spot = actions[1]._placement.spot.anchor.position(rehearsal.memory.snapshot(), "room_1")[:2]
+
+    def stop_the_arm(r):
+        onlooker(r)
+        hand = gripper_pose(r.body.arm, r.body.geometry)
+        if np.hypot(*(r.body.pose.apply(np.array([[hand.x_m, hand.y_m]]))[0] - spot)) < 0.1:
+            r.body.arm = replace(r.body.arm, lift_m=max(r.body.arm.lift_m, 1.0))
+
+    rehearsal.observe = stop_the_arm
+    assert (await rehearsal.run(actions[5:], 900.0)).code is FailureCode.UNREACHABLE
+    left = [each.anchor.position(rehearsal.memory.snapshot(), "room_1")[:2] for each in actions[1]._placement.spots()]
+    assert min(np.hypot(*(at - spot)) for at in left) > 0.1
+    assert await carry_out(rehearsal, ("PLACE", "bottle_1", "table_2")) is None

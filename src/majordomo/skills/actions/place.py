@@ -173,8 +173,15 @@ class LowerToPlace(ArmAction):
             return self.fail(FailureCode.DROPPED, message, (self._placement.object_id,))
         if progress is ArmProgress.STALLED:
             lowering = self.context.body.arm.lift_m - self._standing_lift_m < TOUCH_M
-            return Status.SUCCESS if lowering else self.stalled(self._placement.target)
+            return Status.SUCCESS if lowering else self._stopped()
         return Status.SUCCESS if progress is ArmProgress.THERE else Status.RUNNING
+
+    def _stopped(self) -> Status:
+        """Fail, and remember where, so that another spot is tried next."""
+        spot = self._placement.anchor()
+        if not (self._placement.spot is None or self._placement.spot.inside):
+            self.context.blocked_spots[spot.node_id, spot.point_m] = self.context.stamp_s
+        return self.stalled(self._placement.target)
 
     def _plan(self) -> tuple[ArmTarget, ...]:
         """Up, out, and down, with the wrist as it is; down only when it is out: drawn in, the hand is over the base."""

@@ -139,6 +139,16 @@ async def test_something_that_appears_on_the_way_is_driven_around(flat):
     assert rehearsal.least_clearance_m > PHYSICAL_RADIUS_M
 
 
+@pytest.mark.parametrize(("gap_m", "passes"), [(0.57, True), (0.50, False)])
+async def test_a_gap_hardly_wider_than_the_body_is_passed_where_there_is_no_other(flat, gap_m, passes):
+    ends = (Box2(Pose2(0.0, side * (gap_m / 2 + 1.3)), 0.2, 2.6) for side in (1, -1))
+    rehearsal = Rehearsal(memory=flat().memory, world=BoxWorld(boxes=(*ends,)), body=FakeBody(pose=Pose2(-2.0, 0.0)))
+    context = await rehearsal.prepare()
+    failure = await rehearsal.run([goal_at(context, 2.0, 0.0)])
+    assert (failure is None) == passes
+    assert rehearsal.least_clearance_m > PHYSICAL_RADIUS_M
+
+
 async def test_a_wall_of_boxes_is_told_as_a_blocked_way(flat):
     world = BoxWorld(boxes=(Box2(Pose2(0.0, 0.0), 0.3, 6.0),))
     rehearsal = Rehearsal(memory=flat().memory, world=world, body=FakeBody(pose=Pose2(-2.0, 0.0)))

@@ -23,7 +23,7 @@ from majordomo.skills.failures import FailureCode
 from majordomo.skills.geometry import Points, Pose2, wrap_rad
 from majordomo.skills.navigation.driver import Driver, DriverConfig, Progress
 from majordomo.skills.navigation.goals import at_poses
-from majordomo.skills.navigation.plan import GoalSource
+from majordomo.skills.navigation.plan import SQUEEZE_M, GoalSource
 from majordomo.skills.navigation.pose import footprint_radius_m, in_base, look_around, planar_pose, robot_frame
 from majordomo.skills.navigation.pursuit import turn_rate
 from majordomo.skills.navigation.safety import admissible
@@ -39,9 +39,8 @@ PANEL_HEIGHTS = (0.5, 0.95)
 LANE_SPARE_M = 0.03
 LANES = 3
 """So often another lane is tried."""
-SQUEEZE_M = 0.02
-"""So much closer, and no more than a crawl, it passes what leaves no other lane: the body is less wide than planned."""
 SQUEEZE_MPS = 0.12
+"""No more than a crawl, where nothing but the bare body fits."""
 
 
 class ApproachDoor(DriveTo):

@@ -200,6 +200,7 @@ class Grounding:
     ) -> Grounded:
         many = phrase.quantity in (Quantity.ALL, Quantity.BOTH, Quantity.SOME, Quantity.EXACTLY) or _plural(phrase)
         found = self._suited(self.matches(phrase, context, widely=many), carried=carried)
+        found = found or self._suited(self.matches(phrase, context), carried=carried)  # no cup there, but a mug
         text = phrase_text(phrase)
         if phrase.words[-1:] in (("things",), ("everything",), ("stuff",)):
             found = tuple(i for i in found if i not in self.state.missing) or found

@@ -109,6 +109,12 @@ def test_an_exact_label_comes_before_its_synonyms():
     assert read("how many mugs are there", in_hall(sketch)).reply.startswith("I know of 4 mugs")
 
 
+def test_where_there_is_no_cup_the_mug_there_is_meant():
+    sketch = flat().thing("mug_1", "mug", on="desk_1")
+    assert goals("bring me the cup from the desk", in_hall(sketch)) == "given(mug_1, person_2)"
+    assert goals("bring me the cup from the counter", in_hall(sketch)) == "given(cup_2, person_2)"
+
+
 def test_the_last_word_of_a_label_names_it():
     sketch = flat().thing("knife_1", "butter knife", on="desk_1")
     assert goals("bring me the knife", in_hall(sketch)) == "given(knife_1, person_2)"

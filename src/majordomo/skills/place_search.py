@@ -24,6 +24,8 @@ FLOOR_GAP_M = 0.10
 DOORWAY_M = 0.6
 HIGHEST_M = 1.15
 LOWEST_M = 0.15
+NAMELESS = "unknown"
+"""The label of what perception cannot name: perhaps furniture, perhaps a part of some."""
 BLOCKED_M = 0.12
 """What stopped the arm may be so large."""
 BLOCKED_S = 120.0
@@ -31,8 +33,8 @@ BLOCKED_S = 120.0
 
 
 def free_spots(context: RobotContext, held: str, target: str) -> list[Spot]:
-    """Free spots at ``target`` for ``held`` as the graph is now. A person or a room takes supports first, then the
-    floor.
+    """Free spots at ``target`` for ``held`` as the graph is now. A person or a room takes supports first, those that
+    are surely furniture before what is not known by name, then the floor.
     """
     snapshot = context.snapshot
     size_m = held_size_m(context, held)
@@ -42,14 +44,18 @@ def free_spots(context: RobotContext, held: str, target: str) -> list[Spot]:
     if isinstance(node, ObjectNode):
         return _unblocked(context, spots_on(snapshot, target, size_m, held))
     near_m = HANDOVER_M if isinstance(node, PersonNode) else np.inf
-    spots = [
-        spot
-        for support in _supports(snapshot, snapshot.room_of(target), held)
-        for spot in spots_on(snapshot, support, size_m, held)
-        if near_m == np.inf or _distance_m(snapshot, spot.anchor, target) < near_m - 0.3
-    ]
-    spots = _unblocked(context, spots)
-    return spots or _floor_spots(context, target if isinstance(node, PersonNode) else ROBOT_ID, size_m)
+    supports = _supports(snapshot, snapshot.room_of(target), held)
+    for nameless in (False, True):
+        spots = [
+            spot
+            for support in supports
+            if (snapshot.object(support).label == NAMELESS) == nameless
+            for spot in spots_on(snapshot, support, size_m, held)
+            if near_m == np.inf or _distance_m(snapshot, spot.anchor, target) < near_m - 0.3
+        ]
+        if spots := _unblocked(context, spots):
+            return spots
+    return _floor_spots(context, target if isinstance(node, PersonNode) else ROBOT_ID, size_m)
 
 
 def _unblocked(context: RobotContext, spots: Sequence[Spot]) -> list[Spot]:

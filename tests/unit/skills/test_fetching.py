@@ -16,6 +16,7 @@ from majordomo.skills.doubles import BoxWorld, FakeBody, Rehearsal
 from majordomo.skills.failures import FailureCode
 from majordomo.skills.geometry import Box2, Pose2
 from majordomo.skills.kinematics import gripper_pose
+from majordomo.skills.place_search import free_spots
 from majordomo.skills.registry import load_registry
 from majordomo.skills.state import PlanState
 
@@ -64,6 +65,16 @@ async def test_what_is_held_can_be_put_down_for_any_kind_of_target(kitchen, targ
     rehearsal = kitchen(lambda built: built.person(0.0, 1.8))
     assert await carry_out(rehearsal, ("PICK", "bottle_1"), ("GOTO", target), ("PLACE", "bottle_1", target)) is None
     assert rehearsal.memory.snapshot().support_of("bottle_1") == "table_1"
+
+
+@pytest.mark.parametrize("tables", [0, 1])
+async def test_in_a_room_what_is_not_known_by_name_carries_things_only_where_nothing_else_does(flat, tables):
+    built = flat().thing("unknown_1", (0.9, 0.0, 0.4), (0.6, 0.5, 0.8), support=True)
+    built.thing("cup_1", (0.0, 1.0, 0.05), (0.08, 0.08, 0.1), graspable=True)
+    built = built.table() if tables else built
+    context = await Rehearsal(memory=built.memory).prepare()
+    spots = free_spots(context, "cup_1", "room_1")
+    assert {spot.anchor.node_id for spot in spots} == {"table_1" if tables else "unknown_1"}
 
 
 async def test_with_no_table_near_it_is_put_on_the_floor_beside_the_person(kitchen):

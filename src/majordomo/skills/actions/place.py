@@ -33,6 +33,8 @@ HOVER_M = 0.10
 TOUCH_M = 0.04
 SLOW_M, STEP_M = 0.04, 0.01
 """The last centimeters are lowered step by step, which is slow."""
+SPARE_LIFT_M = 0.02
+"""A surface may turn out to be a little higher when it is seen from near."""
 MOST_SPOTS = 40
 TIGHT_M = 0.10
 TIGHT_WEIGHT = 3.0
@@ -105,7 +107,7 @@ class ChooseSpot(Action):
             z_m + (ABOVE_RIM_M if spot.inside else 0.0) - self.context.geometry.hand_length_m * sin(arm.wrist_pitch_rad)
         )
         low_m, high_m = self.context.limits.lift_m
-        return low_m <= lift_m <= high_m
+        return low_m <= lift_m <= high_m - SPARE_LIFT_M
 
 
 class CheckSpot(Action):

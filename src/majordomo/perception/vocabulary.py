@@ -16,6 +16,9 @@ from majordomo.scene_graph.nodes import Point3
 
 GRIPPER_OPENING_M = 0.12
 _GRIPPER_MARGIN_M = 0.01
+_SQUARE_SHARE = 0.85
+_UNSEEN_SHARE = 0.65
+"""As deep a thing may be that shows its width alone, as a share of that."""
 _FURNITURE_FROM_M = 0.5
 _OF_ONE_SIZE = frozenset({"appliance", "fixture"})
 _OVERSIZE = 1.8
@@ -62,8 +65,13 @@ def fits_gripper(size_m: Point3, opening_m: float = GRIPPER_OPENING_M) -> bool:
 
 
 def is_graspable(label: str, size_m: Point3) -> bool:
-    """By name and by geometry."""
-    return category_of(label, size_m).graspable and fits_gripper(size_m)
+    """By name and by geometry; a thing that need not be as deep as it is wide, but looks so, may have been seen from
+    one side only, and is given the benefit of the doubt.
+    """
+    category, (narrow_m, wide_m) = category_of(label, size_m), sorted(size_m[:2])
+    in_doubt = not (category.round or category.ball) and narrow_m > _SQUARE_SHARE * wide_m
+    sides = (narrow_m * (_UNSEEN_SHARE if in_doubt else 1.0), wide_m, size_m[2])
+    return category.graspable and fits_gripper(sides)
 
 
 def carries_things(label: str, size_m: Point3, *, reachable_top_m: float = 1.25) -> bool:

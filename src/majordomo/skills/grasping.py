@@ -21,6 +21,10 @@ Size3 = tuple[float, float, float]
 
 DOWN_RAD = -pi / 2
 MAX_WIDTH_M = 0.105
+DOUBTFUL_WIDTH_M = 0.17
+"""What looks wider than the fingers span, but not more than this, may be narrower when it is seen from near: from one
+side, nobody sees how deep a thing is.
+"""
 OPENING_MARGIN_M = 0.05
 TIP_M = 0.028
 """From the pads' center to the finger tips, and a little air: the pads stay this high above what the object stands

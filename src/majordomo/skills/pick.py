@@ -15,7 +15,7 @@ from majordomo.skills.actions.grasp import CloseGripper, Reach
 from majordomo.skills.actions.watching import Check, Confirm, Refine
 from majordomo.skills.anchor import Anchor
 from majordomo.skills.failures import Evidence, Failure, FailureCode
-from majordomo.skills.grasping import MAX_WIDTH_M
+from majordomo.skills.grasping import DOUBTFUL_WIDTH_M
 from majordomo.skills.journeys import travel
 from majordomo.skills.skill import Parameter, Unmet, argument_schema, unknown_arguments
 from majordomo.skills.state import PlanState
@@ -114,7 +114,7 @@ def _not_graspable(state: PlanState, target: str) -> list[Unmet]:
     thing = state.world.things[target]
     if not thing.graspable:
         return [Unmet(message=f"{target} cannot be grasped: choose something small.", nodes=(target,), final=True)]
-    if thing.width_m > MAX_WIDTH_M:
+    if thing.width_m > DOUBTFUL_WIDTH_M:
         message = f"{target} is {thing.width_m:.2f} m wide, too wide for the fingers: choose something narrower."
         return [Unmet(message=message, nodes=(target,), final=True)]
     return []

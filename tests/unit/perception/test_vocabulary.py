@@ -59,6 +59,13 @@ def test_grasping_needs_the_name_and_the_geometry():
     assert not fits_gripper((0.3, 0.115, 0.2))
 
 
+def test_what_looks_square_may_be_less_deep_than_wide_unless_it_is_round():
+    assert is_graspable("box", (0.14, 0.14, 0.1))
+    assert not is_graspable("box", (0.25, 0.14, 0.1))
+    assert not is_graspable("box", (0.2, 0.2, 0.2))
+    assert not is_graspable("bowl", (0.14, 0.14, 0.07))
+
+
 def test_supports_are_what_things_are_put_on_or_in():
     assert carries_things("table", (1.2, 0.8, 0.75))
     assert carries_things("shelf", (0.9, 0.3, 1.8))

@@ -71,6 +71,12 @@ def test_a_thing_too_wide_for_the_fingers_is_refused_with_its_width(state):
     assert "0.20 m wide" in message(Pick(), state.after(world=world, robot_at="bottle_1"), "bottle_1")
 
 
+def test_a_thing_that_looks_a_little_too_wide_from_afar_is_not_refused(state):
+    wide = replace(state.world.things["bottle_1"], width_m=0.12)
+    world = World(things={**state.world.things, "bottle_1": wide}, doors=state.world.doors)
+    assert Pick().conditions(state.after(world=world, robot_at="bottle_1"), ["bottle_1"]) == []
+
+
 def test_a_closed_door_is_named(flat):
     built = flat(door_state=DoorState.CLOSED).table("table_2", 0.5, 0.0, room="room_2")
     state = PlanState.from_snapshot(built.memory.snapshot())

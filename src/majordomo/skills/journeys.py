@@ -10,7 +10,7 @@ from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.scene_graph.topology import Path, Topology
 from majordomo.skills.action import Action, Refusal, RobotContext
 from majordomo.skills.actions.arm import Stow
-from majordomo.skills.actions.doors import ApproachDoor, CrossDoor, EnterRoom
+from majordomo.skills.actions.doors import ApproachDoor, CrossDoor, CrossingConfig, EnterRoom
 from majordomo.skills.actions.driving import DriveTo
 from majordomo.skills.actions.looking import LookAt, SweepCamera, gaze_points
 from majordomo.skills.actions.watching import AccountFor
@@ -22,6 +22,8 @@ LOOK_DWELL_S = 1.2
 LEAST_STANDOFF_M = 0.42
 """Nearest that the base's axis comes to a footprint: the planning radius and what drawing on the grid takes."""
 
+THROUGH_M = 0.5
+"""So far beyond the wall a known room is entered: out of the gap, and no detour to what stands beside it."""
 BLOCKED_S = 120.0
 """So long something is expected to stay in a doorway; another way is taken meanwhile, if there is one."""
 ASIDE_DEG = (0.0, 25.0, -25.0, 45.0, -45.0)
@@ -123,7 +125,8 @@ def _legs(path: Path) -> list[tuple[str, str]]:
 
 
 def _through(context: RobotContext, door: str, room: str) -> list[Action]:
-    return [ApproachDoor(context, door), CrossDoor(context, door), EnterRoom(context, room)]
+    crossing = CrossDoor(context, door, CrossingConfig(beyond_m=THROUGH_M))
+    return [ApproachDoor(context, door), crossing, EnterRoom(context, room)]
 
 
 def _stands(snapshot: Snapshot, room: str) -> bool:

@@ -58,9 +58,10 @@ class ApproachDoor(DriveTo):
 
 @dataclass(frozen=True, kw_only=True)
 class CrossingConfig:
-    """Speed in the gap, look-ahead along the axis, and patience."""
+    """Speed in the gap, look-ahead along the axis, how far beyond the wall it ends, and patience."""
 
     speed_mps: float = 0.30
+    beyond_m: float = BEYOND_M
     look_ahead_m: float = 0.35
     turn_in_place_rad: float = 0.5
     closed_s: float = 1.5
@@ -69,7 +70,7 @@ class CrossingConfig:
 
 
 class CrossDoor(Action):
-    """Drives through a door along its axis until the base stands 0.9 m beyond the wall.
+    """Drives through a door along its axis until the base stands beyond the wall, by default 0.9 m.
 
     Where something lies in the way it drives beside the axis or aslant to it, as near to it as there is room, and lines
     up again for that. When the robot is placed into the far room on the way, it goes on by that room's own node of the
@@ -119,7 +120,7 @@ class CrossDoor(Action):
             return self._begin_anew(base)
         if self._giving_up is not None:
             return self._back_out(base, *self._giving_up)
-        if base.x_m - WALL_M >= BEYOND_M:
+        if base.x_m - WALL_M >= self._config.beyond_m:
             return Status.SUCCESS
         return Status.RUNNING if self._foresees(base) else self._advance(base)
 

@@ -185,7 +185,7 @@ def _from_above(size_m: Size3, pose: SE3, limits: BodyLimits) -> Grasp | None:
 def _level(size_m: Size3, pose: SE3, limits: BodyLimits) -> Grasp | None:
     yaw = pose.yaw_rad
     width_m = abs(size_m[0] * sin(yaw)) + abs(size_m[1] * cos(yaw))
-    if width_m > MAX_WIDTH_M or size_m[2] < LEVEL_CLEARANCE_M:
+    if width_m > MAX_WIDTH_M:
         return None
     pads_z_m = pose.z_m - size_m[2] / 2 + max(LEVEL_CLEARANCE_M, LEVEL_SHARE * size_m[2])
     depth_m = abs(size_m[0] * cos(yaw)) + abs(size_m[1] * sin(yaw))

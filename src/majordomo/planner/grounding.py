@@ -16,6 +16,7 @@ from majordomo.planner.naming import name_of
 from majordomo.planner.narrowing import Narrowing
 from majordomo.planner.phrasing import alternatives, describe, phrase_text, which_question
 from majordomo.planner.plan import Exchange
+from majordomo.planner.together import moved_together, two_of
 from majordomo.planner.vocabulary import is_plural, normal, words_for
 from majordomo.scene_graph.nodes import ROBOT_ID, ObjectNode, PersonNode, RoomNode
 from majordomo.scene_graph.snapshot import Snapshot
@@ -164,10 +165,12 @@ class Grounding:
             people = [i for i in context.mentioned if isinstance(self.snapshot.get(i), PersonNode)]
             people = [i for i in people if (i,) != self.speaker(context)]
             return tuple(people[:1]) or NoReferent(reason="I do not know whom you mean.")
-        if word == "them" and not context.fresh and context.earlier:
-            moved = tuple(
-                dict.fromkeys(goal.args[0] for goal in context.earlier[0].goals if goal.object_id is not None)
-            )
+        if word == "both":
+            spoken = tuple(i for i in context.mentioned if i in context.taken)
+            pair = two_of(context.fresh, spoken, context.earlier)
+            return pair or NoReferent(reason="I do not know which two things you mean.", asks=True)
+        if word in ("them", "all") and not context.fresh:
+            moved = moved_together(context.earlier, self.state, everything=word == "all")
             if len(moved) > 1:
                 return moved
         return self._it(context)

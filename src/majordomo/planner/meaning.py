@@ -259,7 +259,7 @@ class Meaning:
     def _destination(self, destination: Destination, things: tuple[Reference, ...], context: Context) -> str | Trouble:
         """One place; *it* is never the thing that is carried."""
         reference = destination.reference
-        if isinstance(reference, Pronoun) and reference.word in ("it", "them") and reference in things:
+        if isinstance(reference, Pronoun) and reference.word in ("it", "them", "both", "all") and reference in things:
             return NoReferent(reason="I do not know what you mean by “it”.")
         found = self._grounding.place(reference, context)
         if not isinstance(found, tuple):

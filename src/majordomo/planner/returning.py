@@ -10,6 +10,7 @@ from majordomo.planner.grammar.syntax import Pronoun, PutBack, Reference
 from majordomo.planner.grounding import Ambiguous, Context, Grounding, NoReferent
 from majordomo.planner.meant import Meant
 from majordomo.planner.naming import name_of
+from majordomo.planner.together import moved
 
 
 class Returning:
@@ -46,8 +47,8 @@ class Returning:
 
 def _moved_last(references: tuple[Reference, ...], context: Context) -> tuple[str, ...]:
     """*Put it back*: everything that the request before moved, if that was several things."""
-    if context.fresh or not context.earlier or not all(isinstance(r, Pronoun) for r in references):
+    words = {r.word for r in references if isinstance(r, Pronoun)}
+    if context.fresh or not context.earlier or len(words) != len(references) or words & {"both", "them", "all"}:
         return ()
-    goals = context.earlier[0].goals
-    moved = tuple(dict.fromkeys(i for goal in goals if (i := goal.object_id) is not None and i in context.origins))
-    return moved if len(moved) > 1 else ()
+    things = tuple(i for i in moved(context.earlier[0]) if i in context.origins)
+    return things if len(things) > 1 else ()

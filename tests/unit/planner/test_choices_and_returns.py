@@ -59,3 +59,29 @@ def test_all_that_was_moved_together_goes_back(text):
     there = home().snapshot(robot_in="room_4", at=(4.2, 4.2))
     found = heard(text, there, dialogue)
     assert {goal.args for goal in found.goals} == set(moved.items())
+
+
+def exchange(*things):
+    goals = tuple(Goal(predicate=Predicate.IN, args=(i, "room_4")) for i in things)
+    return Exchange(request="", goals=goals, status="succeeded", explanation="")
+
+
+ORIGINS = {"cup_1": "table_1", "apple_1": "counter_1"}
+
+
+@pytest.mark.parametrize("text", ["put both back", "take both of them back where they came from", "put everything back"])
+def test_what_two_requests_moved_goes_back(text):
+    earlier = (exchange("apple_1"), exchange("cup_1"))
+    found = heard(text, SNAPSHOT, Dialogue(earlier=earlier, mentioned=("apple_1", "cup_1"), origins=ORIGINS))
+    assert {goal.args for goal in found.goals} == set(ORIGINS.items())
+
+
+def test_both_of_one_thing_is_asked_about():
+    earlier = (exchange("apple_1"),)
+    found = heard("put both back", SNAPSHOT, Dialogue(earlier=earlier, mentioned=("apple_1",), origins=ORIGINS))
+    assert found.kind is Kind.CLARIFY
+
+
+def test_both_are_the_two_things_taken_in_this_request():
+    found = heard("take the key. take the phone. put both on the counter", SNAPSHOT, Dialogue())
+    assert len({goal.args[0] for goal in found.goals}) == 2

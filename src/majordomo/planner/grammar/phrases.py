@@ -290,7 +290,7 @@ class PhraseReader(Transformer[Token, Any]):
     def it(self, children: Children) -> Pronoun:
         if children[0].type == "IT":
             return self.pronoun(children)
-        return Pronoun(word="that" if children[0].type == "THIS" else "it")
+        return Pronoun(word={"THIS": "that", "BOTH": "both", "ALL": "all"}.get(children[0].type, "it"))
 
     def things(self, children: Children) -> tuple[Reference, ...]:
         values = values_of(children)

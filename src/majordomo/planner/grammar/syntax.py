@@ -218,7 +218,7 @@ class Mention:
     lost: bool = False
 
 
-LEANING = frozenset({"it", "them", "that", "him"})
+LEANING = frozenset({"it", "them", "both", "all", "that", "him"})
 """Pronouns that stand for what was spoken of."""
 
 

@@ -43,6 +43,11 @@ class Placement(Mapping[str, Place]):
         """Whether an object is elsewhere than in the base."""
         return object_id in self._moved
 
+    def was_at(self, object_id: str, place: str) -> bool:
+        """Whether the base has an object on or in a place."""
+        at = self._base.get(object_id)
+        return at is not None and at[1] == place
+
     def with_moved(self, object_id: str, place: Place | None) -> Placement:
         """The placement after one object was put somewhere, or taken away (None)."""
         return Placement(self._base, self._at, {**self._moved, object_id: place})

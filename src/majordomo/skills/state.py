@@ -197,11 +197,20 @@ class PlanState:
         return tuple(thing for thing in self.on_top_of(node_id) if self.places[thing][0] is not PlaceRelation.IN)
 
     def has_room_for(self, object_id: str, place: str) -> bool:
-        """Whether an object fits on or in a place beside what is there in this state."""
+        """Whether an object fits on or in a place beside what is there in this state.
+
+        What stood there in the graph fits there again while nothing has come.
+        """
         target = self.world.things[place]
         if self.world.fits is None or target.kind != "object":
             return True
         there = self.on_top_of(place)
+        if (
+            isinstance(self.places, Placement)
+            and self.places.was_at(object_id, place)
+            and not any(map(self._came, there))
+        ):
+            return True
         stays = frozenset(thing for thing in there if not self._came(thing))
         return self.world.fits(target, stays, (object_id, *(thing for thing in there if thing not in stays)))
 

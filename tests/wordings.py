@@ -193,7 +193,7 @@ MORE: list[tuple[str, str]] = [
     ),
     (
         "swing by anna in the office and afterwards come home to the living room",
-        "swing by anna in the office and afterwards go to the living room",
+        "go to anna in the office and afterwards go to the living room",
     ),
     (
         "there is something i want you to do in the storage room, so go there first",

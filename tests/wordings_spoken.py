@@ -142,7 +142,7 @@ SPOKEN: list[tuple[str, str]] = [
         "what about the smallest book in the library? put it on the coffee table for me",
         "the smallest book in the library, put it on the coffee table for me",
     ),
-    ("either of the teddy bears will do, just bring one to leo", "bring one of the teddy bears to leo"),
+    ("either of the teddy bears will do, just bring one to leo", "bring either of the teddy bears to leo"),
     (
         "any cup will do as long as it is not from the kitchen. bring it to the bathroom",
         "bring a cup that is not in the kitchen to the bathroom",
@@ -189,7 +189,7 @@ SPOKEN: list[tuple[str, str]] = [
     ("what is in the box, bring it to me", "whatever is in the box, bring it to me"),
     ("the stuff around on the table, put it in the box", "everything on the table, put it in the box"),
     ("bring me the hammer it is in the garage", "bring me the hammer that is in the garage"),
-    ("any cup will do, bring me one", "bring me a cup"),
+    ("any cup will do, bring me one", "bring me any cup"),
     ("i can not work without my glasses", "i want my glasses"),
     ("the cup and the bowl should swap places", "put the cup where the bowl is, then put the bowl where the cup was"),
     ("the cup and the bowl swap places", "put the cup where the bowl is, then put the bowl where the cup was"),

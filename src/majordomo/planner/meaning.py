@@ -32,6 +32,7 @@ from majordomo.planner.grammar.syntax import (
     Step,
     Teach,
     Wanted,
+    is_wish,
 )
 from majordomo.planner.grounding import Ambiguous, Context, Grounding, NoReferent
 from majordomo.planner.meant import Meant
@@ -66,7 +67,8 @@ class Meaning:
         """The one meaning of a step, or why there is none.
 
         Parallel wording (*the cup on the table and the book on the desk*) is taken at its word, if it makes sense. A
-        reading that leaves a choice open is asked about, even if another would settle it. Readings that hold already
+        reading that leaves a choice open is asked about, even if another would settle it. What is wanted is where it is
+        said to be, if it is there. Readings that hold already
         give way to readings that ask for something, and those that follow from another to that one.
         """
         parallel = tuple(reading for reading in readings if isinstance(reading, Several))
@@ -74,6 +76,9 @@ class Meaning:
         returned = [self._returning.of(reading, context) for reading in others if isinstance(reading, PutBack)]
         if len(returned) == 1 and isinstance(returned[0], Meant):
             return returned[0]
+        wished = [self._step(reading, context) for reading in others if is_wish(reading)]
+        if len(wished) == 1 and isinstance(wished[0], Meant):
+            return wished[0]
         outcomes = [self._step(reading, context) for reading in parallel]
         if all(isinstance(outcome, NoReferent) for outcome in outcomes):
             outcomes += [self._step(reading, context) for reading in others]
@@ -262,6 +267,8 @@ class Meaning:
         if isinstance(reference, Pronoun) and reference.word in ("it", "them", "both", "all") and reference in things:
             return NoReferent(reason="I do not know what you mean by “it”.")
         found = self._grounding.place(reference, context)
+        if isinstance(found, Ambiguous) and destination.back:
+            found = self._returning.among(found, self._gathering.to_carry(things, context), context)
         if not isinstance(found, tuple):
             return found
         if len(found) > 1:

@@ -17,7 +17,8 @@ class Returning:
     """Gives ``PutBack`` its meaning; ``predicate`` says what putting something to a place means there."""
 
     def __init__(self, grounding: Grounding, gathering: Gathering, predicate: Callable[[str, str], Predicate]) -> None:
-        self._snapshot, self._gathering, self._predicate = grounding.snapshot, gathering, predicate
+        self._snapshot, self._state = grounding.snapshot, grounding.state
+        self._gathering, self._predicate = gathering, predicate
 
     def of(self, step: PutBack, context: Context) -> Meant | Trouble:
         """The things at the places that they were moved from."""
@@ -36,6 +37,15 @@ class Returning:
             for i, place in zip(things, places, strict=True)
         )
         return Meant(goals=goals, things=things, places=places)
+
+    def among(
+        self, places: Ambiguous, things: tuple[str, ...] | Trouble, context: Context
+    ) -> tuple[str, ...] | Ambiguous:
+        """*Back on the shelf*: of several shelves, the one that the things were on, or of several rooms, were in."""
+        origins = {context.origins.get(i) for i in things} if isinstance(things, tuple) else set()
+        rooms = {self._state.room_of(origin) for origin in origins if origin is not None}
+        before = tuple(i for i in places.candidates if i in origins or i in rooms)
+        return before if len(before) == 1 and None not in origins else places
 
     def _moved_before(self, found: tuple[str, ...] | Trouble, context: Context) -> tuple[str, ...] | Trouble:
         """Of several that are asked about, the one that was moved is what is put back."""

@@ -69,7 +69,9 @@ def exchange(*things):
 ORIGINS = {"cup_1": "table_1", "apple_1": "counter_1"}
 
 
-@pytest.mark.parametrize("text", ["put both back", "take both of them back where they came from", "put everything back"])
+@pytest.mark.parametrize(
+    "text", ["put both back", "take both of them back where they came from", "put everything back"]
+)
 def test_what_two_requests_moved_goes_back(text):
     earlier = (exchange("apple_1"), exchange("cup_1"))
     found = heard(text, SNAPSHOT, Dialogue(earlier=earlier, mentioned=("apple_1", "cup_1"), origins=ORIGINS))

@@ -8,6 +8,7 @@ import pytest
 
 from majordomo.planner.grammar.paraphrase import RULES, paraphrased
 from wordings import MORE
+from wordings_of_deeds import DEEDS
 from wordings_of_talk import TALK
 from wordings_spoken import SPOKEN
 
@@ -199,7 +200,7 @@ SAME = [
     ("run over to the garage and return", "go to the garage then come back"),
     ("how do i get from here to the lab", "how do i get to the lab"),
     ("the quiet room is now the nap room", "the quiet room is the nap room"),
-    ("thanks, return them to their place", "return them back where it was"),
+    ("thanks, return them to their place", "put them back where it was"),
     ("put them both back where they were", "put them back where it was"),
     ("bring me a cup but not the red one", "bring me a cup that is not red"),
     ("get my phone for me wherever it is", "get my phone for me"),
@@ -247,7 +248,7 @@ SAME = [
     ("what would be the route from the pantry to ben's room", "what is the route from the pantry to ben's room"),
     (
         "show victor the vase and then return it to its old spot",
-        "bring victor the vase and then return it back where it was",
+        "bring victor the vase and then put it back where it was",
     ),
     ("from now on the room with the piano is the concert hall", "the room with the piano is the concert hall"),
     (
@@ -379,7 +380,7 @@ UNCHANGED = [
 ]
 
 
-@pytest.mark.parametrize(("typed", "said"), [*SAME, *MORE, *TALK, *SPOKEN])
+@pytest.mark.parametrize(("typed", "said"), [*SAME, *MORE, *TALK, *SPOKEN, *DEEDS])
 def test_a_wording_is_read_as_the_one_that_the_grammar_knows(typed, said):
     assert paraphrased(typed) == said
 
@@ -403,5 +404,5 @@ def changed_by(text):
 
 
 def test_every_rule_has_an_example_here():
-    used = set().union(*(changed_by(typed) for typed, _ in [*SAME, *MORE, *TALK, *SPOKEN]))
+    used = set().union(*(changed_by(typed) for typed, _ in [*SAME, *MORE, *TALK, *SPOKEN, *DEEDS]))
     assert [RULES[number] for number in range(len(RULES)) if number not in used] == []

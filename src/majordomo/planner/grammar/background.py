@@ -62,7 +62,16 @@ _IN_PHRASE = frozenset(
 )  # fmt: skip
 _NAMES = frozenset({"NOUN", "NAME", "PERSON", "WORD", "IDENTIFIER", "DOOR"})
 _ANYBODY = frozenset({"somebody", "someone", "anybody", "anyone", "everybody", "everyone", "people"})
-MAX_SUBJECT = 7
+BODILY = frozenset(
+    {"hand", "hands", "hair", "face", "foot", "feet", "leg", "legs", "arm", "arms", "knee", "finger", "fingers",
+     "tooth", "teeth", "eyes", "eye", "nose", "ear", "ears", "back", "stomach", "belly", "throat", "head", "headache",
+     "toothache", "stomachache", "fever", "cold", "cough", "flu", "pain", "cramp", "cramps", "thirst", "hunger",
+     "appetite", "nap", "bath", "shower", "meeting", "lesson", "class", "appointment", "exam", "homework", "guests",
+     "visitors", "company", "visitor", "guest", "day", "morning", "time", "idea", "problem", "minute", "moment",
+     "date", "party", "game"},
+)  # fmt: skip
+"""Words of what people have, feel and do that is no thing to be carried: no *it* stands for these."""
+MAX_SUBJECT = 10
 MAX_PHRASES = 4
 
 
@@ -86,6 +95,16 @@ def is_told(clause: Tokens) -> bool:
     denied = bool(_DENYING & set(kinds)) and not _is_misplaced(clause, verb)
     named = _CHOOSING if _is_inability(clause, verb) else _CHOOSING | {"NOUN"}
     return not (denied and named & set(kinds))
+
+
+def names_nothing(clause: Tokens) -> bool:
+    """Whether a clause speaks of no thing that is known: *I have a headache*."""
+    return not any(token.type in ("NOUN", "IDENTIFIER", "DOOR", "ONE") for token in clause)
+
+
+def is_bodily(clause: Tokens) -> bool:
+    """*I have washed my hands*: of nothing that *it* in a request after it could be."""
+    return names_nothing(clause) and any(token.typed in BODILY for token in clause)
 
 
 def _is_own_plan(kinds: Sequence[str]) -> bool:
@@ -115,15 +134,16 @@ def _is_inability(clause: Tokens, verb: int) -> bool:
 
 def _is_going_on(clause: Tokens, verb: int) -> bool:
     """*A kid was playing with it*, *I am done washing*: what people do, not what the robot is asked for."""
-    auxiliary = clause[verb].type in _AUXILIARY
+    auxiliary = clause[verb].type in _AUXILIARY | {"HAVE"}
     reported = any(token.typed in _REPORTING for token in clause)
     for index, token in enumerate(clause):
         if token.type not in ACTING or index == verb:
             continue
         going_on = index > verb and token.typed.split()[0].endswith("ing")
-        helped = auxiliary and index <= verb + 2 and clause[index - 1].type in _AUXILIARY | {"NOT"}
+        helped = auxiliary and index <= verb + 2 and clause[index - 1].type in _AUXILIARY | {"NOT", "HAVE"}
         purpose = index > verb and clause[index - 1].type == "TO" and token.type == "UNABLE" and not reported
-        if not (going_on or helped or purpose):
+        planned = token.type == "UNABLE" and clause[index - 1].typed == "going"  # *I was going to read it*
+        if not (going_on or helped or purpose or planned):
             return False
     return True
 
@@ -177,7 +197,7 @@ def spoken_of(clause: Tokens) -> list[tuple[bool, list[Terminal]]]:
         head = _past(clause, index, _IN_PHRASE)
         names = head < len(clause) and clause[head].type in _NAMES and not (index <= verb <= head and verb)
         end = _past(clause, head, _NAMES, verb) if names else index + 1
-        if names and clause[head].typed not in _ANYBODY and not _tells_how(clause, index, head):
+        if names and clause[end - 1].typed not in _ANYBODY | BODILY and not _tells_how(clause, index, head):
             before = clause[index - 1].type if index else ""
             found.append((before in _LANDMARK, list(clause[index : verb if index < verb else None])))
             while before not in _LANDMARK and end + 1 < len(clause) and clause[end].type in ("AND", "COMMA"):

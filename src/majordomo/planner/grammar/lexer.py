@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
-from majordomo.planner.grammar.lexicon import Lexicon
+from majordomo.planner.grammar.lexicon import KNOWN, Lexicon
 from majordomo.planner.grammar.politeness import ADVERBS
 from majordomo.planner.grammar.settling import settled_uses
 from majordomo.planner.grammar.tagging import tagged
@@ -16,6 +16,8 @@ from majordomo.planner.grammar.tokens import Word, words_of
 from majordomo.planner.grammar.words import NUMERALS
 
 NAMING_LEADS = (("name", "is"), ("is", "called"), ("called",), ("named",), ("known", "as"), ("call", "me"))
+GIVING = frozenset({"bring", "give", "hand", "pass", "fetch", "get", "take", "lend", "offer", "show"})
+"""Verbs that a receiver may follow, before the thing."""
 MAX_ROLE = 3
 """Words that tell what a person is, before the name."""
 
@@ -24,7 +26,7 @@ def sentences(text: str, lexicon: Lexicon) -> list[list[Terminal]]:
     """The sentences of a request, each as a list of terminals; courtesy is dropped."""
     typed_words = [Word(part, word.kind) for word in words_of(text) for part in _parted(word, lexicon)]
     words = [
-        Word(lexicon.meant(word.text), "word") if word.kind == "word" and not _is_name(typed_words, k) else word
+        Word(_meant(typed_words, k, lexicon), "word") if word.kind == "word" and not _is_name(typed_words, k) else word
         for k, word in enumerate(typed_words)
     ]
     words = [word for word in _joined(words, lexicon) if word.kind != "word" or word.text not in ADVERBS]
@@ -39,9 +41,24 @@ def sentences(text: str, lexicon: Lexicon) -> list[list[Terminal]]:
     return [trimmed(sentence) for sentence in found if trimmed(sentence)]
 
 
+def _meant(words: Sequence[Word], index: int, lexicon: Lexicon) -> str:
+    """A word, or what it is a slip of."""
+    typed_word = words[index].text
+    slip = lexicon.meant(typed_word)
+    return typed_word if slip != typed_word and _is_stranger(words, index, slip, lexicon) else slip
+
+
 def _is_name(words: Sequence[Word], index: int) -> bool:
     """Whether a word is what somebody or something is to be called: a name is taken as it was typed."""
-    return any(tuple(word.text for word in words[max(0, index - len(lead)) : index]) == lead for lead in NAMING_LEADS)
+    before = tuple(word.text for word in words[max(0, index - 3) : index])
+    return any(before[-len(lead) :] == lead for lead in NAMING_LEADS)
+
+
+def _is_stranger(words: Sequence[Word], index: int, slip: str, lexicon: Lexicon) -> bool:
+    """*Bring Steve a muffin*: who receives is nobody's stove, though letters would allow it."""
+    given = index > 0 and words[index - 1].text in GIVING
+    thing = index + 1 < len(words) and words[index + 1].text in ("a", "an", "the", "some", "his", "her", "my", "one")
+    return given and thing and (slip,) in KNOWN and (slip,) not in lexicon.persons
 
 
 def _joined(words: Sequence[Word], lexicon: Lexicon) -> list[Word]:

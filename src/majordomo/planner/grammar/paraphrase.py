@@ -10,6 +10,7 @@ import re
 
 from majordomo.planner.grammar.wording.about_robot import ABOUT_ROBOT
 from majordomo.planner.grammar.wording.addressing import ADDRESSING
+from majordomo.planner.grammar.wording.amounts import AMOUNTS
 from majordomo.planner.grammar.wording.asking import ASKING
 from majordomo.planner.grammar.wording.bringing import BRINGING
 from majordomo.planner.grammar.wording.choosing import CHOOSING
@@ -27,7 +28,7 @@ from majordomo.planner.grammar.wording.naming import NAMING
 from majordomo.planner.grammar.wording.placing import PLACING
 from majordomo.planner.grammar.wording.relating import RELATING
 from majordomo.planner.grammar.wording.renaming import RENAMING
-from majordomo.planner.grammar.wording.returning import BACK, RETURNING
+from majordomo.planner.grammar.wording.returning import AGAIN, BACK, RETURNING
 from majordomo.planner.grammar.wording.slips import MISTYPED
 from majordomo.planner.grammar.wording.sorting import SORTING
 from majordomo.planner.grammar.wording.visiting import VISITING
@@ -39,6 +40,8 @@ RULES: tuple[tuple[str, str], ...] = (
         *DICTATING,
         *ADDRESSING,
         *FOREIGN,
+        *AGAIN,
+        *AMOUNTS,
         *RETURNING,
         *SORTING,
         *VISITING,

@@ -13,7 +13,7 @@ from lark.lexer import Lexer
 from lark.visitors import CollapseAmbiguities
 
 from majordomo.planner.grammar.agreement import is_sensible
-from majordomo.planner.grammar.background import is_told, spoken_of
+from majordomo.planner.grammar.background import is_bodily, is_told, names_nothing, spoken_of
 from majordomo.planner.grammar.lexer import asks, clauses, sentences, typed
 from majordomo.planner.grammar.lexicon import Lexicon
 from majordomo.planner.grammar.lookahead import LookaheadParser
@@ -168,8 +168,10 @@ def _is_placed(reading: Step) -> bool:
 def _linked(parts: Sequence[Part], steps: list[ParsedStep]) -> list[ParsedStep]:
     """The steps with statements set aside, and with what *the key, bring it to Ben* begins with as what it is about."""
     told = [
-        isinstance(part, Clause) and _asks_nothing(step) and is_told(part.tokens)
-        for part, step in zip(parts, steps, strict=True)
+        isinstance(part, Clause)
+        and (_asks_nothing(step) or _is_news(part, step, steps[k + 1 :]))
+        and is_told(part.tokens)
+        for k, (part, step) in enumerate(zip(parts, steps, strict=True))
     ]
     if any(isinstance(step, Understood | Choice) and not aside for step, aside in zip(steps, told, strict=True)):
         steps = [
@@ -193,6 +195,13 @@ def _asks_nothing(step: ParsedStep) -> bool:
             for r in step.readings
         )
     return isinstance(step, NotUnderstood | Unable)
+
+
+def _is_news(part: Clause, step: ParsedStep, after: Sequence[ParsedStep]) -> bool:
+    """*I have a headache*, before a request that does not lean on it."""
+    mentions = isinstance(step, Understood) and all(isinstance(r, Mention) and not r.lost for r in step.readings)
+    leaning = bool(after) and _refers_back(after[0])
+    return mentions and names_nothing(part.tokens) and (is_bodily(part.tokens) or not leaning)
 
 
 def _is_somebody(thing: Reference) -> bool:

@@ -230,6 +230,10 @@ class PhraseReader(Transformer[Token, Any]):
     def restricted_with(self, children: Children) -> Restriction:
         return Restriction(relation="with", reference=values_of(children)[0])
 
+    def restricted_without(self, children: Children) -> Restriction:
+        """*The bedroom where Ben is not*."""
+        return replace(self.restricted_with(children), negated=True)
+
     def restricted_same_room(self, children: Children) -> Restriction:
         return Restriction(relation="same room", reference=values_of(children)[0])
 

@@ -40,13 +40,13 @@ class Reader(QuestionReader):
     """One method a rule: how commands are read, and what is taught."""
 
     def dest_to(self, children: Children) -> Destination:
-        return Destination(relation="to", reference=values_of(children)[0])
+        return Destination(relation="to", reference=values_of(children)[0], back=_goes_back(children))
 
     def dest_in(self, children: Children) -> Destination:
-        return Destination(relation="in", reference=values_of(children)[0])
+        return Destination(relation="in", reference=values_of(children)[0], back=_goes_back(children))
 
     def dest_on(self, children: Children) -> Destination:
-        return Destination(relation="on", reference=values_of(children)[0])
+        return Destination(relation="on", reference=values_of(children)[0], back=_goes_back(children))
 
     def dest_near(self, children: Children) -> Destination:
         return Destination(relation="near", reference=values_of(children)[0])
@@ -164,6 +164,8 @@ class Reader(QuestionReader):
         things = next(value for value in values if isinstance(value, tuple))
         if any(token.type == "SHOULD" for token in tokens_of(children)):
             things = tuple(map(generic, things))
+        if _verb(children) == "return":
+            destination = replace(destination, back=True)
         return Carry(things=things, destination=destination, verb=_verb(children))
 
     def gapped(self, children: Children) -> Several:
@@ -294,6 +296,11 @@ class Reader(QuestionReader):
 
     def teach_np(self, children: Children) -> Teach:
         return replace(_teach(children), target=values_of(children)[0])
+
+
+def _goes_back(children: Children) -> bool:
+    """*Back to*, *back on*: to where it was before."""
+    return any(token.startswith("back") for token in tokens_of(children))
 
 
 def _stays(children: Children) -> bool:

@@ -84,11 +84,15 @@ Reference = NounPhrase | Pronoun | Spot
 
 @dataclass(frozen=True, kw_only=True)
 class Destination:
-    """Where something goes. ``relation``: to, on, in, near, or as typed. ``other``: the second one of *between*."""
+    """Where something goes. ``relation``: to, on, in, near, or as typed. ``other``: the second one of *between*.
+
+    ``back``: it was there before, as in *put it back on the shelf*.
+    """
 
     relation: str
     reference: Reference
     other: Reference | None = None
+    back: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -239,6 +243,13 @@ def leans(value: object) -> bool:
         return True
     parts = value if isinstance(value, tuple) else tuple(vars(value).values()) if hasattr(value, "__dict__") else ()
     return any(leans(part) for part in parts if not isinstance(part, str))
+
+
+def is_wish(step: Step) -> bool:
+    """*I want the book in the chapel*, as one that is there: it is meant so if there is one."""
+    wished = isinstance(step, Carry) and step.implied and step.verb.startswith(("i ", "we "))
+    told = [thing for thing in getattr(step, "things", ()) if isinstance(thing, NounPhrase)]
+    return wished and any(x.relation in ("on", "in", "at", "near") for thing in told for x in thing.restrictions)
 
 
 Step = Carry | Several | Perhaps | Wanted | Mention | Operate | PutDown | PutBack | Go | Find | Pick | Teach | Ask

@@ -208,7 +208,6 @@ BRINGING: tuple[tuple[str, str], ...] = (
     (r",? from there (?=(?:to|go|on|drive|head)\b)", ", then "),
     (r"\b(?:after|having done|once done with) that\b,?", "then"),
     (r"^(?:please )?(?:gather|round|collect)(?: up)? (.+?) and (?=(?:put|bring|take|carry)\b)", r"pick up \1 and "),
-    (r"\bback again\b", "back"),
     (r"\b(put|take|bring|return|move) (?:everything|it all|all of it|all of them|all that) back\b", r"\1 all back"),
     (r"^(?:i|we) (?:do not|no longer) need (?:\w+ ){1,4}?(?:any ?more|any longer|now)[,.;!]+ (?:so )?(?:please )?", ""),
     (r"^(?:i|we) (?:am|are) (?:done|finished|through)(?: with [\w ]+?)?[,.;!]+ (?:so )?", ""),

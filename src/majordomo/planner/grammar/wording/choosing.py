@@ -56,7 +56,8 @@ CHOOSING: tuple[tuple[str, str], ...] = (
     (r"\b(that|those) (\w+(?: \w+)?) there(?=,)", r"\1 \2"),
     (
         (
-            r"^(?!(?:take|bring|give|carry|get|fetch|put|move|hand|deliver|send|pass|want|need|and|then|no|not|just|also)\b)"
+            r"^(?!(?:take|bring|give|carry|get|fetch|put|move|hand|deliver|send|pass|want|need|and|then|no|not|just"
+            r"|also)\b)"
             r"(\w+),? (?:the )?(red|green|blue|yellow|black|white|brown|pink|purple|gray|grey|gold"
             r"|silver) one,? (?:2 |to |for )(?=\w)"
         ),
@@ -254,7 +255,10 @@ CHOOSING: tuple[tuple[str, str], ...] = (
     (" from the (?:left|right)(?=$|[.!?])", ""),
     (r"\b(in|into|on|onto|at|near|to) the (nearest|closest) (\w+) to (?=the\b)", r"\1 the \3 nearest to "),
     (
-        r"\b((?:in|into|on|onto|at|from|next to) (?:the|a|that) \w+(?: \w+)?)(?<! over) there(?=$|[.!?,])",
+        (
+            r"\b((?:in|into|on|onto|at|from|next to) (?:the|a|that) \w+(?: \w+)?)(?<! over)(?<! in)(?<! on) "
+            r"there(?=$|[.!?,])"
+        ),
         r"\1 over there",
     ),
 )

@@ -157,7 +157,7 @@ GOING: tuple[tuple[str, str], ...] = (
     (
         (
             rf"{_START}{_CALLING}{_ALONG} (?:to|at|in|with|by|on|into|near|outside|for) (?=the |my |our "
-            rf"|\w+'s |\w+[.!]*$|\w+ \d)"
+            rf"|\w+'s |(?:\w+ )?\w+(?:[.!]*$|,| and | then )|\w+ \d)"
         ),
         "go to ",
     ),
@@ -237,7 +237,11 @@ GOING: tuple[tuple[str, str], ...] = (
     ),
     (r"\b(?:come|go|head|get|drive) (?:back )?home to (?=(?:the|my)\b)", "go to "),
     (
-        r"^(?:they|he|she|everyone|everybody|(?!i\b|we\b)\w+) (?:wants?|needs?) you (?=(?:in|at|by|near|next to)\b)",
+        (
+            r"^(?:they|he|she|everyone|everybody|(?!i\b|we\b)\w+) (?:wants?|needs?|expects?) you (?:(?:down|up|over"
+            r"|back|out"
+            r"|round|along|to be|to come|to go|now) )*(?=(?:in|at|by|near|next to)\b)"
+        ),
         "go ",
     ),
     (
@@ -309,5 +313,6 @@ GOING: tuple[tuple[str, str], ...] = (
     (r"\bgo (?:in|into|at|round|over) (?=(?:the|my) )", "go to "),
     (r"\bgo (?:and )?(?:check|inspect|check on|check out|see) (?=the [\w ]+?(?:$| and| then|,))", "go to "),
     (r"^(?:please )?check (?:on |out )?(?=the [\w ]+?(?:$| and| then|,))", "go to "),
+    (r"\b(go to [^,.;!?]+?) with you(?: now| then| please)?(?=[.!]*$|,)", r"\1"),
 )
 """In the order in which they are tried."""

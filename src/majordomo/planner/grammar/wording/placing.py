@@ -44,9 +44,10 @@ PLACING: tuple[tuple[str, str], ...] = (
     ),
     (
         (
-            rf"(?:^|(?<=[.;!] )){_WHAT} (?:lives?|belongs?|goes|is kept|are kept|is at home|"
+            rf"(?:^|(?<=[.;!] )){_WHAT} (?:can |may |should |could |must )?(?:lives?|belongs?|goe?s?|is kept|are kept|"
+            rf"is at home|stay|stand|be|"
             rf"has its place|is supposed to be|"
-            rf"should be) ((?:in|on|at|inside|next to|with) [^,.;!]+?)(?:,|;|\.)? (?:and "
+            rf"should be) ((?:in|on|at|inside|next to|with) [^,.;!]+?)(?: from now on| from today)?(?:,|;|\.)? (?:and "
             rf"|so |then |please |could you |can "
             rf"you )*(?:put|take|bring|return|carry|move|place) (?:it|them) (?:back )?(?:there|in there|on there|back)"
             rf"(?=[.!?]*$)"

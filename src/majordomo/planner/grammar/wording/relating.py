@@ -50,7 +50,8 @@ RELATING: tuple[tuple[str, str], ...] = (
     (
         (
             rf"\b((?:{_DEED}|want|need|like|have)\b(?:(?! (?:it|them|to)\b)[^,.;!?])*? "
-            rf"(?!(?:it|them|me|him|her|if|when|where|because|as|that|which|unless|until|since|once|so|and|or|but)\b)\w+)"
+            rf"(?!(?:it|them|me|him|her|if|when|where|because|as|that|which|unless|until|since|once|so|and|or"
+            rf"|but)\b)\w+)"
             rf"[,.;]? (?:it|they) (?:is|are|lies?|stands?|sits?)(?: lying| standing| somewhere)* "
             rf"(?=(?:in|on|at|inside|next to|by|near|under) [\w' ]+[.!]*$)"
         ),
@@ -96,7 +97,9 @@ RELATING: tuple[tuple[str, str], ...] = (
     (r"\b(?:in|into|to) (?:that|the) same room\b(?! as)", "over there"),
     (
         (
-            rf"^((?:any|some|one|two|three|all|both|either) [^,.;!?]+?), (?:please |can you "
+            rf"^((?:any|some|one|two|three|all|both|either) (?![^,]*\b(?:is|are|was|were|will|would|has"
+            rf"|have)\b)[^,.;!?]+?), "
+            rf"(?:please |can you "
             rf"|could you )*({_DEED}) (?:it|them|one) "
         ),
         r"\2 \1 ",
@@ -111,22 +114,6 @@ RELATING: tuple[tuple[str, str], ...] = (
         r"\1, ",
     ),
     (r"^(?:the|my|an?|that) (\w+)[!.]+ (?=the [\w ]*?\1\b)", ""),
-    (
-        (
-            rf"^(?:either|any|any one|one)(?: one)? of (?:the |these |those |my )?([\w ]+?)"
-            rf" (?:will|would) (?:do|be (?:fine|ok|"
-            rf"okay|good))[,.;!]+ (?:so |just |please |and )*({_DEED}) (me |him |her )?(?:one|it|any)(?: of them)?\b"
-        ),
-        r"\2 \3one of the \1",
-    ),
-    (
-        (
-            rf"^(?:any|an?|some) ([\w ]+?) (?:will|would) (?:do|be (?:fine|ok|okay|good)"
-            rf")[,.;!]+ (?:so |just |please |and )*"
-            rf"({_DEED}) (me |him |her )?(?:one|it|any)(?: of them)?\b"
-        ),
-        r"\2 \3a \1",
-    ),
     (
         (
             rf"^(?:any|an?|some) ([\w ]+?) (?:will|would) (?:do|be (?:fine|ok|okay|good)"

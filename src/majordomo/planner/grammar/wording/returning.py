@@ -28,6 +28,103 @@ _DONE = (
     r"|with them|with that))?)"
 )
 
+_IT = r"(it|them|that|this|these|those|both|(?:the|my|his|her) [\w ]+?)"
+_ASKED = (
+    r"(?:(?:can|could|would|will) you (?:mind )?|i (?:want|need|would like) you to |do you mind |please |now |then "
+    r"|and |just |kindly |quickly )*"
+)
+_AMISS = (
+    r"(?:wrong|a mistake|my mistake|an error|not right|no good|silly|not what i (?:meant|wanted|asked for)|too much"
+    r"|enough|all|it)"
+)
+
+AGAIN: tuple[tuple[str, str], ...] = (
+    (
+        rf"^{_ASKED}(?:undo(?:ing)?|revert(?:ing)?|revers(?:e|ing)) (?:it|that|this|everything|all that)(?=[.!?]*$)",
+        "undo that",
+    ),
+    (
+        (
+            rf"^(?:oh |no |sorry |but |ok )*(?:that|this|it) (?:was|is|will be) (?:all )?{_AMISS}(?: now| then| for "
+            rf"now)?"
+            r"[,.;!]+ (?:so |and |please )*(?=(?:undo|put|take|return|bring|carry|move)\b)"
+        ),
+        "",
+    ),
+    (
+        rf"\b(?:take|put|bring|carry|clear|move) {_IT} (?:away|off) again(?=$|[.,!?])",
+        r"put \1 back where it was",
+    ),
+    (
+        (
+            rf"\b(?:put|set|lay|place|leave) {_IT} (?:back )?(?:down|away|over|up)(?: again)?"
+            r"(?= (?:back )?(?:exactly |just |right )?(?:(?:to|in|on|at) )?(?:where|wherever|its|their)\b)"
+        ),
+        r"put \1 back",
+    ),
+    (
+        rf"\b((?:put|set|lay|place|take|bring|return|carry|move) {_IT}\b[^.;!?]*?) again(?=$|[.,!?])",
+        r"\1",
+    ),
+    (r"(?<= with )(it|them|that|this|these|those) again(?=$|[.,!?])", r"\1"),
+    (
+        (
+            rf"\b(?:return|restore) {_IT} (?:to|in|on|onto|into|at) (?:its|their) (?!\w*owners?\b)[\w ]+?"
+            r"(?=$|[.,;!?]| and )"
+        ),
+        r"put \1 back where it was",
+    ),
+    (
+        (
+            r"\b(?:put|place|set|lay|take) (it|them|that|this|these|those|both) (?:to|in|on|onto|into|at) (?:its"
+            r"|their) "
+            r"(?!\w*owners?\b)[\w ]+?(?=$|[.,;!?]| and )"
+        ),
+        r"put \1 back where it was",
+    ),
+    (
+        (
+            r"(?<=\w )(?<!and )(?<!then )(?<!please )(?<!now )(?<!to )(?:(?:can|may|could|should|must|might|will)"
+            r"(?: both| all| now| please)* )?(?:go(?:es)?|belongs?) back (?:to |in |on )?(?:exactly |just |right )?"
+            r"(?=(?:where|wherever|its|their)\b)(?!where(?:ver)? you (?:are|were|started|came|began|set|left)\b)"
+        ),
+        "should go back ",
+    ),
+    (r"\bthe two of (?:them|these|those)\b", "both"),
+    (
+        r"\b(?:these|those|the|all(?: the| these| those)?) (?:things|items|objects|stuff) back(?=$|[.,!?])",
+        "all back",
+    ),
+    (
+        (
+            r"\b(both|these|those|(?:the|my|all(?: the)?) [\w' ]+?) (?:both |all )?(?:can|may|could|should|must"
+            r"|might|will"
+            r"|has to|have to|needs? to)(?: both| all| now| please)* go back(?: again| now| please)*"
+            r"(?=$|[.,!?])"
+        ),
+        r"put \1 back",
+    ),
+    (
+        (
+            r"\b(?:can|may|could|should|must|might|will|has to|have to|needs? to)(?: both| all| now| please)* go back"
+            r"(?: again)? (?=(?:in|on|to|into|onto|inside)(?: to)? (?!(?:its|their|where|the \w+ (?:it|they))\b))"
+        ),
+        "should go back ",
+    ),
+    (
+        (
+            r"^((?:.*\b)?(?:need|want|have|borrow|like|get|give me|lend me|bring me|hand me|pass me)\b[^.;]*?),? "
+            r"(?:just )?"
+            r"for (?:a|an|one|just a|two|three|five|ten|a few|a couple of|half an) (?:little |short |quick "
+            r")?(?:while|bit"
+            r"|secs?|seconds?|minutes?|moments?|hours?|mo|tick)(?=[.!?]*$)"
+        ),
+        r"\1",
+    ),
+    (r"\b(can|could|may|might) (i|we) (?:please )?borrow\b", r"\1 \2 have"),
+)
+"""Said of what is done once more, or taken back; before any other of these."""
+
 RETURNING: tuple[tuple[str, str], ...] = (
     (
         (
@@ -96,7 +193,6 @@ RETURNING: tuple[tuple[str, str], ...] = (
         r"\1 \2",
     ),
     (r"^(?:please )?(?:undo|revert|reverse|roll back)(?=[.!]*$)", "undo that"),
-    (r"\bgoe?s? back where (?:it|they) (?:was|were)\b(?=[.!]*$)", "should go back where it was"),
 )
 """In the order in which they are tried."""
 

@@ -17,13 +17,6 @@ SORTING: tuple[tuple[str, str], ...] = (
     ),
     (
         (
-            rf"^there (?:is|are) (?:(?:some|lots of|so many|all these|a lot of|many) )?([a-z]+s)"
-            rf" {_LYING}[,.;!]+ (?:so |please |can you |could you )*{_PUT} {_THEM} (?=\w)"
-        ),
-        r"put all the \1 ",
-    ),
-    (
-        (
             rf"^((?:the|my|all the) [a-z ]+?s) (?:is|are) {_LYING}[,.;!]+ (?:so |please |can you |could you"
             rf" )*{_PUT} {_THEM} (?=\w)"
         ),

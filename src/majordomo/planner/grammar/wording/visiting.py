@@ -11,7 +11,70 @@ _GO = (
 )
 _PLACE = r"((?:in|at|on|by|near|next to) [^,.;!?]+?)"
 
+_WATCH = (
+    r"(?:keep (?:an eye|watch) (?:on|over)|look after|watch(?: over)?|mind|man|check(?: on)?|see to|attend to|hold "
+    r"the fort"
+    r" (?:in|at)|be (?:in|at|by|on duty (?:in|at))|stand guard (?:in|at|by)|wait (?:in|at|by))"
+)
+
 VISITING: tuple[tuple[str, str], ...] = (
+    (r"(?<=\byou )(?:(?:kindly|please|just|quickly|possibly|simply|also|maybe|perhaps) )+(?=\w)", ""),
+    (
+        (
+            rf"^(?:some(?:one|body)|you|the robot) (?:has|have|needs?|ought|is supposed|had better)(?: to)? {_WATCH} "
+            rf"([^,.;]+?)"
+            r"[,.;]+ (?:so |and |then |that is you, )*(?:off you go|off with you|go|go there|over there with you|you "
+            r"go|"
+            r"it is you|you do it|go on|get going)(?: now| then| please)?(?=[.!]*$)"
+        ),
+        r"go to \1",
+    ),
+    (
+        (
+            r"\b(wait|stay|stand by|hang around|look out) for (?!me\b|us\b|him\b|her\b|it\b|them\b)(?:(?:the|my|our"
+            r"|his|her) "
+            r")?\w+(?: \w+)? (?=(?:in|at|by|near|next to|outside) (?:the|my|our|\w+))"
+        ),
+        r"\1 ",
+    ),
+    (
+        (
+            r"\b(?:show|present|install|station|base) (?:yourself|your face|your nose)(?: please| now| quickly)? "
+            r"(?=(?:in|at|to|by|near)\b)"
+        ),
+        "go ",
+    ),
+    (r"\b(go|come|drive|head|run|walk|get) as far as ", r"\1 to "),
+    (
+        (
+            r"\b(come|get|be|drive|head|go) (?:straight |right )?back(?: here| to me)?(?: and|,|, and) (?:then "
+            r")?(?:tell|report(?:"
+            r" back)? to|inform|let) (?:me|us)(?: know)?(?: about it| about that| (?:what|who|if|whether|how) "
+            r"[^,.;!?]+)?"
+            r"(?=[.!]*$)"
+        ),
+        r"\1 back to me",
+    ),
+    (
+        (
+            r"\b(?:go|run|pop|drive|nip|head) (?:over )?(?:and )?(?:see|check|look|find out) (?:whether|if) (\w+) is "
+            r"((?:in|at|by|on) (?:the|my|his|her|\w+'s) [\w' ]+?)(?=,| and | then |[.!]*$)(?<!still)"
+        ),
+        r"go \2",
+    ),
+    (
+        r"^(?:(?:do|make|take) )?(?:a |the |one )?(?:round ?trip|grand tour|quick tour|round|tour|route|itinerary): ",
+        "go to ",
+    ),
+    (
+        (
+            r"(?:(?<=^)|(?<=[.,;!] )|(?<=\band )|(?<=\bthen )|(?<=\bplease )|(?<=\byou ))(?:pass|go|come|drive|roll"
+            r"|walk|swing|"
+            r"stop|drop|pop|call|nip|look)(?: (?:over|round|around|along))? (?:by|past|in on|off at|by at) (?:to )?"
+            r"(?=(?:the |my |our )?\w)(?!(?:putting|taking|bringing|going|using)\b)"
+        ),
+        "go to ",
+    ),
     (
         r"\b(?:go|drive|walk|head|travel|come)(?: over| on)? (?:via|through|by way of|past) ([^,.;]+?) to (?=\w)",
         r"go to \1, then go to ",

@@ -34,6 +34,16 @@ WISHING: tuple[tuple[str, str], ...] = (
     ),
     (
         (
+            r"^(?:please )?(?:i|we) (?:would (?:like|love|prefer)|want|wish|am going|feel like|am keen) (?:to )?"
+            r"(?:(?:have|take) a (?:\w+ )?look at|have|read|use|eat|drink|look at|hold|borrow|try|reading|eating|"
+            r"drinking|using|see|inspect|taste|wear) "
+            r"((?:the|my|our|an?|some|that|this) (?!way\b|room\b|time\b)[^,.;!?]+?)(?: now| please| a bit| for a "
+            r"while)*(?=[.!]*$)"
+        ),
+        r"bring me \1",
+    ),
+    (
+        (
             rf"^(the [^.;!?]+?)[,;] (?:could|can|may|might) (?:i|we) (?:please )?{_USES} (?:it|them)"
             rf"(?: please)?(?=[.!?]*$)"
         ),

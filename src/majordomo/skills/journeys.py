@@ -9,11 +9,11 @@ from majordomo.scene_graph.nodes import ROBOT_ID, DoorNode, DoorState, ObjectNod
 from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.scene_graph.topology import Path, Topology
 from majordomo.skills.action import Action, Refusal, RobotContext
+from majordomo.skills.actions.accounting import Account, AccountFor, SeeFromElsewhere
 from majordomo.skills.actions.arm import Stow
 from majordomo.skills.actions.doors import ApproachDoor, CrossDoor, CrossingConfig, EnterRoom
 from majordomo.skills.actions.driving import DriveTo
 from majordomo.skills.actions.looking import LookAt, SweepCamera, gaze_points
-from majordomo.skills.actions.watching import AccountFor
 from majordomo.skills.anchor import Anchor
 from majordomo.skills.failures import Evidence, Failure, FailureCode
 from majordomo.skills.navigation.goals import around, at_poses, freest, near_origin, overlooking
@@ -58,21 +58,24 @@ def cross(context: RobotContext, door_id: str) -> list[Action]:
 def look(context: RobotContext, node_id: str, standoff_m: float = 0.8, side_rad: float | None = None) -> list[Action]:
     """Actions that look at a node from ``standoff_m``: around a room from its origin, over the whole of an object from
     where all of it is near, from the side ``side_rad`` (a direction in its frame) if that can be; then at whatever
-    should be there and is not seen.
+    should be there and is not seen, and at what hides from there once more from another side.
     """
     node = context.building.node(node_id)
     if isinstance(node, RoomNode):
         return [*visit(context, node_id), SweepCamera(context)]
     if not isinstance(node, ObjectNode):
         return [*visit(context, node_id, standoff_m), LookAt(context, node_id, Anchor(node_id), dwell_s=LOOK_DWELL_S)]
-    where = overlooking(context, node_id, max(standoff_m, LEAST_STANDOFF_M), side_rad=side_rad)
+    standoff_m = max(standoff_m, LEAST_STANDOFF_M)
+    where, account = overlooking(context, node_id, standoff_m, side_rad=side_rad), Account(context, node_id)
     points = gaze_points(node.size_m, context.geometry.camera_height_m)
     return [
         Stow(context),
         *travel(context, context.building.room_of(node_id)),
         DriveTo(context, node_id, where),
         *(LookAt(context, node_id, Anchor(node_id, point), dwell_s=LOOK_DWELL_S) for point in points),
-        AccountFor(context, node_id),
+        AccountFor(account),
+        SeeFromElsewhere(account, standoff_m),
+        AccountFor(account),
     ]
 
 

@@ -15,9 +15,9 @@ from majordomo.scene_graph.edits import PutNode
 from majordomo.scene_graph.nodes import ObjectState
 from majordomo.skills import journeys
 from majordomo.skills.action import Action
+from majordomo.skills.actions.accounting import Account, AccountFor, SeeFromElsewhere
 from majordomo.skills.actions.driving import DriveTo, TurnTo
 from majordomo.skills.actions.looking import VIEWS, LookAt, SweepCamera
-from majordomo.skills.actions.watching import AccountFor
 from majordomo.skills.anchor import Anchor
 from majordomo.skills.doubles import BoxWorld, FakeBody, Rehearsal
 from majordomo.skills.failures import FailureCode
@@ -341,7 +341,7 @@ async def test_what_should_be_on_a_table_and_is_not_seen_is_looked_at_until_that
 
     rehearsal.observe = watch
     began_s = rehearsal.body.stamp_s
-    assert await rehearsal.run([AccountFor(context, "table_1", since_s=0.5)]) is None
+    assert await rehearsal.run([AccountFor(Account(context, "table_1", since_s=0.5))]) is None
     assert aimed_s > 1.5
     assert rehearsal.body.stamp_s - began_s < 6.0
 
@@ -351,5 +351,36 @@ async def test_a_thing_that_nobody_can_tell_about_is_not_looked_at_forever(flat,
     onlooker.blind_to = {"bottle_1"}
     context = await rehearsal.prepare()
     began_s = rehearsal.body.stamp_s
-    assert await rehearsal.run([AccountFor(context, "table_1", since_s=0.5, patience_s=2.0)]) is None
+    assert await rehearsal.run([AccountFor(Account(context, "table_1", since_s=0.5), patience_s=2.0)]) is None
     assert 2.0 < rehearsal.body.stamp_s - began_s < 6.0
+
+
+@pytest.mark.parametrize("hides", [False, True])
+async def test_what_hides_from_one_side_is_looked_for_from_another(flat, onlooker, hides):
+    body = FakeBody(pose=Pose2(1.0, 0.2, pi / 2), stamp_s=20.0)
+    rehearsal = Rehearsal(memory=flat().table().bottle().memory, observe=onlooker, body=body)
+    onlooker.blind_to = {"bottle_1"} if hides else set()
+    context = await rehearsal.prepare()
+    account = Account(context, "table_1", since_s=0.5)
+    assert await rehearsal.run([AccountFor(account, patience_s=1.0), SeeFromElsewhere(account, 0.5)]) is None
+    moved_rad = Pose2(1.0, 1.2).bearing_rad(rehearsal.body.pose.point) - Pose2(1.0, 1.2).bearing_rad((1.0, 0.2))
+    assert (abs(wrap_rad(moved_rad)) > 1.0) == hides
+    assert account.unseen() == (["bottle_1"] if hides else [])
+
+
+async def test_a_place_is_looked_at_for_as_long_as_doubt_grows(flat, onlooker):
+    rehearsal = Rehearsal(memory=flat().table().bottle().memory, body=FakeBody(stamp_s=20.0))
+    context = await rehearsal.prepare()
+
+    def doubt(rehearsal):
+        bottle = rehearsal.memory.snapshot().object("bottle_1")
+        existence = max(bottle.existence - 0.1 * rehearsal.dt_s, 0.2)
+        rehearsal.memory.commit(
+            [PutNode(replace(bottle, existence=existence))], agent="objects", stamp_s=rehearsal.body.stamp_s
+        )
+
+    rehearsal.observe = doubt
+    began_s = rehearsal.body.stamp_s
+    assert await rehearsal.run([AccountFor(Account(context, "table_1", since_s=0.5), patience_s=2.0)]) is None
+    assert 8.0 < rehearsal.body.stamp_s - began_s < 14.0
+    assert rehearsal.memory.snapshot().object("bottle_1").existence == pytest.approx(0.2)

@@ -7,7 +7,6 @@ from math import hypot
 
 from py_trees.common import Status
 
-from majordomo.scene_graph.edges import EdgeType
 from majordomo.scene_graph.nodes import ObjectNode, ObjectState
 from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.skills.action import Action, RobotContext
@@ -87,57 +86,6 @@ class Refine(Action):
         node = self.context.snapshot.get(self.object_id)
         seen = f"last seen at {node.last_seen_s:.1f} s" if isinstance(node, ObjectNode) else "removed"
         return self.fail(FailureCode.OBJECT_GONE, message, (self.object_id,), seen)
-
-
-class AccountFor(Action):
-    """Looks at each thing that should be on or in a node and was not seen in the last ``since_s``, until it is seen, is
-    known to be missing, or ``patience_s`` have passed: a glance at a place is too short to be sure that a thing has
-    gone.
-    """
-
-    timeout_s = 60.0
-
-    def __init__(self, context: RobotContext, node_id: str, *, since_s: float = 10.0, patience_s: float = 3.0) -> None:
-        super().__init__(f"account for what is at {node_id}", context)
-        self._node_id, self._since_s, self._patience_s = node_id, since_s, patience_s
-        self._gaze = Gaze(context)
-        self._tried: set[str] = set()
-        self._object_id: str | None = None
-        self._aimed_s: float | None = None
-
-    def begin(self) -> None:
-        """Nothing was looked for yet."""
-        self._tried, self._object_id, self._aimed_s = set(), None, None
-
-    def step(self) -> Status:
-        """One thing after the other."""
-        object_id = self._object_id
-        if object_id is None or self._is_settled(object_id):
-            object_id = self._next()
-            if object_id is None:
-                return Status.SUCCESS
-            self._tried.add(object_id)
-            self._object_id, self._aimed_s = object_id, None
-        if self._gaze.at(*aim(self.context, Anchor(object_id))) and self._aimed_s is None:
-            self._aimed_s = self.context.stamp_s
-        return Status.RUNNING
-
-    def _next(self) -> str | None:
-        snapshot, latest_s = self.context.snapshot, self.context.stamp_s - self._since_s
-        if self._node_id not in snapshot:
-            return None
-        there = (snapshot.get(edge.source) for edge in snapshot.edges_to(self._node_id, EdgeType.RELATION))
-        expected = [n for n in there if isinstance(n, ObjectNode) and snapshot.support_of(n.id) == self._node_id]
-        unseen = [n.id for n in expected if n.state is ObjectState.PRESENT and n.last_seen_s < latest_s]
-        return min((node_id for node_id in unseen if node_id not in self._tried), default=None)
-
-    def _is_settled(self, object_id: str) -> bool:
-        node = self.context.snapshot.get(object_id)
-        if not isinstance(node, ObjectNode):
-            return True
-        if node.state is not ObjectState.PRESENT or node.last_seen_s > self.context.stamp_s - self._since_s:
-            return True
-        return self._aimed_s is not None and self.context.stamp_s - self._aimed_s > self._patience_s
 
 
 Check = Callable[[Snapshot, float], Failure | None]

@@ -26,6 +26,7 @@ from majordomo.skills.navigation.goals import around, at_poses, overlooking
 from majordomo.skills.navigation.grid import Canvas
 from majordomo.skills.navigation.pose import ANYWHERE
 from majordomo.skills.navigation.route import find_routes
+from majordomo.skills.navigation.sight import hidden_share
 
 pytestmark = pytest.mark.anyio
 PHYSICAL_RADIUS_M = 0.25
@@ -384,3 +385,33 @@ async def test_a_place_is_looked_at_for_as_long_as_doubt_grows(flat, onlooker):
     assert await rehearsal.run([AccountFor(Account(context, "table_1", since_s=0.5), patience_s=2.0)]) is None
     assert 8.0 < rehearsal.body.stamp_s - began_s < 14.0
     assert rehearsal.memory.snapshot().object("bottle_1").existence == pytest.approx(0.2)
+
+
+async def test_a_place_is_chosen_from_which_nothing_tall_hides_what_is_looked_at(flat):
+    wardrobe = Box2(Pose2(1.0, 0.45), 1.0, 0.3)
+    built = flat().table().thing("wardrobe_1", (1.0, 0.45, 0.9), (1.0, 0.3, 1.8))
+    rehearsal = Rehearsal(
+        memory=built.memory,
+        world=BoxWorld(boxes=(Box2(Pose2(1.0, 1.2), 1.2, 0.8), wardrobe)),
+        body=FakeBody(pose=Pose2(1.0, -1.0)),
+    )
+    context = await rehearsal.prepare()
+    assert await rehearsal.run([DriveTo(context, "table_1", overlooking(context, "table_1", 0.5))]) is None
+    x_m, y_m = rehearsal.body.pose.point
+    line = np.linspace((x_m, y_m), (1.0, 1.2), 50)
+    assert not wardrobe.contains(line).any()
+    assert abs(x_m - 1.0) > 0.5 or y_m > 1.6
+
+
+def test_what_hides_what_follows_from_heights_and_from_the_corners_of_a_room(flat):
+    snapshot = flat().table().thing("box_1", (-1.0, 0.0, 0.4), (0.3, 0.3, 0.8)).memory.snapshot()
+    seen_over, right_behind = np.array([[-1.8, 0.0, 0.7]]), np.array([[-1.2, 0.0, 0.1]])
+    places = np.array([[0.2, 0.0], [-1.8, -1.2]])
+    shares = [
+        hidden_share(snapshot, "room_1", places, targets, camera_height_m=1.3).tolist()
+        for targets in (seen_over, right_behind)
+    ]
+    assert shares == [[0.0, 0.0], [1.0, 0.0]]
+    assert hidden_share(snapshot, "room_1", places, right_behind, camera_height_m=1.3, spared={"box_1"})[0] == 0.0
+    outside = np.array([[-4.5, 0.0]])
+    assert hidden_share(snapshot, "room_1", outside, seen_over, camera_height_m=1.3)[0] == 1.0

@@ -102,11 +102,12 @@ class SeeFromElsewhere(DriveTo):
         super().__init__(account.context, account.node_id, self._elsewhere)
         self._account, self._standoff_m = account, standoff_m
         self._side_rad: float | None = None
+        self._hiding: list[str] = []
 
     def begin(self) -> None:
         """Decide which side it is: the one across from here."""
-        self._side_rad = None
-        if self._account.unseen():
+        self._side_rad, self._hiding = None, self._account.unseen()
+        if self._hiding:
             robot = in_base(self.context, self._account.node_id).inverse()
             self._side_rad = pi + atan2(robot.y_m, robot.x_m)
             super().begin()
@@ -119,4 +120,8 @@ class SeeFromElsewhere(DriveTo):
         return Status.RUNNING
 
     def _elsewhere(self, routes: Routes | None) -> Sequence[Goal]:
-        return overlooking(self.context, self._account.node_id, self._standoff_m, side_rad=self._side_rad)(routes)
+        hiding = [thing for thing in self._hiding if thing in self.context.snapshot]
+        source = overlooking(
+            self.context, self._account.node_id, self._standoff_m, side_rad=self._side_rad, things=hiding
+        )
+        return source(routes)

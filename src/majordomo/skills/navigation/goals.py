@@ -7,14 +7,17 @@ from dataclasses import replace
 from math import cos, pi, sin
 
 import numpy as np
+from numpy.typing import NDArray
 
 from majordomo.scene_graph.nodes import ObjectNode
 from majordomo.scene_graph.se3 import SE3
+from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.skills.action import RobotContext
-from majordomo.skills.geometry import Box2, Pose2
+from majordomo.skills.geometry import Box2, Points, Pose2
 from majordomo.skills.navigation.plan import Goal, GoalSource
 from majordomo.skills.navigation.pose import planar_pose, robot_frame
 from majordomo.skills.navigation.route import Routes
+from majordomo.skills.navigation.sight import hidden_share
 
 SPACING_M = 0.15
 OTHER_SIDE_M = 6.0
@@ -24,6 +27,8 @@ _NEAR_M = (0.0, 0.1, 0.2, 0.35)
 _FAR_M = (0.6, 0.9, 1.3)
 _LAST_RESORT_M = 20.0
 """As how many meters of way it counts to look from farther away than one should."""
+_HIDDEN_M = 30.0
+"""As how many meters of way it counts that all of what one looks at hides behind something."""
 
 
 def at_poses(context: RobotContext, node_id: str, poses: Sequence[tuple[float, float, float | None]]) -> GoalSource:
@@ -82,21 +87,70 @@ def around(context: RobotContext, node_id: str, standoff_m: float) -> GoalSource
     return goals
 
 
-def overlooking(context: RobotContext, node_id: str, standoff_m: float, *, side_rad: float | None = None) -> GoalSource:
-    """The same, those preferred from which all of it is near, and on the side ``side_rad``, a direction in its own
-    frame; places farther away for what cannot be come near to.
+def overlooking(
+    context: RobotContext,
+    node_id: str,
+    standoff_m: float,
+    *,
+    side_rad: float | None = None,
+    things: Sequence[str] = (),
+) -> GoalSource:
+    """The same, those preferred from which all of it can be seen, or else ``things`` there, and is near, and on the
+    side ``side_rad``, a direction in its own frame; places farther away for what cannot be come near to.
     """
+    of_revision: tuple[int, list[Goal]] = (-1, [])
 
     def goals(routes: Routes | None) -> list[Goal]:
         del routes
-        box = _footprint(context, node_id)
-        afar = [replace(goal, cost_m=goal.cost_m + _LAST_RESORT_M) for goal in _facing(box, standoff_m, _FAR_M)]
-        return [
-            replace(goal, cost_m=goal.cost_m + _askew_m(box, goal.point, side_rad))
-            for goal in (*_facing(box, standoff_m), *afar)
-        ]
+        nonlocal of_revision  # one plan asks several times
+        if of_revision[0] != context.snapshot.revision:
+            of_revision = context.snapshot.revision, _overlooking(context, node_id, standoff_m, side_rad, things)
+        return of_revision[1]
 
     return goals
+
+
+def _overlooking(
+    context: RobotContext, node_id: str, standoff_m: float, side_rad: float | None, things: Sequence[str]
+) -> list[Goal]:
+    box = _footprint(context, node_id)
+    afar = [replace(goal, cost_m=goal.cost_m + _LAST_RESORT_M) for goal in _facing(box, standoff_m, _FAR_M)]
+    found = [*_facing(box, standoff_m), *afar]
+    hidden = _hidden(context, node_id, np.array([goal.point for goal in found]), things)
+    return [
+        replace(goal, cost_m=goal.cost_m + _askew_m(box, goal.point, side_rad) + _HIDDEN_M * share)
+        for goal, share in zip(found, hidden.tolist(), strict=True)
+    ]
+
+
+def _hidden(context: RobotContext, node_id: str, places: Points, things: Sequence[str]) -> NDArray[np.float64]:
+    """Share of the top of a node, or of ``things``, that cannot be seen from each of (N, 2) places, (N,). What else is
+    on the node hides only other things.
+    """
+    snapshot = context.snapshot
+    frame = robot_frame(snapshot)
+    if things:
+        targets, spared = np.array([snapshot.position(thing, frame) for thing in things]), {node_id, *things}
+    else:
+        targets = _top(context, node_id)
+        spared = {node_id, *(node.id for node in snapshot.of_type(ObjectNode) if _is_on(snapshot, node.id, node_id))}
+    height_m = context.geometry.camera_height_m
+    return hidden_share(snapshot, frame, places, targets, camera_height_m=height_m, spared=spared)
+
+
+def _is_on(snapshot: Snapshot, thing: str, node_id: str) -> bool:
+    return snapshot.support_of(thing) == node_id
+
+
+def _top(context: RobotContext, node_id: str) -> Points:
+    """Points (9, 3) spread over the top of a node, in the robot's frame."""
+    node, snapshot = context.snapshot.get(node_id), context.snapshot
+    height_m = node.size_m[2] / 2.0 if isinstance(node, ObjectNode) else 0.0
+    box = _footprint(context, node_id)
+    across, along = np.meshgrid((-0.4, 0.0, 0.4), (-0.4, 0.0, 0.4))
+    xy = box.pose.apply(np.stack((across.ravel() * box.size_x_m, along.ravel() * box.size_y_m), axis=1))
+    top_m = snapshot.position(node_id, robot_frame(snapshot))[2] + height_m
+    return np.column_stack((xy, np.full(len(xy), top_m)))
 
 
 def _facing(box: Box2, standoff_m: float, extras_m: Sequence[float] = _NEAR_M) -> list[Goal]:

@@ -1,7 +1,8 @@
 """Grounding: each reference of a request is resolved on the graph by query code, to none, one or several nodes.
 
-None is refused with what there is instead, one is accepted, several lead to a question. Counting, *nearest*, *largest*
-and *both* are computed here, never by a language model.
+None is refused with what there is instead, one is accepted, several lead to a question. What has no name is meant where
+nothing else is and it most probably is that. Counting, *nearest*, *largest* and *both* are computed here, never by a
+language model.
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ from dataclasses import dataclass, field, replace
 from majordomo.planner.grammar.agreement import is_collective
 from majordomo.planner.grammar.syntax import NounPhrase, Pronoun, Quantity, Reference, Restriction, Spot
 from majordomo.planner.matching import Names, own_name
+from majordomo.planner.nameless import perhaps
 from majordomo.planner.naming import name_of
 from majordomo.planner.narrowing import Narrowing
 from majordomo.planner.phrasing import alternatives, describe, phrase_text, which_question
@@ -201,9 +203,7 @@ class Grounding:
     def _phrase(
         self, phrase: NounPhrase, context: Context, *, carried: bool, avoid: frozenset[str] = frozenset()
     ) -> Grounded:
-        many = phrase.quantity in (Quantity.ALL, Quantity.BOTH, Quantity.SOME, Quantity.EXACTLY) or _plural(phrase)
-        found = self._suited(self.matches(phrase, context, widely=many), carried=carried)
-        found = found or self._suited(self.matches(phrase, context), carried=carried)  # no cup there, but a mug
+        found = self._suited(self._found(phrase, context, carried=carried), carried=carried)
         text = phrase_text(phrase)
         if phrase.words[-1:] in (("things",), ("everything",), ("stuff",)):
             found = tuple(i for i in found if i not in self.state.missing) or found
@@ -231,6 +231,14 @@ class Grounding:
                 return found
             case _:
                 return self._one(text, found, context)
+
+    def _found(self, phrase: NounPhrase, context: Context, *, carried: bool) -> tuple[str, ...]:
+        """What is called so; else what may be called so too, as a mug a cup; else what has no name and may be that."""
+        many = phrase.quantity in (Quantity.ALL, Quantity.BOTH, Quantity.SOME, Quantity.EXACTLY) or _plural(phrase)
+        found = self.matches(phrase, context, widely=many) or self.matches(phrase, context)
+        if found or not carried:
+            return found
+        return self._narrowing.narrow(perhaps(phrase.head, self.snapshot), phrase, context)
 
     def _others(self, found: tuple[str, ...], context: Context) -> tuple[str, ...]:
         """Those that were not spoken of; *other* means nothing when none was."""

@@ -6,6 +6,7 @@ import re
 from collections.abc import Sequence
 
 from majordomo.planner.goals import PLACING, Goal
+from majordomo.planner.nameless import NAMELESS, likely_label
 from majordomo.planner.phrasing import article
 from majordomo.planner.vocabulary import normal, singular, words_for
 from majordomo.scene_graph.nodes import ObjectNode
@@ -14,9 +15,6 @@ from majordomo.skills.failures import Evidence, Failure, FailureCode
 
 SURE, RULED_OUT = 0.8, 0.1
 """Probability of the new label, and of the old one, at which the robot was mistaken; less is flicker."""
-
-NAMELESS = "unknown"
-"""What perception calls a thing that it has no name for: that is no other kind."""
 
 
 class TakenFor:
@@ -34,9 +32,11 @@ class TakenFor:
         things = (goal.object_id for goal in goals if goal.object_id is not None)
         nodes = [snapshot.get(node_id) for node_id in dict.fromkeys((*things, *sorted(self._places)))]
         self._labels = {
-            node.id: normal(node.label)
+            node.id: label
             for node in nodes
-            if isinstance(node, ObjectNode) and spoken & {part for name in _names(node.label) for part in name.split()}
+            if isinstance(node, ObjectNode)
+            for label in (likely_label(node) or normal(node.label),)
+            if spoken & {part for name in _names(label) for part in name.split()}
         }
 
     def mistake(self, snapshot: Snapshot, *, at_last: bool = False) -> Failure | None:

@@ -10,6 +10,7 @@ from majordomo.planner.grammar.parser import CommandGrammar
 from majordomo.planner.interpreter import Interpreter
 from majordomo.planner.plan import Dialogue, Kind
 from majordomo.planner.sketch import Sketch, flat
+from majordomo.planner.taken_for import TakenFor
 from majordomo.planner.task_planner import TaskPlanner
 from majordomo.planner.verifier import Verifier
 from majordomo.scene_graph.edges import HasIntentionEdge, IntentionAction, IntentionStatus, Priority, RtEdge
@@ -113,6 +114,35 @@ def test_where_there_is_no_cup_the_mug_there_is_meant():
     sketch = flat().thing("mug_1", "mug", on="desk_1")
     assert goals("bring me the cup from the desk", in_hall(sketch)) == "given(mug_1, person_2)"
     assert goals("bring me the cup from the counter", in_hall(sketch)) == "given(cup_2, person_2)"
+
+
+def nameless(sketch, node_id, on, **chances):
+    return sketch.thing(node_id, "unknown", on=on, label_distribution=tuple(chances.items()))
+
+
+def test_what_has_no_name_is_meant_where_nothing_else_is_and_it_most_probably_is_that():
+    sketch = nameless(flat(), "unknown_1", "desk_1", unknown=0.45, ball=0.4, orange=0.15)
+    assert goals("bring me the ball", in_hall(sketch)) == "given(unknown_1, person_2)"
+    assert "no orange" in read("bring me the orange", in_hall(sketch)).reply
+    assert "no ball" in read("bring me the ball from the table", in_hall(sketch)).reply
+    nameless(sketch, "unknown_2", "table_1", unknown=0.5, ball=0.35)
+    assert set(read("bring me the ball", in_hall(sketch)).candidates) == {"unknown_1", "unknown_2"}
+    sketch.thing("ball_1", "ball", on="counter_1")
+    assert goals("bring me the ball", in_hall(sketch)) == "given(ball_1, person_2)"
+
+
+@pytest.mark.parametrize(("label", "mistaken"), [("unknown", False), ("ball", False), ("orange", True)])
+def test_what_has_no_name_and_was_taken_for_a_ball_must_not_turn_out_to_be_something_else(label, mistaken):
+    request = "bring me the ball"
+    before = nameless(flat(), "unknown_1", "desk_1", unknown=0.45, ball=0.4, orange=0.15)
+    taken = TakenFor(request, read(request, in_hall(before)).goals, in_hall(before))
+    after = flat().thing("unknown_1", label, on="desk_1", label_distribution=((label, 0.95),))
+    assert (taken.mistake(in_hall(after)) is not None) == mistaken
+
+
+def test_what_hardly_may_be_a_ball_is_none():
+    sketch = nameless(flat(), "unknown_1", "desk_1", unknown=0.8, ball=0.15)
+    assert "no ball" in read("bring me the ball", in_hall(sketch)).reply
 
 
 def test_the_last_word_of_a_label_names_it():

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from math import atan2, cos, radians, sin
 
+import numpy as np
+
 from majordomo.scene_graph.doors import physical_doors
 from majordomo.scene_graph.nodes import ROBOT_ID, DoorNode, DoorState, ObjectNode, RoomNode, RoomStatus
 from majordomo.scene_graph.snapshot import Snapshot
@@ -16,7 +18,9 @@ from majordomo.skills.actions.driving import DriveTo
 from majordomo.skills.actions.looking import LookAt, SweepCamera, gaze_points
 from majordomo.skills.anchor import Anchor
 from majordomo.skills.failures import Evidence, Failure, FailureCode
+from majordomo.skills.geometry import inside_polygon
 from majordomo.skills.navigation.goals import around, at_poses, freest, near_origin, overlooking
+from majordomo.skills.navigation.walls import door_gaps, whole_room
 
 LOOK_DWELL_S = 1.2
 LEAST_STANDOFF_M = 0.42
@@ -31,15 +35,20 @@ ASIDE_DEG = (0.0, 25.0, -25.0, 45.0, -45.0)
 
 
 def travel(context: RobotContext, room: str | None) -> list[Action]:
-    """Actions through the doors into ``room``; none when the robot is there or either room is not known."""
+    """Actions through the doors into ``room``; none when the robot is there or either room is not known. Out of where
+    nothing is measured yet, the way leads back through the door that it came by.
+    """
     snapshot = context.building
     here = snapshot.current_room
-    if here is None or room is None or here == room or not _stands(snapshot, here) or not _stands(snapshot, room):
+    if here is None or room is None or not _stands(snapshot, here) or not _stands(snapshot, room):
         return []
+    back = _back_inside(context, snapshot, here)
+    if here == room:
+        return back
     path = _way(context, snapshot, here, room)
     if path is None:
         return [Refusal(context, no_way(snapshot, here, room))]
-    return [action for leg in _legs(path) for action in _through(context, *leg)]
+    return [*back, *(action for leg in _legs(path) for action in _through(context, *leg))]
 
 
 def visit(context: RobotContext, node_id: str, standoff_m: float = 0.0) -> list[Action]:
@@ -104,6 +113,19 @@ def _way(context: RobotContext, snapshot: Snapshot, here: str, room: str) -> Pat
     blocked = {door for door, since_s in context.blocked_doors.items() if context.stamp_s - since_s < BLOCKED_S}
     detour = topology.path(here, room, blocked, start_m=(start[0], start[1]))
     return detour if detour is not None else topology.path(here, room, start_m=(start[0], start[1]))
+
+
+def _back_inside(context: RobotContext, snapshot: Snapshot, here: str) -> list[Action]:
+    """Back into the room that the robot hangs from, through its nearest door, when it stands beyond its walls."""
+    room = whole_room(snapshot, here)
+    at = np.array([snapshot.position(ROBOT_ID, here)[:2]])
+    if room is None or inside_polygon(room.polygon_m, at)[0]:
+        return []
+    if any(gap.contains(at)[0] for gap in door_gaps(snapshot, here)):
+        return []
+    doors = [door.id for door in snapshot.of_type(DoorNode) if door.rooms[0] == here]
+    away_m = {door: float(np.hypot(*(snapshot.position(door, here)[:2] - at[0]))) for door in doors}
+    return [_drive(context, min(away_m, key=lambda door: away_m[door]), 0.9)] if away_m else []
 
 
 def _drive(context: RobotContext, node_id: str, standoff_m: float) -> Action:

@@ -10,7 +10,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from majordomo.scene_graph.edges import ConnectsEdge, InEdge, MatchEdge, RtEdge
-from majordomo.scene_graph.nodes import DoorState
+from majordomo.scene_graph.nodes import DoorState, RoomStatus
 from majordomo.scene_graph.se3 import SE3
 from majordomo.skills import journeys
 from majordomo.skills.actions.doors import CrossDoor
@@ -229,3 +229,18 @@ async def test_a_door_is_crossed_from_its_far_side_by_the_far_rooms_node(flat):
     context = await rehearsal.prepare()
     assert await rehearsal.run(journeys.cross(context, "door_2_3_0")) is None
     assert rehearsal.body.pose.x_m == pytest.approx(-2.0 - 0.2 - 0.9, abs=0.1)
+
+
+async def test_out_of_a_room_not_measured_yet_the_way_leads_back_through_the_door(flat):
+    built = flat().table("table_1", 1.0, 2.1)
+    with built.memory.edit("test", 0.0) as tx:
+        tx.put(replace(built.memory.snapshot().room("room_2"), status=RoomStatus.TEMPORARY, polygon_m=()))
+    body = FakeBody(pose=Pose2(4.4, 0.3))
+    rehearsal = Rehearsal(memory=built.memory, world=wall(0.9, Box2(Pose2(1.0, 2.1), 1.2, 0.8)), body=body)
+    context = await rehearsal.prepare()
+    goto = load_registry([])["GOTO"]
+    assert await rehearsal.run(goto.actions(context, ["table_1"])) is None
+    assert goto.confirmed(built.memory.snapshot(), ["table_1"], 0.0) is None
+    assert abs(body.pose.x_m) < 3.0
+    assert abs(body.pose.y_m) < 2.5
+    assert rehearsal.least_clearance_m > 0.25

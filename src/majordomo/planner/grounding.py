@@ -131,6 +131,14 @@ class Grounding:
         """Every node that fits the words of ``phrase``, whatever its quantity; options as in ``Names.named``."""
         return self._narrowing.narrow(self._named(phrase, context, widely=widely, fixed=fixed), phrase, context)
 
+    def meant(self, phrase: NounPhrase, context: Context, *, widely: bool) -> tuple[str, ...]:
+        """What is called so; else what may be called so too, as a mug a cup; else what has no name and may be that."""
+        return (
+            self.matches(phrase, context, widely=widely)
+            or self.matches(phrase, context)
+            or self._narrowing.narrow(perhaps(phrase.head, self.snapshot), phrase, context)
+        )
+
     def among(self, candidates: Sequence[str], phrase: NounPhrase) -> tuple[str, ...]:
         """Those of ``candidates`` that fit the modifiers of ``phrase``, whatever its noun."""
         return self._narrowing.narrow(tuple(candidates), phrase, Context())
@@ -203,7 +211,8 @@ class Grounding:
     def _phrase(
         self, phrase: NounPhrase, context: Context, *, carried: bool, avoid: frozenset[str] = frozenset()
     ) -> Grounded:
-        found = self._suited(self._found(phrase, context, carried=carried), carried=carried)
+        many = phrase.quantity in (Quantity.ALL, Quantity.BOTH, Quantity.SOME, Quantity.EXACTLY) or _plural(phrase)
+        found = self._suited(self.meant(phrase, context, widely=many), carried=carried)
         text = phrase_text(phrase)
         if phrase.words[-1:] in (("things",), ("everything",), ("stuff",)):
             found = tuple(i for i in found if i not in self.state.missing) or found
@@ -231,14 +240,6 @@ class Grounding:
                 return found
             case _:
                 return self._one(text, found, context)
-
-    def _found(self, phrase: NounPhrase, context: Context, *, carried: bool) -> tuple[str, ...]:
-        """What is called so; else what may be called so too, as a mug a cup; else what has no name and may be that."""
-        many = phrase.quantity in (Quantity.ALL, Quantity.BOTH, Quantity.SOME, Quantity.EXACTLY) or _plural(phrase)
-        found = self.matches(phrase, context, widely=many) or self.matches(phrase, context)
-        if found or not carried:
-            return found
-        return self._narrowing.narrow(perhaps(phrase.head, self.snapshot), phrase, context)
 
     def _others(self, found: tuple[str, ...], context: Context) -> tuple[str, ...]:
         """Those that were not spoken of; *other* means nothing when none was."""

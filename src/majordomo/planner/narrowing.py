@@ -203,7 +203,7 @@ class Narrowing:
         if not isinstance(reference, NounPhrase):
             found = self._grounding.place(reference, context)
             return found if isinstance(found, tuple) else ()
-        found = self._grounding.matches(reference, context, widely=False)
+        found = self._grounding.meant(reference, context, widely=False)
         if reference.other:
             spoken = {*context.fresh, *context.mentioned}
             return tuple(i for i in found if i not in spoken) or found

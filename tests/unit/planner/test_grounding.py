@@ -131,6 +131,15 @@ def test_what_has_no_name_is_meant_where_nothing_else_is_and_it_most_probably_is
     assert goals("bring me the ball", in_hall(sketch)) == "given(ball_1, person_2)"
 
 
+def test_so_is_a_place_without_a_name():
+    chances = (("unknown", 0.55), ("piano", 0.4))
+    sketch = flat().furniture("unknown_1", "unknown", "room_3", at=(9.5, 1.0), label_distribution=chances)
+    sketch.thing("ball_1", "ball", on="unknown_1")
+    sketch.thing("ball_2", "ball", on="desk_1")
+    assert goals("bring me the ball from the piano", in_hall(sketch)) == "given(ball_1, person_2)"
+    assert goals("put the ball on the desk on the piano", in_hall(sketch)) == "on(ball_2, unknown_1)"
+
+
 @pytest.mark.parametrize(("label", "mistaken"), [("unknown", False), ("ball", False), ("orange", True)])
 def test_what_has_no_name_and_was_taken_for_a_ball_must_not_turn_out_to_be_something_else(label, mistaken):
     request = "bring me the ball"

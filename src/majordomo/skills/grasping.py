@@ -15,6 +15,7 @@ from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.skills.errors import Unreachable
 from majordomo.skills.geometry import wrap_rad
 from majordomo.skills.kinematics import arm_target
+from majordomo.skills.place_spot import is_seat
 from majordomo.skills.ports import ArmGeometry, ArmTarget, BodyLimits
 
 Size3 = tuple[float, float, float]
@@ -152,11 +153,16 @@ def _in_the_way(snapshot: Snapshot, object_id: str, T_base_object: SE3) -> bool:
 
 
 def is_covered(snapshot: Snapshot, object_id: str, room: str) -> bool:
-    """Whether something reaches over the object: another thing's extent is above its center, within half a meter."""
-    node = snapshot.object(object_id)
+    """Whether something reaches over the object: another thing's extent is above its center, within half a meter.
+
+    Arms and back of a seat do not: over the seat itself there is nothing.
+    """
+    node, support = snapshot.object(object_id), snapshot.support_of(object_id)
     top_m = float(snapshot.position(object_id, room)[2]) + node.size_m[2] / 2
     for other in snapshot.of_type(ObjectNode):
         if other.id == object_id or other.state is not ObjectState.PRESENT or snapshot.room_of(other.id) != room:
+            continue
+        if other.id == support and is_seat(other.label):
             continue
         x_m, y_m, _ = snapshot.transform(other.id, object_id).translation_m
         other_top_m = float(snapshot.position(other.id, room)[2]) + other.size_m[2] / 2

@@ -108,6 +108,11 @@ def stands_on(snapshot: Snapshot, support_id: str, held: str | None) -> list[Obj
     return found
 
 
+def is_seat(label: str) -> bool:
+    """Whether furniture of that name carries things lower than its top, with nothing over them."""
+    return _plain(label) in SEAT_SHARES
+
+
 def _plain(label: str) -> str:
     return label.replace("_", " ")
 

@@ -11,12 +11,15 @@ import pytest
 from majordomo.scene_graph.edges import RtEdge
 from majordomo.scene_graph.nodes import ObjectState
 from majordomo.scene_graph.se3 import SE3
+from majordomo.skills.actions.arm import CARRY_LIFT_M, Retract
 from majordomo.skills.actions.grasp import CloseGripper
 from majordomo.skills.doubles import BoxWorld, FakeBody, Rehearsal
 from majordomo.skills.failures import FailureCode
 from majordomo.skills.geometry import Box2, Pose2
+from majordomo.skills.grasping import DOWN_RAD
 from majordomo.skills.kinematics import gripper_pose
 from majordomo.skills.place_search import free_spots
+from majordomo.skills.ports import ArmTarget
 from majordomo.skills.registry import load_registry
 from majordomo.skills.state import PlanState
 
@@ -312,3 +315,12 @@ async def test_where_something_unseen_stopped_the_arm_nothing_is_put_next_time(k
     left = [each.anchor.position(rehearsal.memory.snapshot(), "room_1")[:2] for each in actions[1]._placement.spots()]
     assert min(np.hypot(*(at - spot)) for at in left) > 0.1
     assert await carry_out(rehearsal, ("PLACE", "bottle_1", "table_2")) is None
+
+
+async def test_a_hand_that_let_go_rises_over_the_arm_of_a_sofa_before_it_is_drawn_back(flat):
+    arm = ArmTarget(lift_m=0.6, extension_m=0.5, wrist_pitch_rad=DOWN_RAD, wrist_roll_rad=0.0)
+    rehearsal = Rehearsal(memory=flat().memory, body=FakeBody(arm=arm))
+    highest_m = []
+    rehearsal.observe = lambda r: highest_m.append(r.body.arm.lift_m) if r.body.arm.extension_m > 0.4 else None
+    assert await rehearsal.run([Retract(await rehearsal.prepare())]) is None
+    assert max(highest_m) == pytest.approx(CARRY_LIFT_M, abs=0.01)

@@ -122,3 +122,9 @@ def test_a_cup_is_taken_from_above_and_level_under_a_board(flat):
     assert not prefers_level(built.memory.snapshot(), "cup_1", ahead)
     built.thing("board_1", (1.0, 1.2, 1.1), (1.0, 0.4, 0.03))
     assert prefers_level(built.memory.snapshot(), "cup_1", ahead)
+
+
+def test_what_lies_on_a_seat_is_taken_from_above_though_arms_and_back_are_higher(flat):
+    built = flat().thing("sofa_1", (1.0, 1.2, 0.4), (1.8, 0.9, 0.8), support=True)
+    built.thing("cup_1", (1.0, 1.2, 0.47), (0.08, 0.08, 0.1), on="sofa_1")
+    assert not prefers_level(built.memory.snapshot(), "cup_1", SE3.from_xyz_yaw(0.6, 0.0, 0.47, 0.0))

@@ -158,14 +158,14 @@ class Retract(ArmAction):
 
 
 def way_back(context: RobotContext, travel: ArmTarget) -> list[ArmTarget]:
-    """Targets from wherever the arm is to a travel pose: a hand that points down rises first, a level one just draws
-    back.
+    """Targets from wherever the arm is to a travel pose: a hand that points down rises first, as high as it came, so
+    that it clears the arm of a sofa; a level one just draws back.
     """
     arm, (_, top_m) = context.body.arm, context.limits.lift_m
     back = replace(arm, extension_m=travel.extension_m)
     if arm.extension_m < CARRY_EXTENSION_M + LENGTH_TOLERANCE_M or arm.wrist_pitch_rad > DOWN_RAD / 2:
         return [back, travel]
-    up_m = min(arm.lift_m + LIFT_M, top_m)
+    up_m = min(max(arm.lift_m + LIFT_M, CARRY_LIFT_M), top_m)
     return [replace(arm, lift_m=up_m), replace(back, lift_m=up_m), travel]
 
 

@@ -142,7 +142,7 @@ SPOKEN: list[tuple[str, str]] = [
         "what about the smallest book in the library? put it on the coffee table for me",
         "the smallest book in the library, put it on the coffee table for me",
     ),
-    ("either of the teddy bears will do, just bring one to leo", "bring either of the teddy bears to leo"),
+    ("either of the teddy bears will do, just bring one to leo", "bring one of the teddy bears to leo"),
     (
         "any cup will do as long as it is not from the kitchen. bring it to the bathroom",
         "bring a cup that is not in the kitchen to the bathroom",

@@ -7,7 +7,7 @@ else improved from the cheapest insertion until no exchange helps or ``TRIES`` a
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Hashable, Iterator, Sequence
 from itertools import chain, pairwise, permutations, product
 from math import factorial, prod
 
@@ -25,12 +25,40 @@ _Paths = dict[frozenset[int], dict[int, tuple[float, tuple[int, ...]]]]
 
 
 def orders(goals: Sequence[Goal], state: PlanState, leg: Leg) -> Iterator[tuple[Goal, ...]]:
-    """The orders worth trying, each once: the cheapest by its legs, the one that was told, and all others of few."""
+    """The orders worth trying, each once: the cheapest by its legs, the one that was told, and all others of few.
+
+    Of orders that differ only in which of several things alike comes first, such as glasses of a size from one table,
+    the first.
+    """
     runs = _runs(goals)
     few: Iterator[tuple[Goal, ...]] = iter(())
     if prod(factorial(len(run)) for run in runs) <= FEW:
         few = (tuple(chain(*order)) for order in product(*(permutations(run) for run in runs)))
-    yield from dict.fromkeys(chain((arranged(goals, state, leg), tuple(goals)), few))
+    kinds = {goal: _kind(goal, goals, state) for goal in goals}
+    tried: set[tuple[Hashable, ...]] = set()
+    for order in chain((arranged(goals, state, leg), tuple(goals)), few):
+        kind = tuple(kinds[goal] for goal in order)
+        if kind not in tried:
+            tried.add(kind)
+            yield order
+
+
+def _kind(goal: Goal, goals: Sequence[Goal], state: PlanState) -> Hashable:
+    """The same for two goals that take things alike from one place to another; else the goal itself."""
+    thing_id, place = goal.args[0], state.places.get(goal.args[0])
+    spoken = [arg for other in goals for arg in other.args]
+    alone = spoken.count(thing_id) == 1 and not state.on_top_of(thing_id) and thing_id not in state.missing
+    thing = state.world.things.get(thing_id)
+    if goal.predicate not in PLACING or place is None or thing is None or not alone or thing_id in state.near:
+        return goal
+    return (
+        goal.predicate,
+        goal.args[1],
+        place,
+        thing.size_m,
+        thing.graspable,
+        thing.position_m if place[1] == thing.room else None,
+    )
 
 
 def arranged(goals: Sequence[Goal], state: PlanState, leg: Leg) -> tuple[Goal, ...]:

@@ -13,6 +13,7 @@ from majordomo.planner.grounding import Ambiguous, Context, Grounding, NoReferen
 from majordomo.planner.meaning import Meaning
 from majordomo.planner.meant import Meant
 from majordomo.planner.phrasing import phrase_text, which_question
+from majordomo.scene_graph.nodes import RoomNode
 
 WHETHER = "whether"
 """What a condition is asked about under that the robot cannot tell; the person settles it."""
@@ -67,6 +68,7 @@ class Discourse:
             meant = next((outcome for outcome in outcomes if isinstance(outcome, Meant)), None)
             if meant is not None and meant.things and not is_place:
                 things.append(meant.things)
+                context = replace(context, focus=self._room(meant.things) or context.focus)
             elif meant is not None:
                 context = carried_on(context, replace(meant, things=(), places=(*meant.places, *meant.things)))
             elif outcomes and not isinstance(outcomes[0], Meant) and not is_place and _is_definite(readings):
@@ -81,6 +83,11 @@ class Discourse:
             question = which_question("Which one do you mean", "it", found, self._grounding.snapshot)
             return replace(context, unsettled=Ambiguous(question=question, phrase="it", candidates=found))
         return context
+
+    def _room(self, found: tuple[str, ...]) -> str | None:
+        """*The gym is a mess*: the room that what follows is about."""
+        rooms = [i for i in found if isinstance(self._grounding.snapshot.get(i), RoomNode)]
+        return rooms[0] if len(found) == len(rooms) == 1 else None
 
     def _can_be_carried(self, found: tuple[str, ...]) -> bool:
         things = self._grounding.state.world.things

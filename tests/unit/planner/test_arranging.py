@@ -8,7 +8,7 @@ from itertools import pairwise, permutations
 import numpy as np
 import pytest
 
-from majordomo.planner.arranging import EXACT, arranged
+from majordomo.planner.arranging import EXACT, arranged, orders
 from majordomo.planner.goals import Goal, Predicate, goal, lasting
 from majordomo.planner.grammar.parser import CommandGrammar
 from majordomo.planner.interpreter import Interpreter
@@ -152,3 +152,38 @@ def test_where_all_at_once_takes_too_long_goals_are_planned_for_one_by_one():
     assert lasting(hurried.goals) == tuple(goals)
     assert hurried.expected_s <= 1.2 * thorough.expected_s
     assert {g.predicate for g in goals} == {Predicate.ON}
+
+
+def table_of_cups(sizes):
+    """Cups of these sizes (m) in a row on one table, another table and a chair with a cup across the room."""
+    sketch = Sketch().room("room_1", at=(0.0, 0.0), side_m=12.0)
+    sketch.furniture("table_1", "table", "room_1", at=(-3.0, 0.0), size_m=(2.0, 0.8, 0.7))
+    sketch.furniture("table_2", "table", "room_1", at=(3.0, 2.0), size_m=(2.0, 0.8, 0.7))
+    for k, size_m in enumerate(sizes, start=1):
+        sketch.thing(f"cup_{k}", "cup", on="table_1", at=(-4.0 + 0.4 * k, 0.0), size_m=(size_m, size_m, 0.1))
+    return sketch.snapshot(robot_in="room_1", at=(0.0, -4.0))
+
+
+def leg_m(state):
+    return lambda a, b: state.distance_m(a, b) or 0.0
+
+
+def test_things_alike_are_taken_in_one_order_that_is_as_cheap_as_any():
+    snapshot = table_of_cups([0.08] * 4)
+    start = PlanState.from_snapshot(snapshot)
+    goals = free(*(goal("on", f"cup_{k}", "table_2") for k in range(1, 5)))
+    (order,) = orders(goals, start, leg_m(start))
+    costs = [Search(other, SKILLS, start).run().cost_s for other in permutations(goals)]
+    assert Search(order, SKILLS, start).run().cost_s == pytest.approx(min(costs))
+
+
+def test_things_of_two_sizes_are_tried_in_every_order_of_the_sizes():
+    start = PlanState.from_snapshot(table_of_cups([0.08, 0.08, 0.06]))
+    goals = free(*(goal("on", f"cup_{k}", "table_2") for k in range(1, 4)))
+    assert len(list(orders(goals, start, leg_m(start)))) == 3
+
+
+def test_a_thing_that_another_goal_speaks_of_is_like_no_other():
+    start = PlanState.from_snapshot(table_of_cups([0.08, 0.08]))
+    goals = free(goal("on", "cup_1", "table_2"), goal("near", "cup_2", "cup_1"))
+    assert len(list(orders(goals, start, leg_m(start)))) == 2

@@ -29,6 +29,7 @@ from majordomo.planner.grammar.wording.placing import PLACING
 from majordomo.planner.grammar.wording.relating import RELATING
 from majordomo.planner.grammar.wording.renaming import RENAMING
 from majordomo.planner.grammar.wording.returning import AGAIN, BACK, RETURNING
+from majordomo.planner.grammar.wording.sending import SENDING
 from majordomo.planner.grammar.wording.slips import MISTYPED
 from majordomo.planner.grammar.wording.sorting import SORTING
 from majordomo.planner.grammar.wording.visiting import VISITING
@@ -44,6 +45,7 @@ RULES: tuple[tuple[str, str], ...] = (
         *AMOUNTS,
         *RETURNING,
         *SORTING,
+        *SENDING,
         *VISITING,
         *HEADING,
         *SLIPS,

@@ -312,7 +312,7 @@ class PhraseReader(Transformer[Token, Any]):
         return NounPhrase(words=(str(token),), quantity=Quantity.THE, person=True)
 
     def stranger(self, children: Children) -> NounPhrase:
-        return NounPhrase(words=(str(children[0]),), quantity=Quantity.THE, person=True)
+        return NounPhrase(words=tuple(map(str, children)), quantity=Quantity.THE, person=True)
 
 
 def _has(children: Children, kind: str) -> bool:

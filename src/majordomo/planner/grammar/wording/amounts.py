@@ -16,7 +16,22 @@ _ABOUT = (
     r" (?:around|about|everywhere|all over(?: the place)?)|around|in every room|on every surface)"
 )
 
+_COLOR = r"(?:red|green|blue|yellow|black|white|brown|pink|purple|gray|grey|gold|silver)"
+
 AMOUNTS: tuple[tuple[str, str], ...] = (
+    (
+        (
+            r"\b(?:the|my|our|these|those) ([\w' ]+?s),? all (two|three|four|five|six|seven|eight) of (?:them|these"
+            r"|those)\b"
+        ),
+        r"all \2 \1",
+    ),
+    (
+        rf"^not the {_COLOR} (\w+)[,:;]+ (?:but |just |i mean |rather )*the ({_COLOR}) one(?= please|[.!]*$)",
+        r"the \2 \1",
+    ),
+    (rf",? no,? (?=not (?:the|an?) {_COLOR}(?: ones?)?[.!]*$)", ", "),
+    (r",? (?:only|just|though|and) no (\w+)(?=[.!]*$)", r" but no \1"),
     (rf"\bthe (?:two )?([\w' ]+?s) both (?={_BEINGS}\b)", r"both \1 "),
     (rf"\b(?:all )?((?:the|my|our|his|her|their|these|those) [\w' ]+?s) (?:all|each) (?={_BEINGS}\b)", r"all \1 "),
     (
@@ -36,6 +51,44 @@ AMOUNTS: tuple[tuple[str, str], ...] = (
             rf"{_DEED} {_ALL_OF_IT} (?:back |over |away )?(?=(?:to|in|into|on|onto|inside)\b)"
         ),
         r"put everything from \1 ",
+    ),
+    (
+        (
+            rf"^((?:the|my|our|his|her|\w+'s) [\w' ]+?) (?:needs? to be|should be|must be|has to be|is to be|needs"
+            rf"|wants) "
+            rf"(?:empty|emptied|cleared|clear|tidy|tidied|clean|cleaned|free|emptying|clearing)(?: up| out| "
+            rf"off)?[,.;:!]+ "
+            rf"{_SO}{_DEED} {_ALL_OF_IT} (?:back |over |away )?(?=(?:to|in|into|on|onto|inside)\b)"
+        ),
+        r"put everything from \1 ",
+    ),
+    (
+        (
+            r"(?: (?:that|which) (?:is|are))? (?:lying|standing|strewn|scattered|left) (?:around|about|everywhere)"
+            r"(?= (?:go|goes|belong|belongs|should|must|need|needs|to|in|into|can|have)\b)"
+        ),
+        "",
+    ),
+    (r"^(?:please )?make (?:some |more |a bit of )?(?:room|space) (?:on|in|at) ([^:,.;]+)[:,.;]+ (?=\w)", r"tidy \1: "),
+    (
+        (
+            r"^(?:please |can you |could you )*(?:put|tidy|clear|pack|stow)(?: (?:away|up))? ((?:the|all|all the|my"
+            r"|these|those)"
+            r" (?:(?! of )[\w' ])+?)(?: (?:away|up))?[,.;:]+ (?:they|it|these|those) (?:all |both )?(?:go(?:es)?"
+            r"|belongs?|live"
+            r"|should (?:go|be)|"
+            r"can go|must go) "
+        ),
+        r"put \1 ",
+    ),
+    (
+        (
+            r"(?:(?<=^)|(?<=[.,;!] )|(?<=\band )|(?<=\bplease )|(?<=\byou ))(?:sort|file|stack|pile|heap|shelve|line"
+            r"|arrange)"
+            r"(?: up)? ((?:the|all|my|all the|these|those) [\w' ]+?)(?: up)? (?=(?:on|onto|in|into|inside) (?:the|my"
+            r"|a|\w+'s)\b)"
+        ),
+        r"put \1 ",
     ),
     (
         (
@@ -71,7 +124,30 @@ AMOUNTS: tuple[tuple[str, str], ...] = (
     ),
     (
         (
-            r"^(in|on|at|under|next to) ((?:the|my|\w+'s) [\w' ]+?) there (?:is|are) ((?:an?|some|the|two|three) "
+            r"^(?:over |out |up |down )?(in|on|at|under|next to) ((?:the|my|\w+'s) [\w' ]+?),? you (?:will|can"
+            r"|should|might|may)"
+            r" (?:find|see) ((?:an?|some|the|my|his|her|two|three) [\w' ]+?)(?=[,.;!]+ )"
+        ),
+        r"\3 is \1 \2",
+    ),
+    (
+        (
+            r"^(?:from|out of|off) ((?:the|my|\w+'s) [\w' ]+?),? (i (?:need|want|would like)|(?:bring|get|fetch|give"
+            r"|hand) "
+            r"(?:me|us|\w+)) ((?:the|an?|some|my|two|three|all the|both) [\w' ]+?)(?=[.!]*$)"
+        ),
+        r"\2 \3 from \1",
+    ),
+    (
+        r"\bthere (?:should|must|might|may|could|ought to|will)(?: still| probably| surely)? be (?=an?|some|the|two)",
+        "there is ",
+    ),
+    (r"\b(is|are) (?!(?:it|that|there|what|who|let|here)'s)(\w+)'s(?=[,.;]+ )", r"\1 for \2"),
+    (r"\b(?:either|any one) of (?=(?:the|my|our|these|those)\b)", "one of "),
+    (
+        (
+            r"^(?:somewhere )?(in|on|at|under|next to) ((?:the|my|\w+'s) [\w' ]+?),? there (?:is|are) ((?:an?|some"
+            r"|the|two|three) "
             r"[\w' ]+?)"
             r"(?=[,.;!]+ )"
         ),
@@ -115,6 +191,55 @@ AMOUNTS: tuple[tuple[str, str], ...] = (
             r"empty|in order|orderly)(?: (?:and \w+))?(?: \w+)?(?=[.!]*$)"
         ),
         "",
+    ),
+    (r"\bon (?:the|your) way (?:back|there|home|over)\b,? ?", ""),
+    (
+        (
+            r"(?:(?<=^)|(?<=[.,;!] )|(?<=\band )|(?<=\bthen )|(?<=\bplease )|(?<=\byou ))(?:stash|keep|rest|prop"
+            r"|lean|perch"
+            r"|shelve|stand|balance|tuck away|stow away|hide) ((?:it|them|(?:the|my|our|his|her|all|both|\w+'s) "
+            r"[\w' ]+?)) "
+            r"(?=(?:in|on|onto|into|inside|next to|beside|against) (?:the|my|our|a|his|her|\w+'s)\b)"
+        ),
+        r"put \1 ",
+    ),
+    (
+        r"^((?:the|my|that|this) (?:\w+ )?\w+) (?:is|are) (?:meant |intended )?for (\w+)(?=[.!]*$)",
+        r"\1 should go to \2",
+    ),
+    (
+        (
+            r"^((?:the |my )?(?!(?:this|that|here|there|it)\b)[\w' ]+?) is where ((?:the|my|our|all the|his|her) "
+            r"[\w' ]+?)"
+            r" (?:should (?:go|be|live)|belongs?|goes?|go|has to go|must go|needs? to (?:go|be)|ought to (?:go|be)"
+            r"|lives?)"
+            r"(?: now)?(?=[.!]*$)"
+        ),
+        r"take \2 to \1",
+    ),
+    (
+        (
+            r"^(?:the )?(?:right |proper |best |correct )?(?:place|spot|home) (?:for|of) ((?:the|my|our|his|her) "
+            r"[\w' ]+?) is "
+            r"(?!where\b)(?=(?:in|on|at|next to) )"
+        ),
+        r"put \1 ",
+    ),
+    (
+        (
+            r"^(?:the )?(?:right |proper |best |correct )?(?:place|spot|home) (?:for|of) ((?:the|my|our|his|her) "
+            r"[\w' ]+?) is "
+            r"(?=(?:the|my|\w+'s) )"
+        ),
+        r"take \1 to ",
+    ),
+    (
+        (
+            r"\b((?:put|leave|place|set|lay) (?:(?! for )[^,.;])+? (?:on|in|at|onto|into) (?:the|my|\w+'s) [\w' ]+?) "
+            r"for "
+            r"(?:him|her|(?!the\b|now\b|my\b|an?\b|me\b|us\b)\w+)(?: to (?:find|see|read|use|have|take))?(?=[.!]*$)"
+        ),
+        r"\1",
     ),
 )
 """In the order in which they are tried."""

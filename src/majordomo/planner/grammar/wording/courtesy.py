@@ -48,7 +48,7 @@ COURTESY: tuple[tuple[str, str], ...] = (
     (r"^would it (?:kill|hurt|bother|trouble|be too much for|be possible for) you (?:too much )?to (?=\w)", ""),
     (
         (
-            r"^(?:please )?(?:do|there are|i have|here are|i have got) (?:these |the following |just )?"
+            r"^(?:please )?(?:(?:do|there are|i have|here are|i have got) )?(?:these |the following |just )?"
             r"(?:two|three|four|five|some|a few|several|a couple of) (?:things|jobs|tasks|chores|errands)"
             r"(?: for you| to do| for you to do)?[:,.-]+ (?=\w)"
         ),

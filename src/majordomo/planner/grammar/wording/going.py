@@ -291,7 +291,6 @@ GOING: tuple[tuple[str, str], ...] = (
     ),
     (r"(?:,? and|,? then|,)+ (?:on|off|over|along) to (?=(?:the|my)\b)", ", then go to "),
     (r"\b(?:and|then) return(?=$|[.!?,])", "then come back"),
-    (r"^(?:i|we) (?:need|want|would like) you (?:over |to be |to come )?(?=(?:in|at|by|near|next to)\b)", "go "),
     (r"\b(?:be|get yourself|show up|turn up|report) (?=(?:in|at|by) the\b)", "go "),
     (r"\b(?:go|drive|head|move) (?:back )?home\b", "come back"),
     (

@@ -35,7 +35,7 @@ _ASKED = (
 )
 _AMISS = (
     r"(?:wrong|a mistake|my mistake|an error|not right|no good|silly|not what i (?:meant|wanted|asked for)|too much"
-    r"|enough|all|it)"
+    r"|enough|all|it|(?:not )?the (?:wrong|right|other) (?:one|\w+)|not (?:it|the one(?: i \w+)?))"
 )
 
 AGAIN: tuple[tuple[str, str], ...] = (
@@ -85,11 +85,63 @@ AGAIN: tuple[tuple[str, str], ...] = (
     (
         (
             r"(?<=\w )(?<!and )(?<!then )(?<!please )(?<!now )(?<!to )(?:(?:can|may|could|should|must|might|will)"
-            r"(?: both| all| now| please)* )?(?:go(?:es)?|belongs?) back (?:to |in |on )?(?:exactly |just |right )?"
-            r"(?=(?:where|wherever|its|their)\b)(?!where(?:ver)? you (?:are|were|started|came|began|set|left)\b)"
+            r"(?: both| all| now| please)* )?(?:go(?:es)?|belongs?) back (?:(?=(?:to|in|on|into|onto) (?:its|their)\b)|"
+            r"(?:to |in |on )?(?:exactly |just |right )?(?=(?:where|wherever|its|their)\b))"
+            r"(?!(?:to )?where(?:ver)? you (?:are|were|started|came|began|set|left)\b)"
         ),
         "should go back ",
     ),
+    (
+        (
+            r"^\w+ (?:do|does) not (?:need|want|use|require|like) ((?:the|my|his|her|our|those|these|that) [\w' ]+?)"
+            r"(?: any ?more| any longer| now| right now)*[,;.!]+ (?:so |and |please |you can |can you )*"
+            r"(put|take|return|bring|carry) (?:it|them) (?=back\b)"
+        ),
+        r"\2 \1 ",
+    ),
+    (
+        (
+            r"\b(?:get|take|fetch|collect|pick up|grab|retrieve) ((?:the|my|his|her|our|those|these|that) "
+            r"[\w' ]+?)(?: back)? "
+            r"(?:back )?from (?!the\b|its\b|my\b)\w+(?:,| and)+ (?:then )?(?:put|return|bring|take|carry) (?:it"
+            r"|them)(?: back)? "
+            r"(?=(?:back|to (?:its|their)|where)\b)"
+        ),
+        r"put \1 back ",
+    ),
+    (
+        (
+            r"^(?:(?:no|oh|actually|on second thoughts?|wait|hang on|sorry)[,.! ]+)*do not[,.;!]+ (?:just |please )*"
+            r"(?=(?:put|take|leave|return|bring)\b)"
+        ),
+        "",
+    ),
+    (
+        (
+            rf"^(?:and |so |now )*(?:you (?:can|may) (?:have|take)|(?!i\b|we\b)\w+ (?:wants?|needs?|would like)) "
+            rf"{_IT} back "
+            rf"(?=(?:to |in |on |at )?(?:where|its|their)\b)"
+        ),
+        r"put \1 back ",
+    ),
+    (rf"^(?:and |so |now )*you (?:can|may) (?:have|take) {_IT} back(?: again| now)?(?=[.!]*$)", r"put \1 back"),
+    (
+        (
+            r"^(?:what an? |such an? )?(?:lovely|nice|great|beautiful|good|pretty|funny|interesting|wonderful) "
+            r"\w+[.!,]+ "
+            r"(?=(?:now |then |please |ok |and |can you )*(?:put|hang|take|return|bring|lay) (?:it|them) back\b)"
+        ),
+        "",
+    ),
+    (r"\b((?:the|my|his|her|our) [\w' ]+?|it|they) (?:can|may|should|could|must) go home(?=$|[,.!])", r"put \1 back"),
+    (
+        (
+            r"\b(?:leave|set|keep|place|put) (it|them|that) (?:on|in|at|by) (?:the|my|\w+'s) [\w ]+?,? "
+            r"(?=where (?:it|they|that) (?:was|were|stood|lay|sat)\b)"
+        ),
+        r"put \1 back ",
+    ),
+    (r"\b([^\W\d]+)'s (?=(?:finished|done|through) with\b)", r"\1 is "),
     (r"\bthe two of (?:them|these|those)\b", "both"),
     (
         r"\b(?:these|those|the|all(?: the| these| those)?) (?:things|items|objects|stuff) back(?=$|[.,!?])",

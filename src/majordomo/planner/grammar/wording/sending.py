@@ -1,0 +1,125 @@
+"""Who sends the robot where without a *go*: *Anna is calling you*, *I'll meet you in the hall*, *out on the "
+"terrace*.
+"""
+
+from __future__ import annotations
+
+_WHO = r"((?!(?:i|we|it|that|this|what|who|if|when|nobody|someone|somebody|they|he|she|you)\b)[a-z]+(?: [a-z]+)??)"
+_ANYONE = r"(?:they|he|she|everyone|everybody|people|(?!(?:i|it|that|this|what|who|you|robot)\b)[a-z]+(?: [a-z]+)??)"
+_WAY = r"(?:(?:over|up|down|out|back|across|round|along|through|there) )*"
+_AT = r"(?=(?:in|at|by|near|on|next to|beside|outside) (?:the|my|our|his|her|room|ward|office|classroom|\w+))"
+_START = r"(?:(?<=^)|(?<=[.,;!] )|(?<=\band )|(?<=\bthen )|(?<=\bplease )|(?<=\byou ))"
+_SOON = (
+    r"(?: in (?:a (?:sec|second|minute|moment|bit|while|jiffy|flash|few minutes)|no time|(?:one|two|five|ten) minutes)"
+    r"| soon| shortly| quickly| later| today| tonight| now| then)*"
+)
+
+SENDING: tuple[tuple[str, str], ...] = (
+    (rf"{_START}get (?:yourself )?{_WAY}(?:in)?to (?=(?:the|my|our|\w+'s|room|ward|office|classroom)\b)", "go to "),
+    (rf"{_START}park(?: yourself| up)? (?=(?:next to|beside|by|near|at|in front of|in|outside) )", "go "),
+    (
+        (
+            r"(?<=\w)[,;.!]+ (?:because )?you are (?:in (?:the|my|our|his|her) way|standing in (?:the|my|our) way|late"
+            r"|blocking [\w' ]+|not needed (?:here|there)|needed there|too close|too slow)(?=[.!]*$)"
+        ),
+        "",
+    ),
+    (
+        (
+            rf"^(?:i|we|[a-z]+) (?:will|shall|would like to|want to|am going to|are going to) (?:meet|see|join|find"
+            rf"|catch) you {_WAY}{_AT}([^,.;!?]+?){_SOON}(?=[.!]*$)"
+        ),
+        r"go \1",
+    ),
+    (
+        (
+            rf"^{_WHO} (?:is|are|keeps|has been) (?:calling|shouting|yelling|looking|asking|waiting|crying|hoping)"
+            r"(?: out)?(?: for)? you(?: again| now| please)*(?=[.!]*$)"
+        ),
+        r"go to \1",
+    ),
+    (
+        (
+            rf"^{_WHO} (?:would (?:like|love|enjoy)|wants|needs|could (?:do with|use)) (?:some |a bit of |your )?"
+            r"company(?: now| please| tonight)*(?=[.!]*$)"
+        ),
+        r"go to \1",
+    ),
+    (
+        (
+            rf"^{_ANYONE} (?:is|are) (?:expecting|waiting for|looking for|asking for|awaiting) you {_WAY}{_AT}"
+            rf"([^,.;!?]+?){_SOON}(?=[.!]*$)"
+        ),
+        r"go \1",
+    ),
+    (
+        (
+            r"\b([^\W\d]+)'s (?=(?:lonely|sad|bored|scared|alone|crying|upset|happy|afraid|cold|hot|late|hurt|awake"
+            r"|up|back"
+            r"|poorly|unwell|feeling|starving|freezing|exhausted|worried|nervous)\b)"
+        ),
+        r"\1 is ",
+    ),
+    (
+        (
+            r"^there (?:is|are) (?:someone|somebody|people|a (?:visitor|guest|man|woman|child|kid|customer|patient"
+            r"|stranger)"
+            r"|(?:visitors|guests|kids|children|customers|patients))\b[^,.;]*[,.;]+ (?:so |and |please |can you )*"
+            r"(?=(?:go|come|drive|bring|take|head|get|put|fetch|give|find)\b)"
+        ),
+        "",
+    ),
+    (rf"^(?:and |now |then |just )*(?:over|up|down|out|across) {_AT}(?![^.]* with )(?=[^,.;!?]+[.!]*$)", "go "),
+    (r"\btake (?:up )?(?:a |your )(?:position|post|stand|station) (?=(?:beside|next to|by|near|at|in)\b)", "wait "),
+    (
+        (
+            rf"^(?:i|we) (?:need|want|would (?:like|love)|expect) you {_WAY}(?:to be |to come |to go |to wait )?{_WAY}"
+            r"(?=(?:in|at|by|near|next to|on|outside) )"
+        ),
+        "go ",
+    ),
+    (rf"{_START}(go|come|drive|head|move|get|run) {_WAY}(?:to )?where (?!you\b|we\b|it\b|they\b)", r"\1 to where "),
+    (r"\b(head|make) (?:straight|right|directly|quickly|now|off|out|over) for (?=\w)", r"\1 for "),
+    (
+        (
+            r"(?<=\w)(?:,| and|, and) (?:have a |take a )?(?:quick |good )?look (?:a)?round(?: there| a bit| for a "
+            r"bit| quickly"
+            r"| briefly| for a moment)*(?=(?:,| and|, and| then)+ (?:then )?(?:come|go|get|drive|return|head|back"
+            r"|be)\b)"
+        ),
+        "",
+    ),
+    (r"\bpay (\w+|(?:the|my|our) [\w ]+?) a (?:short |quick |little |brief |flying )?(?:visit|call)\b", r"visit \1"),
+    (
+        (
+            r"\b(?:go |drive |run )?(?:and )?(?:see|check|look) (?:if|whether|how|that) (\w+(?: \w+)?) (?:is|are) "
+            r"(?:ok|okay|fine"
+            r"|well|alright|all right|doing|getting on|feeling|safe|awake|comfortable)(?: (?:and|or) \w+)?"
+            r"(?=,? (?:and|then) (?:then )?(?:come|go|return|be|get)\b)"
+        ),
+        r"go to \1",
+    ),
+    (
+        (
+            r"(?:,| and|, and| then)+ (?:then )?(?:be|get|hurry) (?:right |straight )?back(?: here| with me| to me| "
+            r"home)?"
+            rf"{_SOON}(?: before [^,.;]+)?(?=[.!]*$)"
+        ),
+        ", then come back",
+    ),
+    (
+        (
+            r"\b(?:make|take|do) (?:a|your|one|the) (?:\w+ )?(?:detour|swing|run|trip|tour) (?:through|via|past|by way "
+            r"of|round) "
+        ),
+        "go to ",
+    ),
+    (
+        (
+            r"(?<=\w)[,;.!]+ (?:and )?(?:hurry|be quick|make it quick|quickly|off you go|quick march|do hurry)"
+            r"(?: up| now| please| about it)*(?=[.!]*$)"
+        ),
+        "",
+    ),
+)
+"""In the order in which they are tried."""

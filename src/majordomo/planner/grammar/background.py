@@ -83,7 +83,7 @@ def is_told(clause: Tokens) -> bool:
     words = {token.typed for token in clause}
     if _is_own_plan(kinds):
         return True
-    if kinds[-1] in _LANDMARK:  # *the room Anna is in* goes on with what comes before
+    if kinds[-2:-1] == ["BE"] and kinds[-1] in _LANDMARK:  # *the room Anna is in* goes on with what comes before
         return False
     verb = _verb(clause)
     asking = _ASKING_FOR - {"SHOULD"} if _is_misplaced(clause, verb) else _ASKING_FOR

@@ -7,6 +7,7 @@ grammar knows.
 from __future__ import annotations
 
 import re
+from functools import lru_cache
 
 from majordomo.planner.grammar.wording.about_robot import ABOUT_ROBOT
 from majordomo.planner.grammar.wording.addressing import ADDRESSING
@@ -74,6 +75,7 @@ _MAX_CHARACTERS = 600
 _COMPILED = tuple((re.compile(pattern), said) for pattern, said in RULES)
 
 
+@lru_cache(maxsize=256)
 def paraphrased(text: str) -> str:
     """``text`` in the words of the grammar, as far as the rules know."""
     if '"' in text or len(text) > _MAX_CHARACTERS:

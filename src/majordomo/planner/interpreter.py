@@ -37,7 +37,8 @@ from majordomo.skills.skill import Skill
 
 Choices = dict[str, tuple[str, ...]]
 _PLEASE = re.compile(
-    r"\b(?:please|pls|plz|asap|pronto|at once|right away|immediately|(?:as )?(?:quick|fast)(?:ly)? as you can|now)\b"
+    r"\b(?:please|pls|plz|asap|pronto|at once|right away|immediately|(?:as )?(?:quick|fast)(?:ly)? as you can|now|quick"
+    r"|hurry)\b"
 )
 """Shows that what has no verb is a request."""
 DOUBT = "did you mean"

@@ -46,7 +46,7 @@ SAME = [
     ("go back to where you started", "go to your starting point"),
     ("and then go to the hall", "then go to the hall"),
     ("put everything back", "put all back"),
-    ("i do not need the cup any more, put it on the table", "put it on the table"),
+    ("i do not need the cup any more, put it on the table", "put the cup on the table"),
     ("do not bring me the red cup, bring the blue one", "bring the blue cup"),
     ("not the kitchen, go to the hall", "go to the hall"),
     ("bring me all cups that is not a mug", "bring me all cups except mugs"),

@@ -83,10 +83,13 @@ def is_told(clause: Tokens) -> bool:
     words = {token.typed for token in clause}
     if _is_own_plan(kinds):
         return True
-    if kinds[-2:-1] == ["BE"] and kinds[-1] in _LANDMARK:  # *the room Anna is in* goes on with what comes before
+    if kinds[-2:-1] == ["BE"] and kinds[-1] in _LANDMARK - {
+        "BESIDE"
+    }:  # *the room Anna is in* goes on with what comes before
         return False
     verb = _verb(clause)
     asking = _ASKING_FOR - {"SHOULD"} if _is_misplaced(clause, verb) else _ASKING_FOR
+    asking -= {"SHOULD"} if kinds[-3:] == ["SHOULD", "BE", "WORD"] else set()  # *the juice should be cold*
     asking -= {"WANTS"} if kinds[:2] == ["IT", "WANTS"] else set()  # *it gets cold*
     if verb is None or asking & set(kinds) or _WILLING & words or words & {"n't"}:
         return False

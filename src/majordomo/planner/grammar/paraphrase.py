@@ -29,10 +29,11 @@ from majordomo.planner.grammar.wording.naming import NAMING
 from majordomo.planner.grammar.wording.placing import PLACING
 from majordomo.planner.grammar.wording.relating import RELATING
 from majordomo.planner.grammar.wording.renaming import RENAMING
-from majordomo.planner.grammar.wording.returning import AGAIN, BACK, RETURNING
+from majordomo.planner.grammar.wording.returning import BACK, RETURNING
 from majordomo.planner.grammar.wording.sending import SENDING
 from majordomo.planner.grammar.wording.slips import MISTYPED
 from majordomo.planner.grammar.wording.sorting import SORTING
+from majordomo.planner.grammar.wording.undoing import TAKING_BACK
 from majordomo.planner.grammar.wording.visiting import VISITING
 from majordomo.planner.grammar.wording.wishing import WISHING
 
@@ -42,7 +43,7 @@ RULES: tuple[tuple[str, str], ...] = (
         *DICTATING,
         *ADDRESSING,
         *FOREIGN,
-        *AGAIN,
+        *TAKING_BACK,
         *AMOUNTS,
         *RETURNING,
         *SORTING,

@@ -14,7 +14,7 @@ MIN_TWICE = 8
 
 ORDINARY = frozenset(
     {"acre", "angel", "ate", "bare", "bat", "bean", "beard", "been", "best", "boat", "bond", "bone", "book",
-     "boot", "bored", "brain", "bread", "break", "bride", "cap", "cape", "card", "care", "cart", "cat", "coat",
+     "boot", "bored", "brain", "bread", "break", "bride", "cap", "cape", "card", "care", "cart", "cat", "coat", "cold",
      "cone", "cook", "cord", "dairy", "dart", "dear", "diary", "done", "drain", "earth", "east", "eat", "eats",
      "felt", "fine", "fond", "food", "foot", "form", "forms", "gallery", "gap", "goat", "gone", "good", "grain", "hat",
      "hate", "hated", "hates", "heart", "hood", "hook", "lame", "lap", "late", "least", "left", "line", "listen",

@@ -7,7 +7,8 @@ import re
 from majordomo.planner.vocabulary import singular
 
 _HEADING = re.compile(
-    r"^(?:please |can you |could you |let us )*(?:(?:tidy|clean|clear|sort|organi[sz]e|straighten|arrange|empty"
+    r"^(?:please |can you |could you |would you |will you |let us |time to )*(?:(?:free(?= up)"
+    r"|tidy|clean|clear|sort|organi[sz]e|straighten|arrange|empty"
     r"|unload)(?: (?:up|out|off|away))?(?: (?:a (?:little )?bit|a little|please))?"
     r"|(?:get|put|bring|set)(?= [\w' ]+? in(?:to)? (?:order|shape)\b))"
     r" ?(?P<what>[\w' ]*?)(?: in(?:to)? (?:order|shape)| by (?:colou?r|size|kind|type))?\s*"

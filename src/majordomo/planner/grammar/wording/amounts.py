@@ -21,6 +21,75 @@ _COLOR = r"(?:red|green|blue|yellow|black|white|brown|pink|purple|gray|grey|gold
 AMOUNTS: tuple[tuple[str, str], ...] = (
     (
         (
+            r"^(?:i|we) do not (?:want|need|like) ((?:the|my|that|this|those|these|his|her) [\w' ]+?)(?: (?:here"
+            r"|there|any ?more|now|in"
+            rf" here|any longer|lying around|around))*[,.;]+ {_SO}({_DEED}|throw) (?:it|them) (?=\w)"
+        ),
+        r"\2 \1 ",
+    ),
+    (
+        (rf"^no ([\w' ]+?) (on|in) ((?:the|my) [\w' ]+?)[,.;!]+ {_SO}({_DEED}) (?:it|them) (?=\w)"),
+        r"\4 the \1 \2 \3 ",
+    ),
+    (
+        (
+            rf"^((?:the|my|our|all the|those|these) [\w' ]+?) (?:do not|does not|should not|must not|can not) "
+            rf"(?:belong|be|lie|stay|"
+            rf"stand|live|go) (?:on|in|at) ((?:the|my) [\w' ]+?)[,.;!]+ {_SO}({_DEED}) (?:it|them) (?=\w)"
+        ),
+        r"\3 \1 from \2 ",
+    ),
+    (r"\b(?:all )?(?:the )?(?:stuff|things) (?=(?:from|off) (?:the|my)\b)", "everything "),
+    (
+        (
+            r"(?:(?<=^)|(?<=[.,;!] )|(?<=\band )|(?<=\bplease )|(?<=\byou ))(?:sweep|brush|shovel|scoop|tip|dump"
+            r"|shift) "
+            r"(everything|it all|all (?:the )?[\w' ]+?) (?=(?:on|from|off|in) )"
+        ),
+        r"put \1 ",
+    ),
+    (
+        (
+            rf"^(?:someone|somebody|they|people|the (?:kids|children|guests|boys|girls)|\w+) (?:has |have )?(?:left"
+            rf"|put|dropped|spread|"
+            rf"scattered|strewn) {_MANY}([\w' ]+?) {_ABOUT}(?: again)?[,.;!]+ {_SO}({_DEED}) (?:all of )?(?:it|them"
+            rf"|those)(?: all)?\b"
+        ),
+        r"\2 all the \1",
+    ),
+    (
+        (
+            rf"^((?:the|my|our) [\w' ]+?) (?:needs? to be|has to be|must be|should be|is to be) (?:cleared|tidied"
+            rf"|cleaned"
+            rf"|emptied|tidy|clean|sorted)(?: up| out)?[,.;:!]+ {_SO}"
+            r"(?=(?:take|put|bring|carry|move) (?:the|all|both|every|my)\b)"
+        ),
+        r"tidy \1: ",
+    ),
+    (
+        (
+            r"^(?:let us |time to |it is time to |please |can you |could you )*(?:clean|tidy|clear|sort)(?: things)? "
+            r"up[:,.!]+ (?=\w)"
+        ),
+        "",
+    ),
+    (
+        (
+            r" (?:in|from|throughout|around) the (?:whole |entire )?(?:building|house|flat|apartment|hospital|school)"
+            r"(?= (?:to|in|into|on|onto|go|goes|belong|belongs|should)\b)"
+        ),
+        "",
+    ),
+    (
+        (
+            r"\b(?:take|get|pull|dig|fish) out ((?:the|my|his|her|all the|both) [\w' ]+?)(?:,| and)+ (?:then )?"
+            r"(?=(?:put|bring|take|give|throw|carry|place) (?:it|them)\b)"
+        ),
+        r"take \1 and ",
+    ),
+    (r"^(?:please )?do (?=(?:put|bring|take|go|come|get|fetch|give|carry|move|return|find)\b)", ""),
+    (
+        (
             r"\b(?:the|my|our|these|those) ([\w' ]+?s),? all (two|three|four|five|six|seven|eight) of (?:them|these"
             r"|those)\b"
         ),
@@ -46,7 +115,8 @@ AMOUNTS: tuple[tuple[str, str], ...] = (
     ),
     (
         (
-            r"^(?:please |can you |could you |would you )*(?:clear|empty|unload|strip|tidy|clean)(?: (?:off|out|up))? "
+            r"^(?:please |can you |could you |would you )*(?:clear|empty|unload|strip|tidy|clean|free)(?: (?:off|out"
+            r"|up))? "
             rf"((?:the|my|our|his|her|\w+'s) [\w' ]+?)(?: (?:off|out|up|bare))?(?:[,.;:]| and|, and)+ (?:then )?{_SO}"
             rf"{_DEED} {_ALL_OF_IT} (?:back |over |away )?(?=(?:to|in|into|on|onto|inside)\b)"
         ),
@@ -72,7 +142,8 @@ AMOUNTS: tuple[tuple[str, str], ...] = (
     (r"^(?:please )?make (?:some |more |a bit of )?(?:room|space) (?:on|in|at) ([^:,.;]+)[:,.;]+ (?=\w)", r"tidy \1: "),
     (
         (
-            r"^(?:please |can you |could you )*(?:put|tidy|clear|pack|stow)(?: (?:away|up))? ((?:the|all|all the|my"
+            r"^(?:please |can you |could you )*(?:(?:put|pack|stow)(?: (?:away|up))?|(?:tidy|clear) (?:away|up)) "
+            r"((?:the|all|all the|my"
             r"|these|those)"
             r" (?:(?! of )[\w' ])+?)(?: (?:away|up))?[,.;:]+ (?:they|it|these|those) (?:all |both )?(?:go(?:es)?"
             r"|belongs?|live"
@@ -195,7 +266,7 @@ AMOUNTS: tuple[tuple[str, str], ...] = (
     (r"\bon (?:the|your) way (?:back|there|home|over)\b,? ?", ""),
     (
         (
-            r"(?:(?<=^)|(?<=[.,;!] )|(?<=\band )|(?<=\bthen )|(?<=\bplease )|(?<=\byou ))(?:stash|keep|rest|prop"
+            r"(?:(?<=^)|(?<=[.,;!] )|(?<=\band )|(?<=\bthen )|(?<=\bplease )|(?<=\byou ))(?:stash|keep|park|rest|prop"
             r"|lean|perch"
             r"|shelve|stand|balance|tuck away|stow away|hide) ((?:it|them|(?:the|my|our|his|her|all|both|\w+'s) "
             r"[\w' ]+?)) "

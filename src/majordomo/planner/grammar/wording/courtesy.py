@@ -73,7 +73,7 @@ COURTESY: tuple[tuple[str, str], ...] = (
     (
         (
             r"\b(?:be |being )?(?:so )?(?:good|kind|nice|sweet|gracious|obliging|lovely) (?:as|enough) to "
-            r"(?=(?:bring|take|put|go|come|get|fetch|give|carry|move|find|look|tell|pick|drive|pop|head|return)\b)"
+            r"(?=\w)"
         ),
         "",
     ),

@@ -192,13 +192,6 @@ GOING: tuple[tuple[str, str], ...] = (
     ),
     (
         (
-            r"^(\w+)(?:'s| is| has been) (?:asking|looking|waiting|calling|hoping) for you,? (?=(?:in"
-            r"|at|by|near|next|on) )"
-        ),
-        "go ",
-    ),
-    (
-        (
             r"^(\w+)(?:'s| is| has been) (?:asking|looking|waiting|calling) for you[,.;!]+ (?:so "
             r"|please )*(?:go|come)(?: and)? (?:see|meet|join|find|visit) (?:him|her|them)"
             r"(?: (?:in|at) ([\w ]+?))?(?=[.!]*$)"
@@ -213,7 +206,10 @@ GOING: tuple[tuple[str, str], ...] = (
         "go to ",
     ),
     (
-        r"\b(?:stand|wait|stop|park|stay|sit) (?:yourself )?(?:right )?(?:in front of|opposite|across from|facing) ",
+        (
+            r"\b(?:stand|wait|stop|park|stay|sit) (?:yourself )?(?:right |just )?(?:in front of|opposite|across from"
+            r"|facing|outside) "
+        ),
         "go to ",
     ),
     (r"\bcome in(?:to)? (?=(?:the|my|our)\b)", "go to "),

@@ -43,12 +43,13 @@ HEADING: tuple[tuple[str, str], ...] = (
     ),
     (
         (
-            rf"^({_THING})[.!]+ (?:here|to me|over here|bring|fetch|give|now)(?:[.!,]+ (?:now|here|"
+            rf"^({_THING})[.!]+ (?:here|to me|over here|bring|fetch|give)(?:[.!,]+ (?:now|here|"
             rf"quick|please|at once|"
             r"immediately|to me|chop chop))*(?=[.!]*$)"
         ),
         r"bring me \1",
     ),
+    (rf"^({_THING})[.!,]+ (?:now|quick|quickly|at once|immediately|asap|hurry)(?=[.!]*$)", r"\1"),
     (r"(?:(?<=^)|(?<=[.!?,;] ))(give|bring|hand|pass|fetch|get) (me|us)(?: please| now)?(?=[.!]*$)", r"\1 \2 it"),
     (
         r"^((?:the|my|an?|that|this|his|her|both|all) [^.;:!?,]+?)[.!]+ (?=(?:to|into|onto|in|on|for) [\w' ]+[.!]*$)",

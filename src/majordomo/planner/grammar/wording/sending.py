@@ -15,8 +15,29 @@ _SOON = (
 )
 
 SENDING: tuple[tuple[str, str], ...] = (
+    (
+        (
+            r"\b([^\W\d]+)'s (?=(?:lonely|waiting|expecting|hoping|sad|bored|scared|alone|crying|upset|happy|afraid"
+            r"|cold|hot|late|hurt|awake"
+            r"|up|back"
+            r"|poorly|unwell|feeling|starving|freezing|exhausted|worried|nervous)\b)"
+        ),
+        r"\1 is ",
+    ),
+    (
+        (
+            r"^there (?:is|are) (?:someone|somebody|people|an? (?:\w+ )?(?:visitor|guest|man|woman|child|kid"
+            r"|customer|patient|stranger"
+            r"|person)|(?:visitors|guests|kids|children|customers|patients)) (?=(?:in|at|by|on|near"
+            r"|outside)\b)([^,.;]+?)[,.;]+ (?:so "
+            r"|and |please |can you |could you )*(?:go|drive|head|pop|run)(?: over| on over)? (?:there|to (?:him|her"
+            r"|them)|and (?:see"
+            r"|meet|greet|help|welcome)[^,.;]*|see[^,.;]*)(?=[.!?]*$)"
+        ),
+        r"go \1",
+    ),
     (rf"{_START}get (?:yourself )?{_WAY}(?:in)?to (?=(?:the|my|our|\w+'s|room|ward|office|classroom)\b)", "go to "),
-    (rf"{_START}park(?: yourself| up)? (?=(?:next to|beside|by|near|at|in front of|in|outside) )", "go "),
+    (rf"{_START}park(?: yourself| up)? (?=(?:next to|beside|by|near|at|in(?! front)) )", "go "),
     (
         (
             r"(?<=\w)[,;.!]+ (?:because )?you are (?:in (?:the|my|our|his|her) way|standing in (?:the|my|our) way|late"
@@ -51,14 +72,6 @@ SENDING: tuple[tuple[str, str], ...] = (
             rf"([^,.;!?]+?){_SOON}(?=[.!]*$)"
         ),
         r"go \1",
-    ),
-    (
-        (
-            r"\b([^\W\d]+)'s (?=(?:lonely|sad|bored|scared|alone|crying|upset|happy|afraid|cold|hot|late|hurt|awake"
-            r"|up|back"
-            r"|poorly|unwell|feeling|starving|freezing|exhausted|worried|nervous)\b)"
-        ),
-        r"\1 is ",
     ),
     (
         (
@@ -109,7 +122,8 @@ SENDING: tuple[tuple[str, str], ...] = (
     ),
     (
         (
-            r"\b(?:make|take|do) (?:a|your|one|the) (?:\w+ )?(?:detour|swing|run|trip|tour) (?:through|via|past|by way "
+            r"\b(?:make|take|do) (?:a|your|one|the) (?:\w+ )?(?:detour|swing|run|trip|tour|loop|lap|round) "
+            r"(?:through|via|past|by way "
             r"of|round) "
         ),
         "go to ",
@@ -121,5 +135,99 @@ SENDING: tuple[tuple[str, str], ...] = (
         ),
         "",
     ),
+    (
+        (
+            r"^(?:i would (?:rather|prefer it if|like it if|love it if)|i wish|it would be (?:better|best|nice|good) "
+            r"if) you (?:were|went"
+            rf"|stayed|waited|stood|would be|would go) {_WAY}{_AT}"
+        ),
+        "go ",
+    ),
+    (
+        (
+            r"\b(?:leave|get out of|exit|quit|vacate) (?:this (?:room|place)|here|the [\w ]+?)(?:,| and|, and|,? "
+            r"then)+ (?:then )?"
+            r"(?=(?:go|come|drive|head|move)\b)"
+        ),
+        "",
+    ),
+    (r"\bcome (?:along |over )?with (?:me|us) (?:over |down |up )?(?:in)?to (?=\w)", "go to "),
+    (
+        (
+            r"\b(?:take|have|go for) a (?:\w+ )?(?:wander|potter|amble|ramble|roam|saunter)(?: over| down| up| "
+            r"along)* (?:in)?to "
+        ),
+        "go to ",
+    ),
+    (r"\b(?:how|what) about (?:you )?(?:going|heading|driving|moving|coming) (?=\w)", "go "),
+    (
+        (
+            r"^why (?:do not you|do you not|not) (?=(?:go|come|drive|head|bring|take|put|get|fetch|give|carry|move"
+            r"|return)\b)"
+        ),
+        "",
+    ),
+    (
+        (
+            r"^you (?:might|may|could|had better|would better|ought to|are to|will|shall)(?: perhaps| maybe)? "
+            r"(?:want to |wish to "
+            r"|like to |have to |now )*(?=(?:go|come|drive|head|bring|take|put|get|fetch|give|carry|move|return"
+            r"|report|proceed)\b)"
+        ),
+        "",
+    ),
+    (
+        (
+            rf"^{_WHO} (?:is|has been) (?:asking|looking|waiting|calling|hoping)(?: for you)?,? ((?:in|at|by|on) "
+            rf"(?:the|my|\w+'s|room|ward"
+            rf"|office) ?[\w' ]*?)"
+            r"(?:[,.;!]+ (?:so )?(?:off you go|go|hurry))?(?=[.!]*$)"
+        ),
+        r"go to \1 \2",
+    ),
+    (rf"^(?:please )?(?:go (?:and )?)?(?:meet|join|catch) (?!me\b|us\b)(\w+) {_AT}", r"go to \1 "),
+    (rf"^{_WHO} (?:expects|awaits|is expecting|is awaiting) you(?: now| soon)?(?=[.!]*$)", r"go to \1"),
+    (
+        (
+            rf"^{_WHO} (?:needs|wants|could use|would like|requests|requires|is asking for|asks for) your "
+            rf"(?:presence|company|help"
+            r"|assistance|attention)(?: now| please)?( (?:in|at|by|on) [^,.;]+?)?(?=[.!]*$)"
+        ),
+        r"go to \1\2",
+    ),
+    (
+        (
+            r"\b(?:go |run |drive |pop )?(?:and |over )?(?:see|check|look|find out) (?:how|what) (\w+) is (?:doing"
+            r"|up to|getting on|at)"
+            r"(?=,? (?:and|then) (?:then )?(?:come|go|return|be|get)\b)"
+        ),
+        r"go to \1",
+    ),
+    (
+        (
+            r"^first(?: of all)?,? (?:to )?((?:the |my )?(?!go\b|come\b|the\b)\w+(?: room| office| \d+)?),? (?:and "
+            r")?then "
+            r"(?=(?:come|go|return|back|drive)\b)"
+        ),
+        r"go to \1, then ",
+    ),
+    (
+        (
+            r"(?:,| and|, and| then)+ (?:wait|stay|stop|pause|linger|rest)(?: there)?(?: for)? (?:a (?:\w+ "
+            r")?(?:moment|minute|second"
+            r"|bit|while|sec)|\w+ (?:seconds|minutes))(?: there)?(?=(?:,| and|, and| then)+ (?:then )?(?:come|go"
+            r"|return|back|drive|get)\b)"
+        ),
+        ", wait there",
+    ),
+    (
+        (
+            r"\b(come|get|be|drive|head|go) (?:straight |right )?back(?: here)? to (?:tell|inform|report to|let) "
+            r"(?:me|us)(?: know)?"
+            r"(?: about (?:it|that)| (?:what|who|if|whether|how) [^,.;!?]+)?(?=[.!]*$)"
+        ),
+        r"\1 back to me",
+    ),
+    (r"\bcheck (?:on |out |up on )?(?=(?:room|ward|office|classroom|meeting room) \w+)", "go to "),
 )
 """In the order in which they are tried."""

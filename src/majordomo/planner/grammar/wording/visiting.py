@@ -14,18 +14,21 @@ _PLACE = r"((?:in|at|on|by|near|next to) [^,.;!?]+?)"
 _WATCH = (
     r"(?:keep (?:an eye|watch) (?:on|over)|look after|watch(?: over)?|mind|man|check(?: on)?|see to|attend to|hold "
     r"the fort"
-    r" (?:in|at)|be (?:in|at|by|on duty (?:in|at))|stand guard (?:in|at|by)|wait (?:in|at|by))"
+    r" (?:in|at)|(?:be|stay|go|stand) (?:in|at|by|on duty (?:in|at))|stand guard (?:in|at|by)|wait (?:in|at|by))"
 )
 
 VISITING: tuple[tuple[str, str], ...] = (
     (r"(?<=\byou )(?:(?:kindly|please|just|quickly|possibly|simply|also|maybe|perhaps) )+(?=\w)", ""),
     (
         (
-            rf"^(?:some(?:one|body)|you|the robot) (?:has|have|needs?|ought|is supposed|had better)(?: to)? {_WATCH} "
+            rf"^(?:some(?:one|body)|you|the robot) (?:has|have|needs?|ought|is supposed|had better|should|must)(?: "
+            rf"to)? "
+            rf"{_WATCH} "
             rf"([^,.;]+?)"
             r"[,.;]+ (?:so |and |then |that is you, )*(?:off you go|off with you|go|go there|over there with you|you "
             r"go|"
-            r"it is you|you do it|go on|get going)(?: now| then| please)?(?=[.!]*$)"
+            r"it is you|you do it|go on|get going|(?:can|could|will|would) you(?: go| do it)?)(?: now| then| "
+            r"please)?(?=[.!]*$)"
         ),
         r"go to \1",
     ),

@@ -3,6 +3,22 @@
 from __future__ import annotations
 
 DEEDS: list[tuple[str, str]] = [
+    ("leave the green folder, take the others to the hall", "take all the folders except the green one to the hall"),
+    ("go over there to the couch", "go to the couch"),
+    ("go hang out in the hall", "go to the hall"),
+    ("away with you to the bathroom", "go to the bathroom"),
+    ("you are supposed to go to the office", "go to the office"),
+    ("the kitchen is where you are needed", "go to the kitchen"),
+    ("proceed without delay to the library", "go to the library"),
+    ("take the route through the kitchen to the hall", "go to the kitchen, then go to the hall"),
+    ("see if you can get to the terrace", "go to the terrace"),
+    ("pick the pencil up off the desk", "pick up the pencil from the desk"),
+    ("first things first: bring the milk", "bring the milk"),
+    ("go to the hall and come back with the banana", "go to the hall, then bring me the banana"),
+    ("give victor the photo and tell me when you are done", "give victor the photo"),
+    ("the cup from the hall, but not the blue one, to anna", "the cup from the hall that is not blue to anna"),
+    ("no red cans, just bring me the green one", "bring me the green can"),
+    ("leave the green folder, take the red folder", "do not move the green folder, but take the red folder"),
     ("i do not want the candle here, put it on the table", "put the candle on the table"),
     ("i no longer need the cup now, go to the hall", "go to the hall"),
     ("no toys on the floor, put them in the box", "put the toys on the floor in the box"),

@@ -89,7 +89,7 @@ def is_told(clause: Tokens) -> bool:
         return False
     verb = _verb(clause)
     asking = _ASKING_FOR - {"SHOULD"} if _is_misplaced(clause, verb) else _ASKING_FOR
-    asking -= {"SHOULD"} if kinds[-3:] == ["SHOULD", "BE", "WORD"] else set()  # *the juice should be cold*
+    asking -= {"SHOULD"} if _is_wished(clause) else set()
     asking -= {"WANTS"} if kinds[:2] == ["IT", "WANTS"] else set()  # *it gets cold*
     if verb is None or asking & set(kinds) or _WILLING & words or words & {"n't"}:
         return False
@@ -126,6 +126,14 @@ def _is_misplaced(clause: Tokens, verb: int | None) -> bool:
     """*The knife should not lie there*: why it is to be moved."""
     rest = [token.type for token in clause[verb:]] if verb is not None else []
     return rest[:2] == ["SHOULD", "NOT"] and rest[-1] in ("THERE", "HERE", "OVER_THERE")
+
+
+def _is_wished(clause: Tokens) -> bool:
+    """*The juice should be cold*: how something should be, and nothing to be done with it."""
+    kinds = [token.type for token in clause[-3:]]
+    return (
+        kinds == ["SHOULD", "BE", "WORD"] and clause[-3].typed == "should" and clause[-1].typed[-2:] not in ("ed", "en")
+    )
 
 
 def _is_inability(clause: Tokens, verb: int) -> bool:

@@ -2,7 +2,37 @@
 
 from __future__ import annotations
 
+_COLOR = r"(?:red|green|blue|yellow|black|white|brown|pink|purple|gray|grey|gold|silver)"
+
 CHOOSING: tuple[tuple[str, str], ...] = (
+    (
+        rf",? but not the ({_COLOR})(?: ones?)?,? (?=(?:to|for|in|on|into|onto|goes?|should)\b)",
+        r" that is not \1 ",
+    ),
+    (
+        (
+            rf"^no {_COLOR} (\w+?)s?,? (?:please,? )?(?:just |but |only )*((?:bring|give|take|get|fetch"
+            rf"|put)\b.*?\bthe \w+) ones?\b"
+        ),
+        r"\2 \1",
+    ),
+    (
+        (
+            rf"^(?:leave|skip|ignore|spare|do not (?:touch|take|move)) the ({_COLOR}) (\w+?)s?(?: alone| out| be| "
+            rf"there)?[,.;]"
+            r"(?: and| but)* (take|bring|put|carry|move) (?:all )?the others?(?: ones| \2s?)? (?=(?:to|in|on|into"
+            r"|onto)\b)"
+        ),
+        r"\3 all the \2s except the \1 one ",
+    ),
+    (
+        (
+            r"^(?:leave|skip|ignore|spare) (the [\w ]+?)(?: alone| out| be)?,(?: and| but)* (?=(?:take|bring|put"
+            r"|carry|move)"
+            r" (?:the|all|my|both|every))"
+        ),
+        r"do not move \1, but ",
+    ),
     (
         r"\ball (?:but|except|save|minus) (one|two|three|four|five|\d+) (?:of )?(?:the |my |our )?(?=\w+s\b)",
         r"allbut \1 of the ",

@@ -229,5 +229,44 @@ SENDING: tuple[tuple[str, str], ...] = (
         r"\1 back to me",
     ),
     (r"\bcheck (?:on |out |up on )?(?=(?:room|ward|office|classroom|meeting room) \w+)", "go to "),
+    (r"\b(go|drive|head|move|come) (?:over |up |down )?there,? to (?=(?:the|my|our)\b)", r"\1 to "),
+    (
+        (
+            r"\bgo (?:and )?(?:hang (?:out|around|about)|sit(?: down)?|lounge|rest|chill|relax) (?=(?:in|at|by|near"
+            r"|next to|on"
+            r"|beside) )"
+        ),
+        "go ",
+    ),
+    (r"^(?:and |now )*(?:back|away|off)(?: (?:off|over|down|up|you go|with you))+ (?:in)?to (?=\w)", "go to "),
+    (r"^you are (?:supposed|meant|expected|required|requested|asked) to (?=\w)", ""),
+    (
+        r"^(?:the )?([\w' ]+?) is where you are (?:needed|wanted|expected|required|supposed to be)(?: now)?(?=[.!]*$)",
+        r"go to the \1",
+    ),
+    (r",? without (?:any )?(?:further )?(?:delay|ado|hesitation|hesitating|dawdling)\b,?", ""),
+    (
+        (r"\btake the (?:route|way|path|road) (?:through|via|past|by way of) ([\w' ]+?) to (?=\w)"),
+        r"go to \1, then go to ",
+    ),
+    (r"^see (?:if|whether) you can (?:get|make it|go|drive|come|make your way) (?:in)?to ", "go to "),
+    (r"\bpick ((?:the|my|his|her|that) [\w ]+?) up (?:off|from|out of) (?=\w)", r"pick up \1 from "),
+    (r"^first things first[:,.!]* (?=\w)", ""),
+    (
+        (
+            r"(?:,| and|, and| then)+ (?:then )?(?:come|get|return|be) (?:straight |right )?back(?: here| to me)? with "
+            r"((?:the|my|some|an?|his|her) [\w' ]+?)(?=[.!]*$)"
+        ),
+        r", then bring me \1",
+    ),
+    (
+        (
+            r"(?:,|\.|;)?(?: and)? (?:tell|let|inform) me(?: know)?,? (?:when|once|if|after|as soon as) (?:you are "
+            r"(?:done|finished"
+            r"|there|back|ready)|(?:it|that) is done|you have (?:done|finished)(?: it| that)?|everything is "
+            r"done)(?=[.!]*$)"
+        ),
+        "",
+    ),
 )
 """In the order in which they are tried."""

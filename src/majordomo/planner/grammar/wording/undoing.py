@@ -140,7 +140,8 @@ TAKING_BACK: tuple[tuple[str, str], ...] = (
     ),
     (
         (
-            r"^((?:.*\b)?(?:need|want|have|borrow|like|get|give me|lend me|bring me|hand me|pass me)\b[^.;]*?),? "
+            r"^((?:.*\b)?(?:need|want|have|borrow|like|get|carry|hold|keep|give me|lend me|bring me|hand me|pass "
+            r"me)\b[^.;]*?),? "
             r"(?:just )?"
             r"for (?:a|an|one|just a|two|three|five|ten|a few|a couple of|half an) (?:little |short |quick "
             r")?(?:while|bit"

@@ -26,6 +26,7 @@ from majordomo.planner.grounding import Ambiguous, Context, Grounding, NoReferen
 from majordomo.planner.matching import nouns_of
 from majordomo.planner.meant import Meant, without_steps_between
 from majordomo.planner.naming import aim_phrase, listed, name_of
+from majordomo.planner.notes import spelled_out
 from majordomo.planner.plan import Dialogue, Exchange, Interpretation, Kind
 from majordomo.planner.reports import ABILITIES
 from majordomo.planner.revision import Reviser, Revision, is_place, repair, restated, revision
@@ -210,6 +211,7 @@ class Interpreter:
 
     def _ground(self, steps: Sequence[ParsedStep], snapshot: Snapshot, dialogue: Dialogue, choices: Choices) -> Reading:
         context = _context(dialogue, choices, snapshot)
+        steps = spelled_out(steps, self.grounding(snapshot), context)
         meanings = Discourse(self.grounding(snapshot), context).meanings(steps)
         if isinstance(meanings, Stuck):
             return _stuck(meanings, steps)

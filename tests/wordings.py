@@ -74,7 +74,7 @@ MORE: list[tuple[str, str]] = [
     ("maybe the cup could go on the desk", "put the cup on the desk"),
     ("go to the pantry and stay put there", "go to the pantry and stay there"),
     ("robot please to come in the kitchen", "go to the kitchen"),
-    ("we name the waiting room lounge now", "call the waiting room the lounge"),
+    ("we name the waiting room lounge now", "call the waiting room lounge"),
     ("give me whichever umbrella is black", "give me the umbrella that is black"),
     ("to the gym with you, my metal friend", "go to the gym"),
     ("could you inform us where the key is", "where is the key"),
@@ -147,7 +147,7 @@ MORE: list[tuple[str, str]] = [
     ("victor would like the red pen or the blue one, whichever", "victor would like a red or blue pen"),
     (
         "if there is nothing in the gray box, put the folder in it",
-        "unless there is anything in the gray box, put the folder in it",
+        "if there is nothing in the gray box, put the folder in it",
     ),
     ("pick up the hairbrush and bring it with you to the office", "pick up the hairbrush and bring it to the office"),
     ("the only purple book in the house, i would like to read it", "the only purple book in the house, bring me it"),

@@ -185,16 +185,26 @@ class Answers:
 
     def _list(self, ask: Ask, present: Sequence[str], context: Context) -> str:
         shown = [i for i in present if i not in self._targets(ask, context)]
-        if not shown and self._asks_who(ask):
-            return self._people()
         if not shown:
-            return f"I know of no {_phrase(ask)} there." if ask.things else "I know of nothing there."
+            return self._nothing(ask, context)
         targets = self._targets(ask, context)
         if len(targets) > 1 and not ask.things:
             return self._by_place(shown, targets)
         if ask.things:
             return f"{capital(listed([describe(i, self._snapshot) for i in shown[: 2 * MAX_NAMED]]))}."
         return f"I have seen {self._inventory(shown)} there."
+
+    def _nothing(self, ask: Ask, context: Context) -> str:
+        """Nobody is there: who is elsewhere; of a thing that was to be described, where it is."""
+        if self._asks_who(ask):
+            return self._people()
+        if ask.things:
+            return f"I know of no {_phrase(ask)} there."
+        things = self._state.world.things
+        carried = [i for i in self._targets(ask, context) if i in things and things[i].graspable]
+        if carried and ask.place is not None and ask.place.relation == "at":
+            return self._where(carried, rooms_only=False)
+        return "I know of nothing there."
 
     def _asks_who(self, ask: Ask) -> bool:
         return bool(ask.things) and isinstance(ask.things[0], NounPhrase) and ask.things[0].person

@@ -24,7 +24,13 @@ MAX_WORDS = 14
 
 
 def spoken_for(answer: str, candidates: Sequence[str], lexicon: Lexicon, grounding: Grounding) -> tuple[str, ...]:
-    """The one candidate that fits every color, thing, room and person in ``answer``; empty if there is not just one.
+    """The one candidate that fits every color, thing, room and person in ``answer``; empty if there is not just one."""
+    fitting = left_by(answer, candidates, lexicon, grounding)
+    return fitting if len(fitting) == 1 else ()
+
+
+def left_by(answer: str, candidates: Sequence[str], lexicon: Lexicon, grounding: Grounding) -> tuple[str, ...]:
+    """All candidates that fit every color, thing, room and person in ``answer``.
 
     An answer that acts, denies, joins or asks chooses nothing; nor does one that speaks of nothing that is known.
     """
@@ -32,8 +38,7 @@ def spoken_for(answer: str, candidates: Sequence[str], lexicon: Lexicon, groundi
     if len(words) > MAX_WORDS or _UNDECIDED & set(words) or _ACTING & set(words):
         return ()
     telling = [word for word in words if word not in _EMPTY and _tells(word, lexicon)]
-    fitting = [i for i in candidates if all(_fits(word, i, grounding) for word in telling)]
-    return tuple(fitting) if telling and len(fitting) == 1 else ()
+    return tuple(i for i in candidates if all(_fits(word, i, grounding) for word in telling)) if telling else ()
 
 
 def _tells(word: str, lexicon: Lexicon) -> bool:

@@ -63,6 +63,8 @@ class Comparing:
         ordered = sorted(named, key=lambda i: -numbers[i] if ask.word == "more" else numbers[i])
         told = [f"{self._called(i)}: {_many(numbers[i], wanted)}" for i in ordered]
         lead = "As many. " if len(set(numbers.values())) == 1 else ""
+        if ask.least:
+            lead = f"{'Yes' if not lead and ordered[0] == named[0] else 'No'}. {lead}"
         return Report(text=f"{lead}{capital('; '.join(told))}.", nodes=tuple(ordered))
 
     def _compared(self, ask: Ask, context: Context) -> Report | NoReferent | Ambiguous:

@@ -48,6 +48,8 @@ class Ambiguous:
     candidates: tuple[str, ...]
 
 
+AMONG = "among "
+"""Before a phrase: the candidates that an answer left, when it did not leave one."""
 Grounded = tuple[str, ...] | NoReferent | Ambiguous
 
 
@@ -59,6 +61,7 @@ class Context:
     to earlier questions, by phrase. ``focus``: the room the request has just gone to. ``noun``: for *the red one*.
     ``origins``: where things were before they were moved. ``earlier``: what was asked before, the newest first.
     ``taken``: things of the steps before, which *one more* is not.
+    ``last``: what the turn before spoke of.
     ``unsettled``: why *it* names nothing, when what was spoken of last is not known.
     """
 
@@ -73,6 +76,7 @@ class Context:
     earlier: tuple[Exchange, ...] = ()
     unsettled: NoReferent | Ambiguous | None = None
     taken: frozenset[str] = frozenset()
+    last: tuple[str, ...] = ()
 
 
 class Grounding:
@@ -177,12 +181,13 @@ class Grounding:
             return tuple(people[:1]) or NoReferent(reason="I do not know whom you mean.")
         if word == "both":
             spoken = tuple(i for i in context.mentioned if i in context.taken)
-            pair = two_of(context.fresh, spoken, context.earlier)
+            last = self._told_last(context)
+            pair = two_of(context.fresh, spoken, context.earlier) or (last if len(last) == 2 else ())
             return pair or NoReferent(reason="I do not know which two things you mean.", asks=True)
         if word in ("them", "all") and not context.fresh:
-            moved = moved_together(context.earlier, self.state, everything=word == "all")
-            if len(moved) > 1:
-                return moved
+            together = self._told_last(context) or moved_together(context.earlier, self.state, everything=word == "all")
+            if len(together) > 1:
+                return together
         return self._it(context)
 
     def _there(self, context: Context) -> tuple[str, ...]:
@@ -192,7 +197,18 @@ class Grounding:
         placed = [goal.args[-1] for exchange in context.earlier[:1] for goal in exchange.goals[-1:]]
         spoken = [i for i in (*placed, *context.fresh, *context.mentioned) if i in self.snapshot]
         rooms = [i for i in spoken if not isinstance(self.snapshot.get(i), ObjectNode) or self._is_place(i)]
-        return tuple(rooms[:1])
+        origins = [origin for i in context.last[:1] if (origin := self.origin(i)) is not None]
+        return tuple((rooms or origins)[:1])
+
+    def _told_last(self, context: Context) -> tuple[str, ...]:
+        """What an answer spoke of, if the turn before was a question."""
+        asked = not context.earlier or not context.earlier[0].goals
+        return self._carriable(context.last) if asked else ()
+
+    def _carriable(self, spoken: Sequence[str]) -> tuple[str, ...]:
+        """The things among what was spoken of: those that can be carried, if there are any."""
+        objects = tuple(i for i in spoken if isinstance(self.snapshot.get(i), ObjectNode))
+        return tuple(i for i in objects if not self._is_place(i)) or objects
 
     def _is_place(self, node_id: str) -> bool:
         thing = self.state.world.things.get(node_id)
@@ -239,7 +255,8 @@ class Grounding:
             case _ if (_plural(phrase) and phrase.quantity is not Quantity.BARE) or is_collective(phrase):
                 return found
             case _:
-                return self._one(text, found, context)
+                last = phrase.words == ("one",) and not context.fresh
+                return self._one(text, found, replace(context, fresh=context.last) if last else context)
 
     def _others(self, found: tuple[str, ...], context: Context) -> tuple[str, ...]:
         """Those that were not spoken of; *other* means nothing when none was."""
@@ -301,6 +318,7 @@ class Grounding:
         chosen = tuple(i for i in context.choices.get(text, ()) if i in found)
         if chosen:
             return chosen
+        found = tuple(i for i in context.choices.get(f"{AMONG}{text}", ()) if i in found) or found
         return Ambiguous(question=which_question(ask, text, found, self.snapshot), phrase=text, candidates=found)
 
     def nothing(self, phrase: NounPhrase, context: Context) -> NoReferent:

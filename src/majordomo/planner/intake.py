@@ -73,6 +73,7 @@ class Intake:
         self._interpreter, self._verifier = interpreter, verifier
         self._on_event, self._interpret_s, self._paper = on_event, interpret_s, paper
         self._mentioned: tuple[str, ...] = ()
+        self._last: tuple[str, ...] = ()
         self._origins: dict[str, str] = {}
 
     async def take(self, task: Task, stamp_s: float, *, busy: bool = False) -> Ready | None:
@@ -84,7 +85,11 @@ class Intake:
             return self._plan(task, task.plan.goals, Source(task.plan.source), stamp_s)
         snapshot = self._memory.building()
         dialogue = Dialogue(
-            answers=task.dialogue, mentioned=self._mentioned, earlier=self._earlier(task), origins=self._origins
+            answers=task.dialogue,
+            mentioned=self._mentioned,
+            earlier=self._earlier(task),
+            origins=self._origins,
+            last=self._last,
         )
         try:
             async with asyncio.timeout(self._interpret_s):
@@ -164,6 +169,7 @@ class Intake:
 
     def _remember(self, meaning: Interpretation) -> None:
         spoken = (*meaning.mentioned, *(arg for goal in meaning.goals for arg in goal.args))
+        self._last = tuple(dict.fromkeys(spoken)) or self._last
         self._mentioned = tuple(dict.fromkeys((*spoken, *self._mentioned)))[:MENTIONS]
 
     def _emit(self, stamp_s: float, event: str, **fields: Any) -> None:

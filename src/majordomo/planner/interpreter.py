@@ -29,7 +29,7 @@ from majordomo.planner.naming import aim_phrase, listed, name_of
 from majordomo.planner.notes import spelled_out
 from majordomo.planner.plan import Dialogue, Exchange, Interpretation, Kind
 from majordomo.planner.reports import ABILITIES
-from majordomo.planner.revision import Reviser, Revision, is_place, repair, restated, revision
+from majordomo.planner.revision import Reviser, Revision, is_place, repair, restated, revision, thing_meant
 from majordomo.planner.verifier import Verifier
 from majordomo.planner.vocabulary import normal
 from majordomo.scene_graph.nodes import ObjectNode, PersonNode
@@ -147,6 +147,7 @@ class Interpreter:
             if again is not None:
                 return again
             return self.read(about.rest, snapshot, replace(dialogue, earlier=())) if about.how == "correct" else None
+        about = replace(about, rest=thing_meant(about.rest))
         reviser = Reviser(self.grounding(snapshot), _context(dialogue, choices, snapshot))
         if about.how == "again":
             return self.checked([reviser.again(earlier)], snapshot, choices)
@@ -158,8 +159,12 @@ class Interpreter:
             outcome = reviser.by_place(understood.readings, earlier) if understood is not None else None
         if outcome is None:
             alone = self._whole(about.rest, snapshot, dialogue, choices)
-            if _settled(alone) or about.how != "correct":
+            if _settled(alone):
                 return alone
+            if about.how != "correct":
+                verb = earlier.request.split(maxsplit=1)[0]  # *bring Ben the remote* | *and Anna the newspaper*
+                same = self._whole(f"{verb} {about.rest}", snapshot, dialogue, choices)
+                return same if same.interpretation.kind is Kind.PLAN else alone
             return self._restated(earlier.request, about.rest, snapshot, dialogue, choices) or alone
         return self.checked([outcome], snapshot, choices) if isinstance(outcome, Meant) else _troubled(outcome)
 
@@ -296,6 +301,7 @@ def _context(dialogue: Dialogue, choices: Choices, snapshot: Snapshot) -> Contex
         choices=choices,
         origins=dialogue.origins,
         earlier=dialogue.earlier,
+        last=dialogue.last,
     )
 
 

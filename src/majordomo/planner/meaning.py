@@ -271,10 +271,16 @@ class Meaning:
             found = self._returning.among(found, self._gathering.to_carry(things, context), context)
         if not isinstance(found, tuple):
             return found
+        if isinstance(reference, Pronoun) and set(found) <= self._named(things, context):
+            found = context.places[:1] or found  # *if the box is empty, put the folder in it*
         if len(found) > 1:
             question = "Which one of them do you mean?"
             return Ambiguous(question=question, phrase="", candidates=found)
         return found[0]
+
+    def _named(self, references: tuple[Reference, ...], context: Context) -> set[str]:
+        phrases = [r for r in references if isinstance(r, NounPhrase)]
+        return {i for phrase in phrases for i in self._grounding.matches(phrase, context)}
 
     def predicate(self, relation: str, place: str) -> Predicate:
         """What putting something *to*, *in*, *on* or *near* a place means there."""

@@ -137,6 +137,9 @@ class Narrowing:
                 return [i for i in candidates if i in self._alike(candidates, restriction)]
             case "sort":
                 return self._of_sort(candidates, restriction)
+            case "spoken" if restriction.reference is not None:
+                spoken = self._grounding.things(restriction.reference, context)
+                return [i for i in candidates if i in spoken] if isinstance(spoken, tuple) else []
             case "held":
                 return [i for i in candidates if i == self._state.holding]
             case "here":

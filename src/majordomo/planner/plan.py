@@ -172,6 +172,7 @@ class Dialogue:
     ``answers``: the robot's questions about this very request and what was answered, oldest first. ``mentioned``:
     identifiers spoken of in earlier requests, the newest first. ``speaker``: the person who asks, if known.
     ``earlier``: what was asked before, the newest first. ``origins``: where things were before they were last moved.
+    ``last``: identifiers that the turn before spoke of, which *them* may mean.
     """
 
     answers: tuple[tuple[str, str], ...] = ()
@@ -179,3 +180,4 @@ class Dialogue:
     speaker: str | None = None
     earlier: tuple[Exchange, ...] = ()
     origins: Mapping[str, str] = field(default_factory=dict)
+    last: tuple[str, ...] = ()

@@ -18,7 +18,7 @@ from majordomo.scene_graph.nodes import ObjectNode, PersonNode, RoomNode
 
 _COURTESY = (
     r"(?:(?:i am (?:so |very |terribly )?sorry|i'm (?:so |very )?sorry|sorry|oops|wait|hm+|um|ah|oh|hang on|hold on"
-    r"|excuse me|please|ok|okay|well|stop)\b[\s,.!]*)*"
+    r"|excuse me|please|ok|okay|well|stop)\b[\s,.!:;–-]*)*"
 )
 _THANKED = re.compile(
     r"^(?:(?:thanks|thank you|thx|cheers|great|good|perfect|fine|nice|lovely|wonderful|excellent|well done|ok"
@@ -29,9 +29,12 @@ _THANKED = re.compile(
 """Praise before the next request."""
 _TRAILING = re.compile(
     r"[\s,]+(?:(?:would|will|might) be (?:better|best|nicer|good|great|fine|preferable)|is better|instead|please"
-    r"|rather|actually|i mean|i meant)[\s.!]*$"
+    r"|rather|actually|i mean|i meant|(?:that)?(?: is|'s)?(?: what)?[\s,]*\bi (?:wanted|meant|said|was trying"
+    r"|tried|intended)(?: to say)?"
+    r"|(?:it )?should (?:have been|be)|was what i meant|of course|obviously|not the other(?: one)?)[\s.!]*$"
 )
 _LED = re.compile(rf"^{_COURTESY}")
+_DENIED = re.compile(r"^(?:(?:no+|nope|not that|wait|oh|sorry)[\s,.!]+)+(?=\w)")
 _SAID = re.compile(r"^(?:i|we) (?:meant|mean|said)(?: to say)?[\s,:]+")
 _FORGOTTEN = re.compile(r"^(?:forget|skip|never mind)(?: about)? (?:the|that|my) [\w ]+?[,;.]+ *(?:and |just )*")
 _MADE = re.compile(r"^(?:make (?:it|that)|let us make it|i mean)[\s,]+(?=\w)")
@@ -40,15 +43,19 @@ _NO = re.compile(
     r"|not (?:to|on|in|into|onto|at) [\w ]+?(?=[,;.])|not \w+(?: ones?)?(?=[,;.] )"
     r"|(?:forget|skip|never mind)(?: about)? (?:the|that|my) [\w ]+?(?=[,;.])"
     r"|change of plans?(?=[:,.])"
+    r"|did i (?:just )?say [\w ]+?(?=\?)"
+    r"|(?:that|this|it)(?: is| was|'s) (?:the )?wrong(?: \w+)?(?=[,;.!-])"
+    r"|you (?:have |'ve )?(?:got|brought|took|taken|picked|have|fetched) (?:me )?the wrong(?: \w+)?(?=[,;.!-])"
     r"|instead of [\w ]+?(?:,|(?= (?:take|bring|give|put|use|the)\b))"
     r"(?:\s*(?:take|bring|give|put|use)\b(?: me| him| her)?)?|wrong(?: (?!is\b)\w+)?|that(?: is|'s) wrong|not "
     r"the \w+(?: one)?)\b"
-    r"[\s,.!;:-]*(?:sorry[\s,]*)?(?:(?:i|we) (?:meant|mean|said|wanted|want)\b(?: to say)?[\s,]*)?(?P<rest>.*)$"
+    r"[\s,.!?:;–-]*(?:sorry[\s,]*)?(?:(?:i|we) (?:meant|mean|said|wanted|want)\b(?! you\b)(?: to "
+    r"say)?[\s,]*)?(?P<rest>.*)$"
 )
 _REPAIR = re.compile(
     r"^(?P<said>.+?)(?:[\s,.;:!…-]+(?:forget (?:it|that)|on second thoughts?|come to think of it"
-    r"|i mean(?:t)?(?: to say)?|no,? (?:sorry|wait)|(?:sorry|wait),? no|scratch "
-    r"that|or rather|make that"
+    r"|i mean(?:t)?(?: to say)?|no,? (?:sorry|wait)|(?:sorry|wait),? no|scratch that"
+    r"|strike that|scrap that|or rather|make that"
     r"|no,? i mean(?:t)?|correction)\b|\s*(?:[,.;:!…]+|\s[-–—])\s*(?:(?:oh|ah|oops|uh|um|er+"
     r"|hm+|or)\b[\s,]*)?(?:i(?: a|')m (?:so |very |terribly )?sorry|err?|erm|uh+|um+|oops|no|sorry|actually"
     r"|rather|wait|oops|make it|not "
@@ -58,7 +65,8 @@ _REPAIR = re.compile(
 _SLIP = (
     r"(?:no|nope|wait|sorry|pardon(?: me)?|excuse me|i (?:do )?mean(?:t)?(?: to say)?|rather"
     r"|better|actually|make (?:it|that)|scratch that|correction|not that|"
-    r"my (?:bad|mistake)|hang on|hold on|oops|whoops|what am i saying|forget (?:it|that)|(?:i )?should say|let"
+    r"my (?:bad|mistake)|hang on|hold on|oops|whoops|what am i saying|forget (?:it|that)|(?:strike|scrap) that"
+    r"|(?:i )?should say|let"
     r" us say)"
 )
 _BARE = re.compile(
@@ -71,12 +79,29 @@ _BARE = re.compile(
     rf"(?:[\s,]+{_SLIP})*[\s,.;:!…–-]+(?P<rest>.+)$"
 )
 """A slip taken back without a pause that is written, or by words that mean nothing else."""
+_HESITANT = re.compile(r"[\s,.;:!–-]+(?:oh|ah|no|wait|oops|uh|um)$")
+"""Ends what was said before it is taken back."""
+_NAMED_LAST = re.compile(
+    r"^(?P<said>.+?)[,;.]+ (?P<rest>(?:to |on |in )?(?:the|an?|my|his|her) [\w' ]+?|\w+),? (?:is what )?i (?:mean"
+    r"|meant|said"
+    r"|wanted to say|meant to say)[\s.!]*$"
+)
+"""*To the kitchen, the lab I mean*: what was meant comes last."""
 _RESUMED = re.compile(
     r"^(?P<said>.+?)\s*(?:\.\.\.+|…)\s*(?P<rest>(?:the|a|an|to|on|in|my|just|two|three|four"
     r"|five|all|both)\b.*)$"
 )
 _ONLY = re.compile(r"^(?:(?:just|only|simply|rather|well|put it|yes|yeah|make (?:it|that)|i mean)[\s,]+)+(?=\w)")
 _NOT_THAT = re.compile(r"^(?:not|wasn't|isn't) (?:the |a |to )?[\w ]{1,30}?(?:[,;.]+| but) *")
+_FOR = re.compile(
+    r"^(?:(?:it|they|that|this)(?: is|'s| are| was| were| should (?:be|go)| goes?| must go| belongs) )?(?:meant "
+    r"|intended )?"
+    r"(?:for|to) (?=\w)"
+)
+"""*It is for Maria*, *for Maria*: to her."""
+_IS_THE = re.compile(
+    r"^(?:it|that|this|they)(?: is|'s| was| are| were| should be| must be) (?=(?:the|an?|my|all|both)\b)"
+)
 _MEANT = re.compile(
     rf"^{_COURTESY}(?:actually|rather|make (?:it|that)|(?:i (?:have )?)?changed my mind"
     rf"|on second thoughts?|come to think of it"
@@ -86,13 +111,15 @@ _MEANT = re.compile(
 )
 _SORRY = re.compile(
     r"^(?:oh |ah |oops,? )?(?:sorry|oops|wait|hang on|hold on)[\s,.!]+(?P<rest>(?:to|on|in|into|onto|the|my|next"
-    r" to)\b.+)$"
+    rf" to|{'|'.join(COLORS)})\b.*)$"
 )
 _NOT = re.compile(
-    rf"^{_COURTESY}(?:(?:i|we) (?:meant|mean|said|wanted) )?(?P<rest>(?:(?:to|on|in|the) ){0, 2}\w+(?: \w+)?),?"
-    rf" not (?:(?:to|on|in|the) ){0, 2}\w+(?: \w+)?[\s.!]*$"
+    rf"^{_COURTESY}(?:(?:i|we) (?:meant|mean|said|wanted) )?(?P<rest>(?:(?:to|on|in|the) ){{0,2}}\w+(?: \w+)?),?"
+    rf" not (?:(?:to|on|in|the) ){{0,2}}\w+(?: \w+)?[\s.!]*$"
 )
-_INSTEAD = re.compile(r"^(?P<rest>.+?)[\s,]+(?:instead|rather|i meant|i mean)[\s.!]*$")
+_INSTEAD = re.compile(
+    r"^(?P<rest>.+?)[\s,]+(?:instead|rather|(?:is what )?i (?:meant|mean|said|wanted)(?: to say)?)[\s.!]*$"
+)
 _AGAIN = re.compile(
     r"^(?:please\s+)?(?:do (?:it|that|the same(?: thing)?)(?: again| once more| one more time)"
     r"|again|once more|one more time|(?:and )?the same again|repeat (?:that|it)|same again)[\s,.!]*(?:please)?["
@@ -143,8 +170,8 @@ def revision(text: str) -> Revision | None:
         found = pattern.match(said)
         if found and found["rest"].strip(" .!?"):
             rest = _MADE.sub("", _FORGOTTEN.sub("", _SAID.sub("", _LED.sub("", found["rest"]))))
-            rest = _NOT_THAT.sub("", _TRAILING.sub("", rest))
-            return Revision(how="correct", rest=rest.strip(" .!?"))
+            rest = _FOR.sub("to ", _NOT_THAT.sub("", _TRAILING.sub("", rest)))
+            return Revision(how="correct", rest=_DENIED.sub("", rest).strip(" .!?"))
     found = _TOO.match(said)
     if found:
         return Revision(how="too", rest=next(group for group in found.groups() if group))
@@ -154,11 +181,20 @@ def revision(text: str) -> Revision | None:
 def repair(text: str) -> tuple[str, str] | None:
     """What was said and what was meant instead, in one request: *bring me the cup, no sorry, the book*."""
     said = " ".join(text.casefold().replace("’", "'").split())
-    found = _BARE.match(said) or _REPAIR.match(said) or _RESUMED.match(said) if len(said) <= MAX_CHARACTERS else None
+    found = (
+        next(filter(None, (p.match(said) for p in (_BARE, _REPAIR, _NAMED_LAST, _RESUMED))), None)
+        if len(said) <= MAX_CHARACTERS
+        else None
+    )
     if found is None:
         return None
-    rest = _NOT_THAT.sub("", _TRAILING.sub("", _ONLY.sub("", found["rest"]))).strip(" .!?,")
-    return (found["said"].strip(" .,;:-"), rest) if rest else None
+    rest = _NOT_THAT.sub("", _TRAILING.sub("", _ONLY.sub("", _LED.sub("", found["rest"])))).strip(" .!?,")
+    return (_HESITANT.sub("", found["said"]).strip(" .,;:-"), rest) if rest else None
+
+
+def thing_meant(rest: str) -> str:
+    """*It's the lab*, said of something to be done: the lab."""
+    return _IS_THE.sub("", rest)
 
 
 def is_place(rest: str) -> bool:
@@ -212,7 +248,7 @@ class Reviser:
             dict.fromkeys(goal.args[-1] for goal in earlier.goals if goal.predicate in PLACING | {Predicate.ROBOT_AT})
         )
         troubles: list[Outcome] = []
-        for old in (objects, places if how == "correct" else ()):
+        for old in (objects, places if how == "correct" or not objects else ()):
             if len(old) != 1:
                 continue
             context = replace(

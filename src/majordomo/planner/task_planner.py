@@ -12,9 +12,11 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
+from majordomo.planner.choosing import left_by
 from majordomo.planner.discourse import NOT_SO, SO, WHETHER
 from majordomo.planner.grammar.parser import CommandGrammar
 from majordomo.planner.grammar.tokens import text_flaw
+from majordomo.planner.grounding import AMONG
 from majordomo.planner.interpreter import DOUBT, Choices, Interpreter, Reading
 from majordomo.planner.model_rounds import ModelRounds
 from majordomo.planner.models.protocol import CORRECTABLE, FailureKind, LanguageModel, ModelFailure
@@ -102,10 +104,9 @@ class TaskPlanner:
         about = revision(answer)
         if about is not None and about.how == "correct":
             answer = about.rest
-        if candidates:
-            chosen = select(answer, candidates, snapshot, self._interpreter, self._grammar)
-            if chosen:
-                return text, {**choices, reading.asked: chosen}
+        settled = self._settled(answer, reading, snapshot) if candidates else {}
+        if settled:
+            return text, {**choices, **settled}
         if reading.asked == "destination":
             for wording in (f"{text} {answer}", f"{text} to {answer}", f"{text} on {answer}"):
                 parsed = self._interpreter.read(wording, snapshot, Dialogue(), choices)
@@ -116,6 +117,15 @@ class TaskPlanner:
             if self._interpreter.read(wording, snapshot, Dialogue(), {}).wholly and wording != text:
                 return wording, {}
         return self._restated(text, answer, choices, snapshot, was_parsed=reading.wholly)
+
+    def _settled(self, answer: str, reading: Reading, snapshot: Snapshot) -> Choices:
+        """The candidates that an answer chooses; else those that it leaves of more, which are asked about again."""
+        interpreter, candidates = self._interpreter, reading.interpretation.candidates
+        chosen = select(answer, candidates, snapshot, interpreter, self._grammar)
+        if chosen:
+            return {reading.asked: chosen}
+        left = left_by(answer, candidates, interpreter.lexicon(snapshot), interpreter.grounding(snapshot))
+        return {f"{AMONG}{reading.asked}": left} if reading.asked and 1 < len(left) < len(candidates) else {}
 
     def _restated(
         self, text: str, answer: str, choices: Choices, snapshot: Snapshot, *, was_parsed: bool

@@ -6,7 +6,7 @@ from majordomo.planner.naming import name_of
 from majordomo.planner.openness import not_known, undecided
 from majordomo.planner.phrasing import place_phrase
 from majordomo.planner.vocabulary import ALWAYS_PLURAL, is_plural
-from majordomo.scene_graph.nodes import DoorNode, ObjectNode, ObjectState, RoomNode
+from majordomo.scene_graph.nodes import ROBOT_ID, DoorNode, ObjectNode, ObjectState, RoomNode
 from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.skills.state import PlanState
 
@@ -29,6 +29,9 @@ class Whereabouts:
             return f"{name} is {self._room_place(node)}."
         if isinstance(node, DoorNode):
             return not_known(undecided((node_id,), self._snapshot), self._snapshot) or f"{name} is {node.state.value}."
+        if node_id == ROBOT_ID:
+            here = self._state.robot_room
+            return "I do not know where I am." if here is None else f"I am in {name_of(here, self._snapshot)}."
         in_room = f"in {name_of(room, self._snapshot)}" if room is not None else "at a place I do not know"
         if not isinstance(node, ObjectNode):
             return f"{'You are' if node_id == speaker else f'{name} is'} {in_room}, as far as I know."

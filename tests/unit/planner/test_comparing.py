@@ -48,12 +48,26 @@ def test_the_fullest_and_the_emptiest():
     "text",
     [
         "which has more cups, the kitchen or the office?",
-        "does the kitchen have more cups than the office?",
         "are there more cups in the office or in the kitchen?",
+        "are there as many cups in the office as in the kitchen?",
+        "who has more cups, the kitchen or the office?",
     ],
 )
 def test_two_places_are_counted_side_by_side(text):
     assert ask(text).reply == "The kitchen: 2 cups; the office: no cups."
+
+
+@pytest.mark.parametrize(
+    ("text", "reply"),
+    [
+        ("does the kitchen have more cups than the office?", "Yes. The kitchen: 2 cups; the office: no cups."),
+        ("are there more cups in the kitchen than in the office?", "Yes. The kitchen: 2 cups; the office: no cups."),
+        ("are there more cups in the office than in the kitchen?", "No. The kitchen: 2 cups; the office: no cups."),
+        ("are there fewer cups in the office than in the kitchen?", "Yes. The office: no cups; the kitchen: 2 cups."),
+    ],
+)
+def test_whether_there_are_more_is_answered_with_yes_or_no(text, reply):
+    assert ask(text).reply == reply
 
 
 @pytest.mark.parametrize(

@@ -105,9 +105,10 @@ class QuestionReader(PhraseReader):
         return Ask(kind=QueryKind.MOST, things=tuple(values_of(children)), word=word.lower())
 
     def more_at(self, children: Children) -> Ask:
-        """*Which has more cups, the table or the desk.*"""
+        """*Which has more cups, the table or the desk*; *has the table more cups than the desk*."""
         word = next(t.type for t in tokens_of(children) if t.type in ("MORE", "FEWER"))
-        return Ask(kind=QueryKind.MORE, things=tuple(values_of(children)), word=word.lower())
+        whether = tokens_of(children)[0].type == "BE"
+        return Ask(kind=QueryKind.MORE, things=tuple(values_of(children)), word=word.lower(), least=int(whether))
 
     def compared_size(self, children: Children) -> Ask:
         """*Which is bigger, the red cup or the blue one*: the noun may be said with one of them only."""
@@ -175,6 +176,10 @@ class QuestionReader(PhraseReader):
     def nothing_at(self, children: Children) -> Ask:
         """*Is there nothing on the table.*"""
         return Ask(kind=QueryKind.EXISTS, place=values_of(children)[0], negated=True)
+
+    def anything_at(self, children: Children) -> Ask:
+        """*If there is anything on the table.*"""
+        return Ask(kind=QueryKind.EXISTS, place=values_of(children)[0])
 
     def own_name(self, _: Children) -> Ask:
         return Ask(kind=QueryKind.NAME)

@@ -13,6 +13,7 @@ _SCALES = frozenset({"BIG", "SMALL", "NEAREST", "FARTHEST"})
 _PLACING = frozenset({"BE", "HAVE", "DO", "CAN", "I", "YOU", "THERE", "SEE", "CAN_YOU", "FIND", "IN", "ON", "COMMA"})
 _LEFT = frozenset({"left", "kept", "stored", "inside", "live", "lie"})
 _WHICH, _HAVE = Terminal("WHICH", "which", "which"), Terminal("HAVE", "have", "have")
+_IS, _THAN = Terminal("BE", "is", "is"), frozenset({"THAN"})
 _ROOM, _THINGS = Terminal("NOUN", "room", "room"), Terminal("NOUN", "things", "things")
 _COMMA, _OR = Terminal("COMMA", ",", ","), Terminal("NOR", "or", "or")
 
@@ -49,7 +50,8 @@ def _mores(tokens: list[Terminal], at: int) -> Iterator[list[Terminal]]:
     counted = _counted(after)
     sides = [token for token in after[len(counted) :] if token.type not in _PLACING and token.typed not in _LEFT]
     sides = [*before, *(_OR if token.type == "THAN" else token for token in sides if token.type != "IT")]
-    yield [_WHICH, _HAVE, tokens[at], *(counted or [_THINGS]), _COMMA, *sides]
+    asked = _IS if tokens[0].type in ("BE", "DO", "HAVE") and _THAN & {token.type for token in after} else _WHICH
+    yield [asked, _HAVE, tokens[at], *(counted or [_THINGS]), _COMMA, *sides]
 
 
 def _counted(tokens: list[Terminal]) -> list[Terminal]:

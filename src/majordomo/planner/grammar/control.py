@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from enum import StrEnum
 
 from majordomo.planner.grammar.tokens import words_of
@@ -75,9 +76,51 @@ _JOB = (
 )
 _LEADS = (
     r"(?:(?:on second thoughts?|actually|no|oh|well|sorry|you can|you may|could you|can you"
-    r"|let us|just|wait|please|robot|majordomo|hey|ok|okay|now|quick)[\s,]+)*"
+    r"|let us|just|wait|please|robot|majordomo|hey|ok|okay|now|quick|alright|all right|right|fine|good|great|yes"
+    r"|yeah|so"
+    r"|then|and)[\s,]+)*"
 )
 _ENOUGH = r"(?:(?:that is )?enough(?: (?:now|of (?:that|this|it)))?|(?:quit|cut) it(?: out)?|knock it off)"
+_WHILE = (
+    r" (?:just )?(?:for )?(?:a|one|two|three|five|ten|a few|a couple of|\d+|half a|another|an other)"
+    r" (?:short |little )?(?:second|sec|moment|minute|min|bit|while|mo|tick)s?"
+)
+_MORE = (
+    r"(?: (?:it|that|this|them|one|those|him|her|my|mind|the|mistake|myself|yourself|himself|herself|themselves|already"
+    r"|anyway|now|after|all|again|any|more|anymore|longer|on|own|by|in|time|instead|out|home|something|else|up"
+    r"|late|here"
+    r"|there|wrong|back|with|without|thanks|then))*"
+)
+_DONE = (
+    r"(?:got|gotten|found|have|has|took|taken|brought|did|done|changed|fetched|see|saw|seen|managed|handled|sorted"
+    r"|settled|forgot|forgotten|remembered|remember|know|made|picked|put|solved|fixed|arrived|left|came|finished)"
+)
+_BEING = (
+    r"(?:fine|good|ok|okay|all right|alright|late|too late|here|there|gone|busy|wrong|mistaken|going|leaving|enough"
+    r"|coming|back|over|solved|sorted|settled|done|home|not (?:needed|necessary|important|urgent))"
+)
+_WHO_DID = (
+    r"(?:i|we|he|she|they|it|that|somebody|someone|somebody else|someone else|(?!(?:please|then|and|to|so|but|now"
+    r"|go|come"
+    r"|bring|take|put|get|fetch|give|find|move|carry|drop|return|look|hand|pick|place|drive|stay|wait|leave)\b)[a-z]+)"
+)
+_REASON = re.compile(
+    rf"{_WHO_DID}(?: (?:have|has|had|already|just|now|been|actually|finally))* {_DONE}{_MORE}"
+    rf"|{_WHO_DID}(?: (?:have|has))?(?: already| just| now)? (?:am|is|are|was|were|been)(?: already| just| now)* "
+    rf"{_BEING}{_MORE}"
+    rf"|(?:i|we|he|she|they|[a-z]+) (?:will|can|would rather|am going to|is going to|are going to) (?:just )?"
+    rf"(?:do|get|fetch|find|bring|take|manage|handle|go|sort|pick up) (?:it|that|them|this|one|by)?{_MORE}"
+    rf"|(?:i|we|he|she|they|[a-z]+) (?:do|does|did) not (?:need|want|mean|care){_MORE}|(?:i|we) no longer (?:need"
+    rf"|want){_MORE}"
+    r"|(?:that is |it is |that was )?(?:the )?(?:wrong|too late)(?: \w+)?"
+    r"|(?:watch|look|mind) (?:out|it|your step|where you .*)|(?:be )?careful|danger|all clear|the coast is clear"
+    r"|there (?:is|are|was) .*|you (?:are|will|were|have|almost|nearly|just|could|might) .*"
+    r"|(?:the|an?|my|our|some)? ?[a-z]+(?: [a-z]+)? (?:is|are) (?:just )?(?:[a-z]+ing|at the door|in the way|here"
+    r"|there)\b.*"
+    r"|it is (?!for|the|an?|to|in|on|at|my|his|her|not|from)\w+.*|(?:i|we) (?:was|were|am|are) (?:just "
+    r")?(?:[a-z]+ing|done|ready)\b.*"
+)
+"""Why something is called off, which is no request: *I got it myself*, *Ben brought it already*."""
 _SHAPES: tuple[tuple[Control, re.Pattern[str]], ...] = tuple(
     (control, re.compile(rf"{_LEADS}(?:{pattern})(?: please| now| robot| for now| thanks?(?: you)?)*"))
     for control, pattern in (
@@ -99,16 +142,38 @@ _SHAPES: tuple[tuple[Control, re.Pattern[str]], ...] = tuple(
         (
             Control.CANCEL,
             (
-                r"(?:i (?:have )?changed my mind|do not bother(?: with (?:it|that))?|(?:that is|it is"
+                r"(?:no longer (?:needed|necessary|required|wanted)|not (?:needed|necessary) (?:any ?more|after all)"
+                r"|let it (?:go|be|drop)|(?:you can |you may )?(?:stop|quit|leave off|give up)"
+                r" (?:looking|searching|hunting|trying)(?: (?:for (?:it|that|them|him|her)|it))?"
+                r"|(?:cancel|abort)(?: (?:please|now|all of it|all this))?)"
+            ),
+        ),
+        (
+            Control.CANCEL,
+            (
+                r"(?:i (?:have )?changed my mind|do not bother(?: with (?:it|that)| any ?more)?|no need(?: (?:to"
+                r"|for it|for that"
+                r"|any ?more|now))?|do not worry about (?:it|that)|(?:it |that )?does not matter(?: any ?more| "
+                r"now)|(?:that is|it is"
                 r"|this is) (?:no longer|not) (?:needed|necessary)(?: any ?more)?|(?:you )?(?:do not"
                 r"|need not) have to(?: any ?more)?)"
+            ),
+        ),
+        (
+            Control.PAUSE,
+            (
+                rf"(?:(?:take|have) a (?:short |little |quick |brief )?(?:break|rest|breather|pause|time ?out)"
+                rf"|pause|wait|hold on|hang on|rest|stop){_WHILE}"
             ),
         ),
         (Control.PAUSE, r"(?:take|have) a (?:short |little |quick |brief )?(?:break|rest|breather|pause|time ?out)"),
         (
             Control.PAUSE,
             (
-                r"(?:hold your horses|bear with me|stand by|hang fire|hold fire|time ?out|give me (?:a|one"
+                r"(?:(?:wait|pause|stay|hold on|hang on|stop)(?: there| here)? (?:till|until) i (?:say|tell|am"
+                r"|come|call|give"
+                r"|return|let)\b.{0,30}|hold your horses|bear with me|stand by|hang fire|hold fire|time ?out"
+                r"|give me (?:a|one"
                 r"|just a) (?:sec|second|moment|minute)|(?:just )?(?:wait|hold on|hang on|pause)(?: right"
                 r"| just)?"
                 r"(?: there| here| up| on| a while| a bit| for a bit| a little| for me| what you are doing| that"
@@ -185,7 +250,8 @@ _SHAPES: tuple[tuple[Control, re.Pattern[str]], ...] = tuple(
             Control.RESUME,
             (
                 r"(?:(?:resume|continue|carry on|proceed|get on with)(?: with)? (?:it|that)|as you were"
-                r"|back to (?:it|what you were doing|your (?:work|task|job))|(?:start|get) (?:moving"
+                r"|(?:get )?back to (?:it|work|what you were doing|your (?:work|task|job))|(?:go )?on you go|get "
+                r"to work|(?:start|get) (?:moving"
                 r"|going) again|you may (?:move|go|proceed) (?:again|on|now)|unfreeze|"
                 r"(?:ok )?off you go again)"
             ),
@@ -215,8 +281,20 @@ def _shaped(text: str) -> Control | None:
     parts: list[list[str]] = [[]]
     for word in words:
         parts = [*parts[:-1], [*parts[-1], word.text]] if word.kind == "word" else [*parts, []]
-    controls = {_one_control(part) or _of_shape(" ".join(part)) for part in parts if set(part) - _COURTESY}
+    said = [part for part in parts if set(part) - _COURTESY]
+    controls = {_control_of(part) for part in said if not _is_reason(part)}
+    if controls == {Control.STOP, Control.CANCEL}:
+        return Control.STOP
     return found or (controls.pop() if len(controls) == 1 else None)
+
+
+def _control_of(part: Sequence[str]) -> Control | None:
+    return _one_control(list(part)) or _of_shape(" ".join(part))
+
+
+def _is_reason(part: Sequence[str]) -> bool:
+    bare = [word for word in part if word not in _COURTESY]
+    return _control_of(part) is None and any(_REASON.fullmatch(" ".join(words)) for words in (part, bare))
 
 
 def _of_shape(said: str) -> Control | None:

@@ -18,6 +18,7 @@ from majordomo.planner.grammar.words import NUMERALS
 NAMING_LEADS = (("name", "is"), ("is", "called"), ("called",), ("named",), ("known", "as"), ("call", "me"))
 GIVING = frozenset({"bring", "give", "hand", "pass", "fetch", "get", "take", "lend", "offer", "show"})
 """Verbs that a receiver may follow, before the thing."""
+DETERMINERS = frozenset({"the", "a", "an", "my", "his", "her", "our", "your", "their", "this", "that", "some", "any"})
 MAX_ROLE = 3
 """Words that tell what a person is, before the name."""
 
@@ -25,6 +26,7 @@ MAX_ROLE = 3
 def sentences(text: str, lexicon: Lexicon) -> list[list[Terminal]]:
     """The sentences of a request, each as a list of terminals; courtesy is dropped."""
     typed_words = [Word(part, word.kind) for word in words_of(text) for part in _parted(word, lexicon)]
+    typed_words = _respaced(typed_words, lexicon)
     words = [
         Word(_meant(typed_words, k, lexicon), "word") if word.kind == "word" and not _is_name(typed_words, k) else word
         for k, word in enumerate(typed_words)
@@ -42,10 +44,24 @@ def sentences(text: str, lexicon: Lexicon) -> list[list[Terminal]]:
 
 
 def _meant(words: Sequence[Word], index: int, lexicon: Lexicon) -> str:
-    """A word, or what it is a slip of."""
+    """A word, or what it is a slip of; a small word is not looked for after an article."""
     typed_word = words[index].text
     slip = lexicon.meant(typed_word)
-    return typed_word if slip != typed_word and _is_stranger(words, index, slip, lexicon) else slip
+    if slip != typed_word:
+        return typed_word if _is_stranger(words, index, slip, lexicon) else slip
+    led = index > 0 and words[index - 1].text in DETERMINERS
+    return typed_word if led else lexicon.small(typed_word)
+
+
+def _respaced(words: Sequence[Word], lexicon: Lexicon) -> list[Word]:
+    """*Bringt he*, *th estapler*: a space that came a letter too early or too late is put right."""
+    kept: list[Word] = []
+    for index, word in enumerate(words):
+        pair = kept and kept[-1].kind == word.kind == "word" and not _is_name(words, index)
+        one, other = lexicon.respaced(kept[-1].text, word.text) if pair else ("", word.text)
+        kept[-1:] = [Word(one, "word")] if pair else kept[-1:]
+        kept.append(Word(other, word.kind))
+    return kept
 
 
 def _is_name(words: Sequence[Word], index: int) -> bool:

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 
 from majordomo.planner.grammar.spelling import (
     ORDINARY,
+    beside_keys,
     closest,
     is_swapped,
     other_vowel,
@@ -40,6 +41,12 @@ _TITLES = {"dr": "doctor", "doc": "doctor", "mr": "mister", "mrs": "missus", "pr
 """Titles as they are written short."""
 _SHORT = frozenset(word for word in PHRASE_WORDS if len(word) < 4)
 _SOUNDS = sounding_alike(word for word in PHRASE_WORDS | KNOWN_WORDS if len(word) > 2)
+_SMALL = frozenset(
+    {"the", "to", "in", "on", "me", "my", "from", "with", "and", "for", "where", "what", "which", "who", "how", "put",
+     "bring", "take", "get", "give", "go", "can", "could", "you", "please", "is", "are", "many", "it", "of", "at",
+     "into", "them", "this", "that", "here", "there", "back", "over", "next", "need", "want", "find", "come", "move"}
+)  # fmt: skip
+"""Small words, which are often typed a key beside."""
 _UNDERSTOOD = KNOWN_WORDS | PHRASE_WORDS | ORDINARY
 
 
@@ -104,7 +111,7 @@ class Lexicon:
         ):
             return word
         alike_letters = _SWAPPED.get((word[:1], "".join(sorted(word))), ()) if len(word) > 2 else ()
-        swapped = [other for other in alike_letters if is_swapped(word, other)]
+        swapped = [other for other in (*alike_letters, *self._short_parts(word)) if is_swapped(word, other)]
         if len(swapped) == 1:
             return swapped[0]
         alike = _SOUNDS.get(sound(word), frozenset()) | {part for part in self.parts if sound(part) == sound(word)}
@@ -117,6 +124,33 @@ class Lexicon:
             or without_vowels(word, PHRASE_WORDS | self.parts)
             or word
         )
+
+    def _short_parts(self, word: str) -> tuple[str, ...]:
+        """Names of three letters with the letters of ``word``: *cpu* for *cup*."""
+        return tuple(
+            part for part in self.parts if len(part) == 3 and part[0] == word[0] and sorted(part) == sorted(word)
+        )
+
+    def small(self, word: str) -> str:
+        """*fron*, *witj*: the small word that an unknown one is by a key next to the right one."""
+        known = word in _UNDERSTOOD or word in self.colors or self.is_noun((word,)) or word in self.parts
+        return word if known or word in COLORS else beside_keys(word, _SMALL) or word
+
+    def respaced(self, one: str, other: str) -> tuple[str, str]:
+        """Two words with the space between them a letter to the left or right, if only that makes both known."""
+        if self._knows(one) and self._knows(other):
+            return one, other
+        if self._knows(one) and other[:1] == one[-1:] and self._knows(other[1:]) and len(other) > 3:
+            return one, other[1:]  # *the eyogurt*, of *th eyogurt*
+        later, sooner = (one[:-1], one[-1:] + other), (one + other[:1], other[1:])
+        moved = ([] if self._knows(one) else [later]) + ([] if self._knows(other) else [sooner])
+        alone = all(self.meant(word) == word for word in (one, other) if not self._knows(word))
+        known = [pair for pair in moved if all(map(self._knows, pair)) and (alone or _SMALL & set(pair))]
+        return known[0] if len(known) == 1 else (one, other)
+
+    def _knows(self, word: str) -> bool:
+        known = word in PHRASE_WORDS | KNOWN_WORDS or word in COLORS or word in self.parts or self.is_noun((word,))
+        return known and (len(word) > 1 or word in ("a", "i"))
 
     def joined(self, one: str, other: str) -> str:
         """*Hair brush* as *hairbrush*: two words typed apart that only together name something; else empty."""

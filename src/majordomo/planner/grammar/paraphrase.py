@@ -13,8 +13,10 @@ from majordomo.planner.grammar.wording.about_robot import ABOUT_ROBOT
 from majordomo.planner.grammar.wording.addressing import ADDRESSING
 from majordomo.planner.grammar.wording.amounts import AMOUNTS
 from majordomo.planner.grammar.wording.asking import ASKING
+from majordomo.planner.grammar.wording.beyond import BEYOND
 from majordomo.planner.grammar.wording.bringing import BRINGING
 from majordomo.planner.grammar.wording.choosing import CHOOSING
+from majordomo.planner.grammar.wording.coloring import COLORING
 from majordomo.planner.grammar.wording.conditions import CONDITIONS
 from majordomo.planner.grammar.wording.courtesy import COURTESY, SLIPS, UNDOING
 from majordomo.planner.grammar.wording.dictating import DICTATING
@@ -24,6 +26,8 @@ from majordomo.planner.grammar.wording.going import FINDING, GOING
 from majordomo.planner.grammar.wording.heading import HEADING
 from majordomo.planner.grammar.wording.holding import HOLDING
 from majordomo.planner.grammar.wording.inquiring import INQUIRING
+from majordomo.planner.grammar.wording.knowing import KNOWING
+from majordomo.planner.grammar.wording.learning import LEARNING
 from majordomo.planner.grammar.wording.motives import MOTIVES
 from majordomo.planner.grammar.wording.naming import NAMING
 from majordomo.planner.grammar.wording.placing import PLACING
@@ -42,9 +46,12 @@ RULES: tuple[tuple[str, str], ...] = (
         *MISTYPED,
         *DICTATING,
         *ADDRESSING,
+        *BEYOND,
+        *LEARNING,
         *FOREIGN,
         *TAKING_BACK,
         *AMOUNTS,
+        *COLORING,
         *RETURNING,
         *SORTING,
         *SENDING,
@@ -58,6 +65,7 @@ RULES: tuple[tuple[str, str], ...] = (
         *COURTESY,
         *UNDOING,
         *ABOUT_ROBOT,
+        *KNOWING,
         *INQUIRING,
         *WISHING,
         *DISCARDING,

@@ -9,7 +9,7 @@ from lark import Token, Transformer
 
 from majordomo.planner.grammar.agreement import apposed, may_except, may_follow
 from majordomo.planner.grammar.syntax import NounPhrase, Pronoun, Quantity, Reference, Restriction, Spot
-from majordomo.planner.vocabulary import is_plural
+from majordomo.planner.vocabulary import is_plural, singular
 
 Children = list[Any]
 _SIZE = {"BIG": "big", "SMALL": "small"}
@@ -291,7 +291,20 @@ class PhraseReader(Transformer[Token, Any]):
         where = Restriction(relation=str(tokens[-1].type).lower(), reference=values_of(children)[0])
         return NounPhrase(words=(tokens[0].type.lower(),), quantity=Quantity.THE, person=True, restrictions=(where,))
 
+    def of_them(self, children: Children) -> NounPhrase:
+        """*Two of them*: any two of what was spoken of."""
+        spoken = (Restriction(relation="spoken", reference=Pronoun(word="them")),)
+        several = NounPhrase(words=("things",), quantity=Quantity.SOME, restrictions=spoken)
+        number = next((int(token) for token in tokens_of(children) if token.type == "NUMBER"), None)
+        if number is not None:
+            return replace(several, count=number)
+        if _has(children, "HALF"):
+            return replace(several, share="half")
+        return replace(several, words=("thing",), quantity=Quantity.A, count=1)
+
     def it(self, children: Children) -> Pronoun:
+        if len(children) > 1:
+            return Pronoun(word="both" if _has(children, "BOTH") else "them")
         if children[0].type == "IT":
             return self.pronoun(children)
         return Pronoun(word={"THIS": "that", "BOTH": "both", "ALL": "all"}.get(children[0].type, "it"))
@@ -320,10 +333,11 @@ def _has(children: Children, kind: str) -> bool:
 
 
 def _of_several(phrase: NounPhrase) -> dict[str, Any]:
-    """*The bigger of the two cups*: of a comparative, the one at that end."""
+    """*The bigger of the two cups*: one of them; of a comparative, the one at that end."""
+    one = {"words": (*phrase.words[:-1], singular(phrase.words[-1]))} if phrase.words else {}
     comparative = {"big": "largest", "small": "smallest", **_COMPARATIVE}
     ends = [comparative[size] for size in phrase.sizes if size in comparative]
-    return {"superlative": ends[0], "sizes": ()} if ends else {}
+    return one | ({"superlative": ends[0], "sizes": ()} if ends else {})
 
 
 def _merged(phrase: NounPhrase, part: Any) -> dict[str, Any]:

@@ -29,6 +29,9 @@ _AHEAD = 8
 """Words that the use of a word depends on."""
 _OBJECTS = frozenset({"IT", "ME", "HIM", "THE", "MY", "EVERYTHING"})
 """What begins the object of a verb, and never follows a noun within a noun phrase."""
+_NAMED = frozenset({"THE", "THIS", "MY", "POSSESSIVE", "NOUN", "NAME"})
+_NAMING_WORDS = (frozenset(VERBS) - {"WANT", "WANTS", "NEEDED", "LET"}) | {"UNABLE", "LIST", "COUNT", "HELP", "SEE"}
+"""What else a word of a name may be: *reading list*, *play corner*."""
 _LEADING = frozenset({"FRAME", "AFTER", "BEFORE", "WHEN"})
 _PRESENT = {phrase: terminal for phrase, (terminal, _) in PHRASES.items() if terminal in VERBS}
 
@@ -36,18 +39,37 @@ _PRESENT = {phrase: terminal for phrase, (terminal, _) in PHRASES.items() if ter
 def settled_uses(tokens: Sequence[Terminal], lexicon: Lexicon) -> list[Terminal]:
     """Choose among the uses of words that have several, from left to right."""
     settled: list[Terminal] = []
-    led = False
+    led = naming = False
     for index, token in enumerate(tokens):
         before = next((t.type for t in reversed(settled) if t.type != "FILLER"), "")
         following = [t for t in tokens[index + 1 : index + 1 + _AHEAD] if t.type != "FILLER"]
         led = led or token.type in _LEADING
+        naming = (naming and token.type != "STOP") or _names(tokens, index)
         settled.append(
-            _of_past(token, before, following, led=led)
+            (_in_name(token, before, lexicon) if naming else None)
+            or _of_past(token, before, following, led=led)
             or _in_phrase(token, before, following, lexicon)
             or _choose(token, before, following, lexicon),
         )
         led = led and token.type != "STOP"
     return settled
+
+
+def _names(tokens: Sequence[Terminal], index: int) -> bool:
+    """Whether a name follows: after *call* and *called*, and after *is* in *the guest room is the sewing room*."""
+    kind, after = tokens[index].type, [token.type for token in tokens[index + 1 : index + 2]]
+    if kind in ("CALL", "CALLED"):
+        return True
+    return kind == "BE" and index > 0 and tokens[0].type in _NAMED and after in (["THE"], ["MY"])
+
+
+def _in_name(token: Terminal, before: str, lexicon: Lexicon) -> Terminal | None:
+    """*list* in *reading list*, *children's* in *the children's ward*: words of a name, whatever else they mean."""
+    if token.type == "MY" and token.typed.endswith(("'s", "s'")):
+        return Terminal("POSSESSIVE", token.typed, token.typed)
+    if token.type in _NAMING_WORDS and before not in NO_NOUN_BEFORE and not lexicon.is_noun((token.typed,)):
+        return Terminal("WORD", token.typed, token.typed)
+    return None
 
 
 def _of_past(token: Terminal, before: str, following: Sequence[Terminal], *, led: bool) -> Terminal | None:

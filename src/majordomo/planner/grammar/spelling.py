@@ -13,7 +13,7 @@ MIN_TWICE = 8
 
 
 ORDINARY = frozenset(
-    {"acre", "angel", "ate", "bare", "bat", "bean", "beard", "been", "best", "boat", "bond", "bone", "book",
+    {"acre", "angel", "ate", "bare", "bat", "bean", "beard", "been", "being", "best", "boat", "bond", "bone", "book",
      "boot", "bored", "brain", "bread", "break", "bride", "cap", "cape", "card", "care", "cart", "cat", "coat", "cold",
      "cone", "cook", "cord", "dairy", "dart", "dear", "diary", "done", "drain", "earth", "east", "eat", "eats",
      "felt", "fine", "fond", "food", "foot", "form", "forms", "gallery", "gap", "goat", "gone", "good", "grain", "hat",
@@ -97,6 +97,38 @@ _VOWELS = re.compile(r"(?<=.)[aeiou]")
 def _is_within(word: str, other: str) -> bool:
     letters = iter(other)
     return all(letter in letters for letter in word)
+
+
+_ROWS = ("qwertyuiop", "asdfghjkl", "zxcvbnm")
+_PLACE = {key: (column + 0.5 * row, row) for row, keys in enumerate(_ROWS) for column, key in enumerate(keys)}
+
+
+def beside_keys(word: str, words: Iterable[str]) -> str | None:
+    """The one of ``words`` that ``word`` is with one key beside the right one, hit twice or not at all; None of "
+    "several.
+    """
+    if len(word) < 3 or word in ORDINARY or not word.isalpha():
+        return None
+    found = {other for other in words if _is_beside(word, other) or _is_doubled(word, other) or _lacks(word, other)}
+    return min(found) if len(found) == 1 else None
+
+
+def _is_beside(word: str, other: str) -> bool:
+    wrong = [(a, b) for a, b in zip(word, other, strict=False) if a != b]
+    if len(word) != len(other) or len(wrong) != 1:
+        return False
+    (x, row), (to_x, to_row) = (_PLACE.get(key, (99.0, 99)) for key in wrong[0])
+    return abs(x - to_x) <= 1.0 and abs(row - to_row) <= 1
+
+
+def _lacks(word: str, other: str) -> bool:
+    """*ther* for *there*: a letter of a longer word, not its first, is lost."""
+    long = len(other) == len(word) + 1 and len(other) > 4
+    return long and any(other[:k] + other[k + 1 :] == word for k in range(1, len(other)))
+
+
+def _is_doubled(word: str, other: str) -> bool:
+    return any(word[k] == word[k - 1] and word[:k] + word[k + 1 :] == other for k in range(1, len(word)))
 
 
 def is_swapped(word: str, other: str) -> bool:

@@ -22,7 +22,7 @@ def tagged(words: Sequence[Word], lexicon: Lexicon) -> list[Terminal]:
     index = 0
     while index < len(words):
         length, token = _longest(words, index, lexicon)
-        if token.type == "WORD" and (not tokens or tokens[-1].type in NO_NOUN_BEFORE | {"FILLER"}):
+        if token.type == "WORD" and (not tokens or tokens[-1].type in NO_NOUN_BEFORE | {"FILLER", "CAN_YOU"}):
             token = _verb_meant(token)
         tokens.append(token)
         index += length
@@ -30,7 +30,7 @@ def tagged(words: Sequence[Word], lexicon: Lexicon) -> list[Terminal]:
 
 
 def _verb_meant(token: Terminal) -> Terminal:
-    """*brng*: where a verb is due, the verb that an unknown word is a slip of, letters lost or swapped only."""
+    """*brng*: where a verb is due, the verb that an unknown word is a slip of, by a letter or two swapped."""
     found = [verb for verb in _VERBS if verb[0] == token.value[0] and _same_letters(token.value, verb)]
     return Terminal(PHRASES[(found[0],)][0], found[0], token.typed) if len(found) == 1 else token
 
@@ -39,8 +39,9 @@ def _same_letters(typed: str, verb: str) -> bool:
     if len(typed) < 3 or len(verb) < 4:
         return False
     lost = len(typed) == len(verb) - 1 and any(verb[:k] + verb[k + 1 :] == typed for k in range(len(verb)))
+    added = len(typed) == len(verb) + 1 and any(typed[:k] + typed[k + 1 :] == verb for k in range(1, len(typed)))
     one_off = len(typed) == len(verb) > 4 and sum(a != b for a, b in zip(typed, verb, strict=True)) == 1
-    return lost or one_off or (sorted(typed) == sorted(verb) and len(typed) == len(verb))
+    return lost or added or one_off or (sorted(typed) == sorted(verb) and len(typed) == len(verb))
 
 
 def _longest(words: Sequence[Word], index: int, lexicon: Lexicon) -> tuple[int, Terminal]:

@@ -22,6 +22,8 @@ _TOKEN = re.compile(
     """,
     re.VERBOSE,
 )
+_MYSELF = re.compile(r"\b[Ii](?:'m| am) (?=[A-Z][a-z]+(?:[.,!]|$| by the way))")
+"""*I'm Henry*, with a capital: a name, not how one feels."""
 _WORD = re.compile(r"[^\W_]+(?:[_'\-][^\W_]+)*'?")
 _NON = re.compile(r"\bnon-(?=\w)")
 _COLORED = re.compile(r"(?<=\w)[- ](?:colou?red|covered|bound|lidded|label(?:l)?ed|capped|painted)\b")
@@ -50,7 +52,8 @@ def text_flaw(text: str) -> str | None:
 
 def words_of(text: str) -> list[Word]:
     """Split ``text`` into words, lower case, contractions written out."""
-    clean = unicodedata.normalize("NFKC", text).translate(_QUOTES).casefold().strip()
+    clean = unicodedata.normalize("NFKC", text).translate(_QUOTES)
+    clean = _MYSELF.sub("my name is ", clean).casefold().strip()
     if clean.count('"') == 2 and clean.startswith('"') and clean.endswith('"'):
         clean = clean[1:-1]
     clean = _COLORED.sub("", _NON.sub("not ", clean))

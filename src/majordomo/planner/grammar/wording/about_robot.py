@@ -10,6 +10,115 @@ _END = rf"{_NOW}(?=[?.!]*$)"
 ABOUT_ROBOT: tuple[tuple[str, str], ...] = (
     (
         (
+            rf"^(?:what (?:is|are) your (?:purpose|job|role|duty|duties|function|mission|use|business|point|work"
+            rf"|profession"
+            rf"|talents?|strengths?|tasks?)|what (?:kinds? of |sort of )?(?:work|jobs?|chores?) (?:do|can) you do"
+            rf"|how (?:heavy|much|many)(?: [a-z]+)? (?:can|do|could) you (?:lift|carry|hold|take|bear)(?: at once"
+            rf"| at a time)?"
+            rf"|how (?:fast|strong|big|tall|smart|clever|heavy) (?:are|can) you(?: (?:drive|go|run|move))?"
+            rf"|(?:what|which|how many) languages? (?:do|can) you (?:speak|understand|know)"
+            rf"|(?:do|can) you (?:understand|speak|know) (?:me|us|english|\w+ish|german|french)"
+            rf"|how many (?:arms|hands|legs|wheels|eyes|fingers) (?:do|have) you (?:have|got)"
+            rf"|why are you here|what should i know about you|can i (?:trust|rely on|count on) you){_END}"
+        ),
+        "what can you do",
+    ),
+    (
+        (
+            rf"^(?:who (?:built|made|created|programmed|designed|invented|developed|owns|bought) you|how old are you"
+            rf"|when were you (?:built|made|born)|where (?:do|did|are) you (?:come )?from|(?:what|which) (?:model"
+            rf"|make|brand|type"
+            rf"|version) are you|(?:do|have) you (?:have |got )?(?:any |a |an )?(?:feelings|emotions|heart|soul"
+            rf"|brain|parents"
+            rf"|family|friends|name|mother|birthday|arms|legs|wheels|eyes|gender)|(?:do|can) you (?:ever "
+            rf")?(?:sleep|eat|dream"
+            rf"|think|feel|breathe|drink|hear (?:me|us))|are you (?:intelligent|clever|smart|dangerous|safe|male"
+            rf"|female|new|old"
+            rf"|a (?:he|she|boy|girl)|made of \w+)|what are you made of){_END}"
+        ),
+        "who are you",
+    ),
+    (
+        (
+            rf"^(?:are you (?:happy|sad|angry|stuck|lost|broken|damaged|hurt|bored|confused|in trouble|having "
+            rf"trouble|functioning"
+            rf"|operational|in good shape|feeling (?:well|ok|okay|good|better))|is (?:something|anything) "
+            rf"(?:wrong|the matter|amiss)"
+            rf"(?: with you)?|what is (?:wrong|the matter|up) with you|did you sleep well|how is your day(?: going)?"
+            rf"|how was your day|are you (?:all right|ok|okay)){_END}"
+        ),
+        "how are you",
+    ),
+    (
+        (
+            rf"^(?:what (?:are you looking at|is (?:in front of|around|before|ahead of) you|do you see|have you "
+            rf"got in view)"
+            rf"|what (?:things |objects )?(?:can|do) you (?:see|notice|spot)(?: (?:there|around(?: you)?|from "
+            rf"(?:there|here|where you are)|right there))?){_END}"
+        ),
+        "what can you see",
+    ),
+    (
+        (
+            rf"^what are you (?:doing|up to|working on)(?: (?:today|tonight|this (?:morning|evening)|these "
+            rf"days|there))+{_END}"
+        ),
+        "what are you doing",
+    ),
+    (
+        (
+            rf"^(?:is it time (?:for you )?to (?:re)?charge|(?:do you )?need (?:a |to )?(?:re)?charge|how much (?:power"
+            rf"|energy|juice|charge)"
+            rf" (?:do you have|is) left|how long (?:can|will) you (?:still )?(?:run|last|go)){_END}"
+        ),
+        "how is your battery",
+    ),
+    (r"\b(where|how|who|what) (are|r) (?:ya|yer|yous?)\b", r"\1 are you"),
+    (
+        (
+            rf"^(?:so |hey |and )*(?:where|whereabouts) (?:(?:are )?you (?:at|hanging out|hiding|located|standing"
+            rf"|parked|now)"
+            rf"|you|have you (?:got to|gone|been hiding)|did you (?:go|get to|end up|disappear to)){_END}"
+        ),
+        "where are you",
+    ),
+    (
+        (
+            rf"^(?:and |so |tell me |do you know )*(?:what|which things?|what (?:all|things|else|stuff|sort of "
+            rf"things|kind of things)"
+            rf"|how much) (?:(?:do|can) you|you|are you|you are|u|can u|could you|you can)(?: all| even| actually)?"
+            rf"(?: (?:know|able|capable|trained|programmed|built|made|designed|learned|learnt))?(?: how)?(?: to| of)?"
+            rf"(?: (?:do|doing|help with|handle|manage|be used for))?"
+            rf"(?: for (?:me|us|people|someone))?(?: around (?:here|the house))?{_END}(?<=do)(?<!are you do)"
+        ),
+        "what can you do",
+    ),
+    (
+        (
+            rf"^(?:(?:have |do )?you (?:got |have )?|got |is there )?(?:anything|something|any stuff|things|a "
+            rf"thing|stuff)"
+            rf" (?:in|between) (?:your|the|those|that) (?:\w+ )?(?:hands?|grippers?|arms?|claws?|fingers|grip"
+            rf"|pincers?|paws?){_END}"
+        ),
+        "what are you holding",
+    ),
+    (
+        (
+            rf"^(?:(?:are )?you (?:holding|carrying|gripping) (?:anything|something|stuff|things|a thing)"
+            rf"|do you (?:carry|hold) anything|what do you (?:hold|carry)|is your (?:hand|gripper) (?:empty|free"
+            rf"|full)){_END}"
+        ),
+        "what are you holding",
+    ),
+    (
+        (
+            rf"^(?:what|whatcha|what(?:'ve| have)?) you(?: have)? (?:got|holding|carrying)(?: there| in there| with you"
+            rf"| in (?:your|that|those) [\w ]+?)?{_END}"
+        ),
+        "what are you holding",
+    ),
+    (
+        (
             r"^(?:good (?:job|work|night|robot|boy|bye)|well done|nice (?:work|job|one)|great job|bye(?: bye)?"
             r"|goodbye"
             r"|see you(?: later| soon| tomorrow)?|perfect|excellent|awesome|brilliant|wonderful|great|lovely"

@@ -26,8 +26,23 @@ _PLEASE = (
     r"| so much| kindly)?|thx|ta|cheers|many thanks|ok|okay)"
 )
 
+_YEAH = r"(?:yeah|yep|yup|cool|k|bye|kthxbye|alright|okey dokey|kk|innit|man|bro)"
+
 ADDRESSING: tuple[tuple[str, str], ...] = (
-    (rf"(?<=\w)(?:[,.!]* {_PLEASE})+(?=[.!?]*$)", ""),
+    (
+        (
+            rf"(?<=\w)(?:[,.!]* (?:{_PLEASE}|{_YEAH}))*[,.!]* {_YEAH}(?:[,.!]* {_PLEASE})*(?=[.!]*$)"
+            r"(?<!the man)(?<!a man)(?<!that man)"
+        ),
+        "",
+    ),
+    (
+        (
+            r"(?<=\w)(?<!\byou)(?<!\bhe)(?<!\bshe)(?<!\bthey)(?<!\bis)(?<!\bit)(?<!\beverything)"
+            rf"(?:[,.!]* {_PLEASE})+(?=[.!?]*$)"
+        ),
+        "",
+    ),
     (rf"^(?:{_PLEASE}[,.!]* )+(?=\w)(?!do\b)", ""),
     (r"\b(?:um+|uh+|uhm+|erm+|err+|er|hmm+|ach|pray|ugh|gosh|jeez|blimey)\b,? ?(?=\w)", ""),
     (rf"(^|[,.;!] |\b(?:but|and|or) ){_SIGH}[,!.]* (?=\w)(?!no\b)", r"\1"),

@@ -6,6 +6,15 @@ from majordomo.planner.grammar.wording.questions import SHAPES
 
 ASKING: tuple[tuple[str, str], ...] = (
     *SHAPES,
+    (
+        (
+            r"\b(?:in|inside|within|throughout|across|around|of|all over) (?:all of |all )?(?:the|this|our|that|my) "
+            r"(?:(?:whole|entire|complete|full|total) (?:of (?:the|this|our) )?(?:building|house|place|home|flat"
+            r"|apartment|property|premises)|building|premises|property)(?=$|[?.!,])"
+        ),
+        "in the house",
+    ),
+    (r"^(how many .+?) all (?:in all|together|told)(?=[?.!]*$)", r"\1"),
     (r"^((?:how (?:do|can|would|could|should) i|what is the) .+?) from here(?=[?.]*$)", r"\1"),
     (r"^(how many [^?]+?)(?: are there)? (?:in total|in all|altogether|overall|all in all)(?=[?.]*$)", r"\1"),
     (r"^in (?:which|what) room (?:would|might|could|should) (.+?) be(?=$|[?.!])", r"where is \1"),
@@ -15,13 +24,6 @@ ASKING: tuple[tuple[str, str], ...] = (
     (r"^(?:is|are) there (?!any\b|some\b|a\b)(?:still )?(\w+) left(?=[?.]*$)", r"is there any \1"),
     (r"^what is there to eat\b", "which food is there"),
     (r"^what is there to drink\b", "which drinks are there"),
-    (
-        (
-            r"^what (?:things |objects )?(?:is around you|do you see around you|can you see from (?:where you are|here"
-            r"|there))(?=[?.]*$)"
-        ),
-        "what can you see",
-    ),
     (r"^(?:and |but )?why (?:is|was) that(?=[?.]*$)", "why did it fail"),
     (
         (
@@ -86,7 +88,6 @@ ASKING: tuple[tuple[str, str], ...] = (
     ),
     (r"^what (?:do|can) you (?:have|got) in (?:view|sight)\b", "what do you see"),
     ("^who else ", "who "),
-    (r"^(?:is|are) ([\w ]+?) (?:at home|home|in|around)(?=[?.!]*$)", r"where is \1"),
     (
         (
             "^(?:can|could) you (?:get (?:in)?to|enter|reach|go (?:in)?to|drive (?:in)?to"
@@ -197,15 +198,6 @@ ASKING: tuple[tuple[str, str], ...] = (
     ("^what (?:place|room) are (?:we|you) in(?: now| right now| currently)?", "where are you"),
     ("^(?:where|in which room|which room) are we(?: now| at| in)?(?=$|[.!?])", "where are you"),
     ("^(?:tell me )?where you are(?: now| right now| at)?(?=$|[.!?])", "where are you"),
-    ("^where are you (?:now|right now|currently|at|at the moment|standing|located)(?=$|[.!?])", "where are you"),
-    (
-        (
-            "^(?:are you (?:carrying|holding) (?:something|anything)|do you (?:carry|hold) anything"
-            "|what do you (?:hold|carry)|is your (?:hand|gripper) (?:empty|free|full))(?: right now| now"
-            "| at the moment)?"
-        ),
-        "what are you holding",
-    ),
     (
         (
             "^(?:what are you (?:able|capable)(?: to do| of doing| of)|what are your (?:abilities|skills"

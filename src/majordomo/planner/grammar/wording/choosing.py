@@ -34,6 +34,38 @@ CHOOSING: tuple[tuple[str, str], ...] = (
         r"do not move \1, but ",
     ),
     (
+        (
+            r"\bthe (red|green|blue|yellow|black|white|brown|pink|purple|gray|grey|gold|silver|small|big|large"
+            r"|tall|\w+est"
+            r"|\w+er|left|right)(?: ones?)? (?:out )?of (?:them|those|these|that|the (?:two|three|four|five|lot|bunch))"
+            r"(?=$|[.,!?]| (?:to|in|on|into|onto|for|and)\b)"
+        ),
+        r"the \1 one",
+    ),
+    (
+        (
+            r"\bwhichever (\w+)(?: of \w+)? (is|are|happens to be) (?=(?:in|on|at|next|near|under|by|from|standing"
+            r"|lying)\b)"
+        ),
+        r"the \1 that is ",
+    ),
+    (
+        (
+            r"^the colou?r of (the [\w ]+?) (?:that )?(?:i|we) (?:want|need|mean|meant|am after|am thinking of) is "
+            r"(\w+)(?=[,.;])"
+        ),
+        r"\1 that is \2",
+    ),
+    (
+        (
+            r"^(the [\w ]+?) (?:that )?(?:i|we) (?:want|need|mean|meant|am after|am thinking of|had in mind|have "
+            r"in mind)"
+            r" (?:is|are) (?=(?:the|in|on|at|next|near|by|red|green|blue|yellow|black|white|brown|pink|purple|gray|grey"
+            r"|gold|silver|orange)\b)"
+        ),
+        r"\1 that is ",
+    ),
+    (
         r"\ball (?:but|except|save|minus) (one|two|three|four|five|\d+) (?:of )?(?:the |my |our )?(?=\w+s\b)",
         r"allbut \1 of the ",
     ),

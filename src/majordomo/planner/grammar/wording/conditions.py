@@ -8,8 +8,51 @@ _DEED = (
     r"(?:go|bring|put|take|come|get|drive|fetch|return|wait|pick|give|carry|tell|move|leave|stay|please|then"
     r"|hand|drop)"
 )
+_HANDS = r"(?:you have (?:your|one|both) hands?|your (?:hands?|grippers?|arms?) (?:is|are))"
 
 CONDITIONS: tuple[tuple[str, str], ...] = (
+    (r"\b((?:if|unless)\b[^,.;!?]*?) (?:already|yet|currently|by now|by then|indeed)\b", r"\1"),
+    (
+        (
+            r"^((?:please )?(?:take|bring|put|carry|move) )((?:the|my|his|her|that|an?|some) [\w' ]+?) "
+            r"(to|in|on|into|onto|at) ([\w' ]+?),? unless (?:it|they|that) (?:is|are) there(?=[.!]*$)"
+        ),
+        r"unless \2 is at \4, \1\2 \3 \4",
+    ),
+    (
+        (
+            rf"^([^.?!;]*\b(?:unless\b|if [^,.;]*? not\b)[^.?!;]*?),? (?:and |but )*if {_ELLIPTIC} (?:is|are|does|has)"
+            rf"(?: there| so| in| have (?:one|it))?,? (?:then )?(?={_DEED}\b)"
+        ),
+        r"\1, otherwise ",
+    ),
+    (rf"^if ([^.?!;]+?),? tell me[.;,!]+ (?:otherwise|if not),? (?={_DEED}\b)", r"unless \1, "),
+    (
+        (
+            rf"^if ([^.?!;,]+?,? {_DEED}\b[^.?!;]*?)[.;,]+ (?:otherwise|if not|else),? (?:just |please )*"
+            r"(?:tell me|let me know|say so)(?: so)?(?=[.!]*$)"
+        ),
+        r"if \1",
+    ),
+    (rf"\b(if|unless|when) {_HANDS} (?:free|empty)\b", r"\1 you are not holding anything"),
+    (r"\b(if|unless|when) you have (?:a|one|both) (?:free|empty) hands?\b", r"\1 you are not holding anything"),
+    (rf"\b(if|unless|when) {_HANDS} (?:full|busy|occupied|in use)\b", r"\1 you are holding anything"),
+    (
+        r"\b(if|unless|when) you (?:have|are carrying|hold|carry|have got) nothing(?: in your \w+)?\b",
+        r"\1 you are not holding anything",
+    ),
+    (
+        r"\bif you are not (?:holding|carrying) (anything|something|a thing)(?: in your \w+)?\b",
+        r"unless you are holding anything",
+    ),
+    (
+        (
+            r"\b(if|unless) ((?:the|my|his|her|our|that) [\w' ]+?) (?:is|are) (not )?(?:empty|bare|vacant|cleared"
+            r"|clear)\b(?! of\b)"
+        ),
+        r"\1 there is \3nothing at \2",
+    ),
+    (r"\bif there is not nothing at\b", "unless there is nothing at"),
     (r"^only if (.+?),? (?:should|shall|must|may|can) (?:you|it|they) ", r"if \1, "),
     (r"^only (bring|take|put|give|go|get|fetch|move|carry) ([^,.;]+?) if ", r"\1 \2 if "),
     (
@@ -73,7 +116,6 @@ CONDITIONS: tuple[tuple[str, str], ...] = (
         ),
         r"is \1 \2 \3? ",
     ),
-    (r"\bif there is nothing (?=(?:in|on|at|under)\b)", "unless there is anything "),
     (
         (
             r"\b(if there (?:is|are) (?:still )?(?:an?|any|some) [\w ]+?) (?:left|remaining|over"

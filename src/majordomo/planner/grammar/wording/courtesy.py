@@ -45,6 +45,24 @@ SLIPS: tuple[tuple[str, str], ...] = (
 """Words that are no English, and what was meant."""
 
 COURTESY: tuple[tuple[str, str], ...] = (
+    (r"\b(?:all )?(?:the|my|those|these) ((?:\w+ )?\w+s),? both of (?:them|these|those)\b,?", r"both \1"),
+    (
+        (
+            r"(?<=\w),? (?:by the way|btw|just so you know|for your information|fyi|if you (?:did not|do not) "
+            r"know)(?=[.!?]*$)"
+        ),
+        "",
+    ),
+    (
+        (
+            r"(?:^|(?<=\w),? )(?:if|when|once|as soon as) you are (?:not (?:too |very |otherwise |that )?busy"
+            r"|free|available"
+            r"|not doing anything(?: else| important)?|idle|bored|up to it|able|not needed elsewhere)(?: right "
+            r"now| now)?"
+            r"(?=$|[.!?,]| \w),? ?"
+        ),
+        "",
+    ),
     (r"^would it (?:kill|hurt|bother|trouble|be too much for|be possible for) you (?:too much )?to (?=\w)", ""),
     (
         (
@@ -78,7 +96,7 @@ COURTESY: tuple[tuple[str, str], ...] = (
         "",
     ),
     (r"^(?:it is )?(?:about |high )?time (?:for you |you )?(?:to )?(?=\w)(?!is\b)", ""),
-    (r"\s*(?:-+>|=+>|→)\s*", " to "),
+    (r"\s*(?:-+>|=+>|→)\s*|(?<=\w) >+ (?=\w)", " to "),
     (r"^first(?:ly)?[,:]? (.+?)(?:,|;|\.| and|, and)+ second(?:ly)?[,:]? (?=\w)", r"\1, then "),
     (r"^(?:maybe|perhaps|possibly)[, ]+(?=\w)", ""),
     (r"^(?:tidy|clean|clear|pick) up after (?:the |your |our |my )?[\w ]+?[:,;.]+ ", ""),
@@ -218,6 +236,7 @@ COURTESY: tuple[tuple[str, str], ...] = (
     (" (?:at the moment|at present|right now|as we speak|these days)(?=[?.!]*$)", ""),
     (
         (
+            r"(?<!\btake)(?<!\bbring)(?<!\bput)(?<!\bmove)(?<!\bcarry)(?<!\bget)(?<!\bfetch)(?<!\bme)(?<!\bhim)(?<!\bher)(?<!\bup)"
             ",? (?:the )?(?:both|all|each and every one|each|every one)(?: (?:two|three|four))? of (?:them"
             "|these|those)(?=$|,| (?:except|but|apart|without|into|onto|in|on|to|go|goes"
             r"|should|must|can|belong|belongs)\b),?"

@@ -12,6 +12,14 @@ _LEAD = (
 _NP = r"(?:the|an?|my|that|his|her|some) (?:\w+ )?\w+"
 
 DICTATING: tuple[tuple[str, str], ...] = (
+    (
+        (
+            r"\b(the|my|a|an|that) (?:(?:uh|um|er),? )?(\w+)(?: (?:thing|thingy|thingummy|whatsit"
+            r"|whatchamacallit))?,? (?:(?:uh|um|er|i mean|well),? )*"
+            r"(?:the|my) ((?:\w+ )?\2)\b(?! (?:is|are|on|in)\b)"
+        ),
+        r"\1 \3",
+    ),
     (r" ?\bcomma\b,?", ","),
     (r" ?\b(?:full stop|period)(?=$|[.\s])(?! of)", "."),
     (r" ?\b(?:question mark|exclamation (?:mark|point))\b", "."),

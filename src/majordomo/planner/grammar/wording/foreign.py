@@ -4,8 +4,21 @@ from __future__ import annotations
 
 _DEED = r"(?:bring|take|put|go|get|fetch|give|come|carry|move|find|drop|return|look|hand|pick|place|pass|grab|drive)"
 _DET = r"(?:the|an?|my|some|one|two|three|his|her|that|those|any|all|both|every)"
+_ROOMS = (
+    r"(?:room|kitchen|hall|hallway|office|bathroom|bedroom|garage|pantry|library|house|home|building|flat|place|terrace"
+    r"|laundry|lab|gym|ward|storage|table|desk|shelf|cabinet|drawer|box|bag|fridge|cupboard|wardrobe|couch|sofa"
+    r"|floor)s?"
+)
 
 FOREIGN: tuple[tuple[str, str], ...] = (
+    (
+        (
+            rf"^((?:please |can you |could you |you |and |then )*)(?:search|seek|look|find for|search me)(?: for"
+            rf"| after)? "
+            rf"(?!.* for )(?=(?:the|my|his|her|our) [\w ]+?[.!?]*$)(?![\w ]*\b{_ROOMS}\b)(?!after\b)"
+        ),
+        r"\1find ",
+    ),
     (r"\bits (?=(?:in|on|at|under|next|near|by|not|an?|the|too|so|very|here|there)\b)", "it is "),
     (r"\bnxt\b", "next"),
     (r"\b([a-z]+)'s got (?=an?\b|the\b|no\b|some\b|to\b|his\b|her\b)", r"\1 has "),

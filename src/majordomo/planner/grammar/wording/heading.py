@@ -13,6 +13,11 @@ _NO_PLACE = (
     r"is|then|and|bring|take|put)\b"
 )
 _THING = r"(?:(?:the|my|a|an|that|this|his|her|some|one|our|both|all|two|three) )?[\w' ]+?"
+_SPOT = (
+    r"(?:room|kitchen|hall|office|bathroom|bedroom|garage|pantry|library|terrace|laundry|lab|gym|storage|table"
+    r"|desk|shelf"
+    r"|counter|cabinet|drawer|fridge|refrigerator|bench|couch|sofa|bed|nightstand|dresser|windowsill|sink|basket|box)"
+)
 
 HEADING: tuple[tuple[str, str], ...] = (
     (rf"\b(\w+) \(({_COLOR})(?: one)?\)", r"\2 \1"),
@@ -30,6 +35,14 @@ HEADING: tuple[tuple[str, str], ...] = (
     (r"^(?:go|drive|head)(?: to)?: (?=\w)", "go to "),
     (r"^(?:position|destination|target|next stop|stop|where to|new position): (?=\w)", "go to "),
     (rf"^({_THING}): ([\w ]+?) ?(?:-+>|=+>|→) ?(?=\w)", r"the \1 from \2 to "),
+    (
+        rf"^(?:the )?(\w+(?: \w+)?)[.:] (?:from )?((?:\w+ )?{_SPOT}) to (?=(?:\w+ )?{_SPOT}\b)",
+        r"the \1 from \2 to ",
+    ),
+    (
+        rf"^(take|bring|move|carry|get) ([\w ]+?) ?, ?((?:the )?(?:\w+ )?{_SPOT}) ?, ?(?=(?:to|into|onto) )",
+        r"\1 \2 from \3 ",
+    ),
     (r"^the (?=(?:the|my|an?|some|all|both|his|her) )", ""),
     (rf"^({_THING}): (?=(?:should|must|needs? to|has to|have to|goes|belongs?|can go|to be)\b)", r"the \1 "),
     (
@@ -43,7 +56,8 @@ HEADING: tuple[tuple[str, str], ...] = (
     ),
     (
         (
-            rf"^({_THING})[.!]+ (?:here|to me|over here|bring|fetch|give)(?:[.!,]+ (?:now|here|"
+            rf"^(?![^.!]* (?:to|into|onto) )({_THING})[.!]+ (?:here|to me|over here|bring|fetch|give"
+            rf"|now)(?:[.!,]+ (?:now|here|"
             rf"quick|please|at once|"
             r"immediately|to me|chop chop))*(?=[.!]*$)"
         ),

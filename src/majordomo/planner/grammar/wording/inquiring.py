@@ -26,7 +26,7 @@ INQUIRING: tuple[tuple[str, str], ...] = (
     ),
     (rf"^(which|what|who)(?: one)? {_BETWEEN}(is \w+er|has more|has fewer)\s*[:;–-]\s*(?=\w)", r"\1 \2, "),
     (rf"^(which|what|who)(?: one)? {_BETWEEN}(is \w+er|has (?:more|fewer))\b", r"\1 \2"),
-    (r"^which has (?=(?:the )?(?:more|fewer|most|fewest)\b)", "what has "),
+    (r"^(?:which|who) has (?=(?:the )?(?:more|fewer|most|fewest)\b)", "what has "),
     (rf"^((?:the|my|our|there|[a-z]+) [^?]*?\b(?:is|are|has|have)\b[^?]*?), {_TAGS}[?.! ]*$", r"tell me if \1?"),
     (r"\b(?:have |has )?(?:lost|losing) (?:all )?(?:track|sight) of ", "lost "),
     (
@@ -123,7 +123,6 @@ INQUIRING: tuple[tuple[str, str], ...] = (
     ),
     (r"^what does (.+?) look like(?=[?.!]*$)", r"describe \1"),
     (r"^what is (.+?) like(?=[?.!]*$)", r"describe \1"),
-    (r"^what (?:can you tell me|is there to say|do you know) about (?=(?:the|my|our) [\w ]*room\b)", "describe "),
     (
         (
             r"^who (?:all |else )?is (?:at home|home|around|about|in the house|in the building|in)(?:"

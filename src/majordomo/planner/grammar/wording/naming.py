@@ -49,8 +49,6 @@ NAMING: tuple[tuple[str, str], ...] = (
         r"\1 is \2",
     ),
     (r"^its (?:(?:new |proper |real )?name is|called|named) ", "it is called "),
-    (r"^(?:my )?name's (?=\w+[.!]*$)", "my name is "),
-    (r"^just (?=call me \w+[.!]*$)", ""),
     (
         r"^the room (?:that )?(\w+) is in (?:is|should be|will be) (?=(?:the|my|our|called)\b)",
         r"the room where \1 is is ",
@@ -67,10 +65,11 @@ NAMING: tuple[tuple[str, str], ...] = (
     ),
     (
         (
-            rf"^{_OURS}{_HABIT} (?:call|calls|name|label|nickname|dub) (the [\w' ]+?) (\w+)(?: now"
+            rf"^{_OURS}{_HABIT} (?:call|calls|called|name|named|label|labeled|nickname|nicknamed|dub|dubbed) "
+            rf"(the [\w' ]+?)(?: now"
             rf"| from now on| around here| here| these days)*(?=[.!]*$)"
         ),
-        r"call \1 the \2",
+        r"call \1",
     ),
     (
         (
@@ -125,7 +124,6 @@ NAMING: tuple[tuple[str, str], ...] = (
     ("^this (?:here|room here|place here|one here) is ", "this is "),
     (r"\b(?:from now on|in future|in the future|henceforth|as of now)[,:]* (?=\w)", ""),
     ("[, ]+(?:from now on|in future|in the future|henceforth)(?=$|[.!])", ""),
-    (r"^you are (?:now )?in (?=(?:the|my) [\w ]+$)", "this room is "),
     (
         (
             "^(?:let us|we|i|people|they|everyone|everybody|you (?:can|should|may|must))(?: all)?(?: will"

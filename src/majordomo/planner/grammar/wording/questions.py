@@ -6,7 +6,20 @@ _NOW = r"(?: (?:now|right now|at the moment|currently|these days|lately|today|he
 _COLOR = r"(?:red|green|blue|yellow|black|white|brown|pink|purple|gray|grey|orange|gold|silver|cyan|beige|turquoise)"
 
 SHAPES: tuple[tuple[str, str], ...] = (
-    (r"^who (?:has|is got|has got|took|is holding|is carrying|had) ([^?]+?)(?= ?[?.!]|$)", r"where is \1"),
+    (
+        (
+            r"^(?:are|is) there as (?:many|much) ([\w ]+?) (?:in|on|at|under) ([\w' ]+?) as (?:there (?:is|are) )?"
+            r"(?:in|on|at|under) ([^?]+?)(?=[?.!]*$)"
+        ),
+        r"what has more \1, \2 or \3",
+    ),
+    (
+        (
+            r"^who (?:has(?! more| fewer| less| most| the most)|is got|has got|took|is holding|is carrying|had) "
+            r"([^?]+?)(?= ?[?.!]|$)"
+        ),
+        r"where is \1",
+    ),
     (
         (
             r"^(?:and |but |so |well |now )*(?:tell|show|inform|remind|let) (?:me|us|an? [\w ]+?|"
@@ -131,7 +144,8 @@ SHAPES: tuple[tuple[str, str], ...] = (
     ),
     (
         (
-            r"^(?:are|is) there (?:more|fewer|less|as many) ((?:(?!in |on |at )\w+ ?)+?) (?:than|as|or(?: more)?) "
+            r"^(?:(?:are|is) there|(?:do|have) (?:we|i|you) (?:have|got)) (?:more|fewer|less|as many) ((?:(?!in "
+            r"|on |at )\w+ ?)+?) (?:than|as|or(?: more)?) "
             r"([\w ]+?)( (?:in|on|at|under) [^?]+?)?(?=[?.!]*$)"
         ),
         r"how many \1 are there\3? how many \2 are there\3",

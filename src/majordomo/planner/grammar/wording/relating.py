@@ -15,6 +15,18 @@ _DEED = r"(?:bring|take|put|get|fetch|give|carry|move|hand|pick|place|pass|grab)
 RELATING: tuple[tuple[str, str], ...] = (
     (
         (
+            r"\b((?:that|which) (?:is|are) )?(on|in|from|at) the same (?!room\b)([\w]+(?: \w+)?) (?:as|like|where) "
+            r"((?:the|my|his|her|a|an|that|those|all|every) [\w' ]+?|\w+)(?: (?:is|are))?"
+            r"(?=,|[.!?]|$| (?:and|to|into|onto|for|if|unless) )"
+        ),
+        r"\1\2 the \3 where \4 is",
+    ),
+    (
+        r"\b(?:(?:sharing|shares|that shares|which shares) (?:a|the|its) room with|(?:in|from) the same room where) ",
+        "in the same room as ",
+    ),
+    (
+        (
             r"\b(?:that|which) (?:i|you|we|he|she|they|someone|somebody|\w+) (?:have |had "
             r"|has |just )*(?:left|put|placed|"
             rf"dropped|forgot|forgotten|laid|set|saw|seen|kept|stored|keeps?|stores?)(?: "

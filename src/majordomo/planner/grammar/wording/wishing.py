@@ -10,7 +10,14 @@ _USES = (
 _ANYBODY = r"((?!i\b|we\b|you\b|it\b|that\b|this\b|what\b|who\b|which\b|where\b|if\b|nobody\b)[a-z]+(?: [a-z]+)??)"
 _SENDING = (
     r"[,.;!]* (?:so |and |please |can you |could you |then |now )*(?:bring|get|give|fetch|hand|pass|grab)(?: me)?"
-    r" (?:it|them|that|one)(?: to me| here| over| for me)?(?: please| now)?(?=[.!?]*$)"
+    r" (?:it|them|that|one)(?: to me| over here| here| over| for me)*(?: please| now)?(?=[.!?]*$)"
+)
+_INTENDS = (
+    r"(?:(?:am|is|are|was|were) (?:just |only |actually )?(?:going|about|meaning|planning|hoping|trying|supposed"
+    r"|meant|wanting|intending|due) to"
+    r"|(?:have |has |had )?(?:planned|meant|hoped|intended|wanted|decided|promised|wished)(?: to)?"
+    r"|would (?:rather|like to|love to|prefer to)|wants? to|needs? to|have to|has to|must|wish(?:es)? to"
+    r"|feels? like|fancy|fancies|was about to)"
 )
 
 WISHING: tuple[tuple[str, str], ...] = (
@@ -74,11 +81,18 @@ WISHING: tuple[tuple[str, str], ...] = (
     ),
     (
         (
-            rf"^(?:i|we) (?:would (?:rather|like to|love to|prefer to)|want to|need to|am going "
-            rf"to|have to|must|wish to|wanted to) "
+            rf"^(?:i|we) (?:would )?{_INTENDS} "
             rf"[a-z]+(?: (?:with|at|on|from|in|for))? ((?:the|my|an?|some|our|that) [^,.;!?]+?){_SENDING}"
         ),
         r"bring me \1",
+    ),
+    (
+        (
+            rf"^(?:i|we|he|she|they|somebody|someone) (?:would )?{_INTENDS} [a-z]+(?: (?:with|at|on|from|in|for))? "
+            r"((?:the|my|our|that) [^,.;!?]+?)[,.;!]+ (?:so |and |please |can you |could you |then |now )*"
+            r"(?=(?:put|take|bring|carry|move|leave|return|place|get|give|fetch|hand)\b[^,.;!?]* (?:it|them|that)\b)"
+        ),
+        r"\1, ",
     ),
     (
         (

@@ -100,6 +100,7 @@ class SeeFromElsewhere(DriveTo):
 
     def __init__(self, account: Account, standoff_m: float) -> None:
         super().__init__(account.context, account.node_id, self._elsewhere)
+        self.name = f"see {account.node_id} from elsewhere"
         self._account, self._standoff_m = account, standoff_m
         self._side_rad: float | None = None
         self._hiding: list[str] = []

@@ -329,6 +329,15 @@ def test_the_graph_is_taken_up_again_after_a_restart():
     assert np.linalg.norm(graph.position("bottle_1", "room_1") - BLUE_BOTTLE.center) < 0.015
 
 
+@pytest.mark.parametrize(("frames", "label"), [(40, "bottle"), (4, "can")])
+def test_a_name_that_was_found_time_and_again_is_not_overturned_by_one_look_after_a_restart(frames, label):
+    story = Story([TABLE, BLUE_BOTTLE])
+    story.run(frames)
+    story.agent = ObjectMemory(story.memory, story.buffer, story.room, random=np.random.default_rng(3))
+    story.room.solids = [TABLE, replace(BLUE_BOTTLE, label="can")]
+    assert story.run(15).object("bottle_1").label == label
+
+
 def test_a_person_is_a_node_on_the_floor_that_moves_when_they_walk():
     body = Solid(label="person", center=(1.0, 0.5, 0.85), size_m=(0.4, 0.4, 1.7), cylinder=True)
     story = Story([body], eye=(-2.0, 0.0), target=(1.0, 0.0, 1.0))

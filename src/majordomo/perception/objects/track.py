@@ -27,7 +27,12 @@ _SIDE_RAD = math.pi / 4.0
 _PART_TRUST = 0.25
 """What a view of a part counts, cut by the picture's border or by what stands before it: networks name parts badly."""
 _STORED_FRAMES = 5
-"""A stored label counts as much as so many frames that say the same."""
+"""A stored label counts as much as so many frames of a view that say the same."""
+_STORED_VIEWS = (0.5, 3.0)
+_OBSERVATIONS_OF_VIEW = 12.0
+"""Of so many observations, a stored label counts as one view: what was seen time and again, from more sides than one,
+is not overturned by the first look after a restart.
+"""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -200,8 +205,9 @@ class Track:
         self.node_id = node.id
         if is_taught(node.label, node.label_distribution):
             self.label.teach(node.label)
+        views = float(np.clip(node.observations / _OBSERVATIONS_OF_VIEW, *_STORED_VIEWS))
         for _ in range(_STORED_FRAMES):
-            self.label.update(node.label_distribution or ((node.label, 0.9),), view="stored")
+            self.label.update(node.label_distribution or ((node.label, 0.9),), view="stored", trust=views)
         if node.color:
             self.color.update({node.color: 1.0})
         self.state = node.state

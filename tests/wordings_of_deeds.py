@@ -3,6 +3,16 @@
 from __future__ import annotations
 
 DEEDS: list[tuple[str, str]] = [
+    ("i could use your help in the bathroom", "go to the bathroom"),
+    ("everyone is in the kitchen, join them", "go to the kitchen"),
+    ("i heard a noise in the garage, go and have a look", "go to the garage"),
+    ("what is leo up to? go and check", "go to leo"),
+    ("lunch time, go to the cafeteria", "go to the cafeteria"),
+    ("emergency in ward 11, go", "go in ward 11"),
+    ("it would be lovely to have the newspaper", "i want the newspaper"),
+    ("take the scissors away from the desk, put them in the box", "put the scissors from the desk in the box"),
+    ("the book is not where it should be: take it to the hall", "take the book to the hall"),
+    ("take the red cup, then the blue cup, to the shelf", "take the red cup and the blue cup to the shelf"),
     ("leave the green folder, take the others to the hall", "take all the folders except the green one to the hall"),
     ("go over there to the couch", "go to the couch"),
     ("go hang out in the hall", "go to the hall"),

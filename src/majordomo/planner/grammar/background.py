@@ -20,7 +20,8 @@ _SAID = frozenset(
      "broke", "keeps", "dropped", "forgot", "found", "bought", "put", "saw", "loves", "likes", "lives", "works",
      "said", "says", "gets", "becomes", "fell", "spilled", "finished", "called", "started", "stopped", "asked",
      "cooked", "ate", "drank", "belongs", "comes", "goes", "just", "thought", "knew", "slept", "caught", "cut",
-     "felt", "hurt", "hurts", "lost", "kept", "met", "ran", "sat", "stood", "told", "took", "woke", "wrote"},
+     "felt", "hurt", "hurts", "lost", "kept", "met", "ran", "sat", "stood", "told", "took", "woke", "wrote",
+     "rang", "rings", "heard", "knocked", "arrived", "gave", "sent"},
 )  # fmt: skip
 """Finite verbs of a statement, beside *is* and *has* and those that their ending tells."""
 _PLAIN = frozenset(

@@ -13,6 +13,26 @@ _LEAD = r"(?:(?<=^)|(?<=[.,;!] )|(?<=\band )|(?<=\bthen )|(?<=\bplease )|(?<=\by
 DISCARDING: tuple[tuple[str, str], ...] = (
     (
         (
+            r"\b(?:take|get|move|remove) ((?:the|my|those|these|that) [\w' ]+?) (?:away )?from ((?:the|my|\w+'s) "
+            r"[\w' ]+?)(?:,|;| and"
+            r")+ (?:then |please )*(?:put|place|bring|carry|take) (?:it|them) (?=(?:in|on|to|into|onto|next)\b)"
+        ),
+        r"put \1 from \2 ",
+    ),
+    (
+        (
+            r"^((?:the|my|this|that) [\w' ]+?) (?:is|are) not where (?:it|they) (?:should|ought to|must|belongs?|is "
+            r"supposed to)"
+            r"(?: be)?[:,;.!]+ (?:so |please )*(put|take|bring|carry|move|return) (?:it|them) "
+        ),
+        r"\2 \1 ",
+    ),
+    (
+        r"\b((?:take|put|bring|carry) (?:the|my) [\w ]+?), then ((?:the|my) [\w ]+?), (?=(?:to|in|on|into|onto) )",
+        r"\1 and \2 ",
+    ),
+    (
+        (
             r"^(?:please )?(?:get rid of|away with|out with|throw out|throw away|dispose "
             r"of) ([^,.;!]+?)[,;.!]+ (?:[^.;!]*[.;!]+ )?"
             r"(?:in|into) ([^,.;!]+?) with (?:it|them)(?=[.!]*$)"

@@ -47,7 +47,8 @@ HEADING: tuple[tuple[str, str], ...] = (
     (rf"^({_THING}): (?=(?:should|must|needs? to|has to|have to|goes|belongs?|can go|to be)\b)", r"the \1 "),
     (
         (
-            rf"(?:(?<=^)|(?<=[.;] ))(?!{_NO_PLACE}|[^,:;.!]*\b(?:is|are|wants|needs|if)\b)((?:the "
+            rf"(?:(?<=^)|(?<=[.;] ))(?!{_NO_PLACE}|[^,:;.!]*\b(?:is|are|was|has|have|had|came|will|wants|needs"
+            rf"|if)\b)((?:the "
             rf"|my )?[\w' ]+?)[,:;.!]+ (?:go|drive|head|off you go)(?: there| here)?(?: now)"
             rf"?"
             r"(?=[.!]*$)(?<!please go)"

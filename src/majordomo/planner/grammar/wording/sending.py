@@ -17,6 +17,52 @@ _SOON = (
 SENDING: tuple[tuple[str, str], ...] = (
     (
         (
+            r"^(?:i|we) (?:need|want|could (?:use|do with)|would like) your (?:help|assistance|company|presence"
+            r"|support)"
+            r"(?: over| down| up| here)* (?=(?:in|at|by|on|near) )"
+        ),
+        "go ",
+    ),
+    (
+        (
+            r"^(?:everyone|everybody|we|they|the others|the (?:kids|children|guests)) (?:is|are) (?:all |already "
+            r"|waiting )*"
+            r"((?:in|at|on|by) [^,.;]+?)[,.;]+ (?:so |and |please )*(?:go (?:and )?)?(?:join (?:them|us)|come(?: too"
+            r"| along| over)?"
+            r"|go there|go too)(?=[.!]*$)"
+        ),
+        r"go \1",
+    ),
+    (
+        (
+            r"^i (?:heard|saw|noticed|smell|smelled) (?:an?|some) (?:\w+ )?(?:noise|sound|bang|crash|voice|voices"
+            r"|light|smoke|shadow)"
+            r" (?:coming )?(?:from|in|at|on|by|near) ([^,.;]+?)[,.;]+ (?:so |and |please |can you )*(?:go "
+            r"(?:and )?)?(?:have a"
+            r" look|take a look|check|look|see)(?: there| what it is| please)*(?=[.!?]*$)"
+        ),
+        r"go to \1",
+    ),
+    (
+        (
+            r"^(?:what is (?=\w+ (?:up|do))|how is (?=\w+ ?[a-z]*\?)|where is (?=\w+\? go (?:to|and see|and "
+            r"meet)))(\w+)(?: up to"
+            r"| doing| getting on)?[?,.;]+ (?:please )?(?:go (?:and )?|can you )(?:check|see|look|find out)(?: "
+            r"please)?(?=[.!?]*$)"
+        ),
+        r"go to \1",
+    ),
+    (r"^(?:it is )?(?:lunch|dinner|supper|breakfast|tea|bed|play|break|story|party) ?time[,.!:;]+ (?=\w)", ""),
+    (
+        (
+            r"^(?:an? |there is an? )?(?:emergency|accident|alarm|problem|fire|trouble) (?=(?:in|at|on|by) "
+            r")([^,.;!]+?)[,.;!]+ "
+            r"(?:so |please )*(?:go|hurry|quick|quickly|run|go there|get there)(?: now| quickly)?(?=[.!]*$)"
+        ),
+        r"go \1",
+    ),
+    (
+        (
             r"\b([^\W\d]+)'s (?=(?:lonely|waiting|expecting|hoping|sad|bored|scared|alone|crying|upset|happy|afraid"
             r"|cold|hot|late|hurt|awake"
             r"|up|back"

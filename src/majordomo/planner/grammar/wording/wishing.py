@@ -23,6 +23,14 @@ _INTENDS = (
 WISHING: tuple[tuple[str, str], ...] = (
     (
         (
+            r"^it would be (?:\w+ )?(?:lovely|nice|great|good|wonderful|perfect|kind|splendid) to have (?=(?:the|my"
+            r"|an?|some|two"
+            r"|that)\b)"
+        ),
+        "i want ",
+    ),
+    (
+        (
             r"\b(?:i|we) (?:could (?:really |just |so )?(?:murder|eat|drink|go for|do with|use|kill for|handle|manage)|"
             r"(?:am|are) (?:gasping|dying|longing|desperate|craving|itching|yearning|keen)(?: for| on| to have)?|"
             r"would not (?:say no to|mind|object to|refuse)|feel like(?: having)?|(?:am|are) in "

@@ -243,3 +243,17 @@ def test_a_color_told_apart_and_notes_in_haste(text, thing):
 
 def test_the_largest_of_several_that_are_alike_is_asked_about():
     assert read("bring me the largest of the books").kind is Kind.CLARIFY
+
+
+@pytest.mark.parametrize(
+    ("text", "args"),
+    [
+        ("can you can you bring me the key", ("key_1", "person_2")),
+        ("bring me like the key", ("key_1", "person_2")),
+        ("the thing is I need the key", ("key_1", "person_2")),
+        ("bring me either the key or the phone", ("key_1", "person_2")),
+        ("should you see the key, bring it", ("key_1", "person_2")),
+    ],
+)
+def test_speech_that_a_machine_has_typed(text, args):
+    assert [goal.args for goal in read(text).goals] == [args]

@@ -11,6 +11,31 @@ _DEED = (
 _HANDS = r"(?:you have (?:your|one|both) hands?|your (?:hands?|grippers?|arms?) (?:is|are))"
 
 CONDITIONS: tuple[tuple[str, str], ...] = (
+    (r"^should you (?:happen to |ever )?(?=(?:see|find|come across|spot|notice|have|discover)\b)", "if you "),
+    (
+        (
+            r"\b(if|unless) ((?!(?:it|he|she|they|there|that|this|nobody|someone|somebody|anyone|anybody|you|the|one"
+            r"|everyone)\b)\w+) is "
+            r"(?:at home|home|around|about|in|there|here)(?=,| (?:bring|take|give|go|tell|hand|fetch)\b)"
+        ),
+        r"\1 there is \2",
+    ),
+    (
+        (
+            r"^(?:if|when|in case) ([^.?!;]+?), (?:please )?(?:tell me|let me know|say so)(?: so| "
+            r"please)?(?=[.!]*$)"
+        ),
+        r"tell me if \1",
+    ),
+    (r"^((?:if|unless)\b[^.?!;]*?),? instead(?=[.!]*$)", r"\1"),
+    (
+        (
+            rf"\b({_DEED}(?: me| us| him| her)?) either ((?:the|an?|my|some) [\w' ]+?) or ((?:the|an?|my"
+            rf"|some) [\w' ]+?)(?=[.!]*$)"
+        ),
+        r"\1 \2, otherwise \3",
+    ),
+    (r"^((?:if|in case|suppose|supposing|assuming|provided)\b[^:;,.]*): (?=\w)", r"\1, "),
     (r"\b((?:if|unless)\b[^,.;!?]*?) (?:already|yet|currently|by now|by then|indeed)\b", r"\1"),
     (
         (

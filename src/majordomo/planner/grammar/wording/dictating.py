@@ -12,6 +12,25 @@ _LEAD = (
 _NP = r"(?:the|an?|my|that|his|her|some) (?:\w+ )?\w+"
 
 DICTATING: tuple[tuple[str, str], ...] = (
+    (r"\b([a-z]+ [a-z]+(?: [a-z]+)?),? \1\b", r"\1"),
+    (
+        (
+            r"\b(me|him|her|us|then|and|just|maybe|could you|can you|would you|please),? like,? "
+            r"(?=(?:the|an?|my|bring|take|put|go|get|come|fetch|give)\b)(?<!would you like )"
+        ),
+        r"\1 ",
+    ),
+    (r"^(?:the thing is|here is the thing|fact is|truth is|point is)[,:]? (?:that )?(?=\w)", ""),
+    (
+        (
+            r"^(?:i (?:need|want|would like) you to|can you|could you|please)? ?do (?:something|me a favou?r"
+            r"|one thing|me one)(?: for (?:me|us))?[,.:;!?]* (?=(?:bring|take|put|go|get|come|fetch|give"
+            r"|find)\b)"
+        ),
+        "",
+    ),
+    (r"\bthere (?:should|must|ought to|might|has to) be (?=(?:an?|the|some|one|two|my)\b)", "there is "),
+    (r"^(?:(?:hey|ok|okay|hi|hello),? )?(?:alexa|siri|google|jarvis|cortana)[,!.]* (?=\w)(?!me\b|it\b)", ""),
     (
         (
             r"\b(the|my|a|an|that) (?:(?:uh|um|er),? )?(\w+)(?: (?:thing|thingy|thingummy|whatsit"

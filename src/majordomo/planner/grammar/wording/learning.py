@@ -10,7 +10,6 @@ _HUNGRY = r"(?:hungry|thirsty|tired|cold|sleepy|bored|sick|sad|hot|ill)"
 LEARNING: tuple[tuple[str, str], ...] = (
     (rf"^(?:me |i |i is |me is |we ){_HUNGRY}[,.!;]* (?=\w)", ""),
     (r"\bout(?:t)?a (?=(?:the|my|his|her)\b)", "out of "),
-    (r"\b(give me|bring me)(?:,? \1)+\b", r"\1"),
     (rf"\b({_DEED}) 2 (?=(?:me|us|him|her)\b)", r"\1 to "),
     (rf"\b({_DEED}(?: me| us| him| her)?) them (?=\w+s\b)(?!this|his)", r"\1 those "),
     (r"\b(can|could|may) (i|we) (?:haz|has|hav|hazz)\b", r"\1 \2 have"),

@@ -25,7 +25,7 @@ ABOUT_ROBOT: tuple[tuple[str, str], ...] = (
     ),
     (
         (
-            rf"^(?:who (?:built|made|created|programmed|designed|invented|developed|owns|bought) you|how old are you"
+            rf"^(?:who (?:built|made|created|programmed|designed|invented|developed|owns|bought) you"
             rf"|when were you (?:built|made|born)|where (?:do|did|are) you (?:come )?from|(?:what|which) (?:model"
             rf"|make|brand|type"
             rf"|version) are you|(?:do|have) you (?:have |got )?(?:any |a |an )?(?:feelings|emotions|heart|soul"

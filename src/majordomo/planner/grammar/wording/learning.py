@@ -68,7 +68,8 @@ LEARNING: tuple[tuple[str, str], ...] = (
     (r"^there (?:is|are) (how many [^?]+?)(?: there)?(?=[?.!]*$)", r"\1"),
     (
         (
-            r"^how (?:many|much) ([\w ]+?)(?<! do)(?<! did)(?<! can)(?<! could) (?:we|i|you|they) (?:have|has|got"
+            r"^how (?:many|much) ([\w ]+?)(?<! do)(?<! did)(?<! can)(?<! could)(?<! have)(?<! has) (?:we|i|you"
+            r"|they) (?:have|has|got"
             r"|own|possess)((?: (?:here|in total|now|left))?"
             r"|(?: (?:in|on|at) [^?]+?))(?=[?.!]*$)"
         ),

@@ -257,3 +257,8 @@ def test_the_largest_of_several_that_are_alike_is_asked_about():
 )
 def test_speech_that_a_machine_has_typed(text, args):
     assert [goal.args for goal in read(text).goals] == [args]
+
+
+@pytest.mark.parametrize("text", ["how many books have we got", "how many books we have", "how many books do we have"])
+def test_a_space_stays_between_words_that_are_known(text):
+    assert "3 books" in read(text).reply

@@ -142,14 +142,17 @@ class Lexicon:
             return one, other
         if self._knows(one) and other[:1] == one[-1:] and self._knows(other[1:]) and len(other) > 3:
             return one, other[1:]  # *the eyogurt*, of *th eyogurt*
-        later, sooner = (one[:-1], one[-1:] + other), (one + other[:1], other[1:])
-        moved = ([] if self._knows(one) else [later]) + ([] if self._knows(other) else [sooner])
-        alone = all(self.meant(word) == word for word in (one, other) if not self._knows(word))
-        known = [pair for pair in moved if all(map(self._knows, pair)) and (alone or _SMALL & set(pair))]
+        found = []
+        if not self._knows(one) and (not self._knows(other) or one[-1:] + other in _SMALL):
+            found.append((one[:-1], one[-1:] + other))
+        if not self._knows(other) and (not self._knows(one) or one + other[:1] in _SMALL):
+            found.append((one + other[:1], other[1:]))
+        known = [pair for pair in found if all(map(self._knows, pair))]
         return known[0] if len(known) == 1 else (one, other)
 
     def _knows(self, word: str) -> bool:
-        known = word in PHRASE_WORDS | KNOWN_WORDS or word in COLORS or word in self.parts or self.is_noun((word,))
+        known = word in PHRASE_WORDS | KNOWN_WORDS or word in COLORS or self.is_noun((word,))
+        known = known or word in self.parts or singular(word) in self.parts | KNOWN_WORDS
         return known and (len(word) > 1 or word in ("a", "i"))
 
     def joined(self, one: str, other: str) -> str:

@@ -29,7 +29,6 @@ DICTATING: tuple[tuple[str, str], ...] = (
         ),
         "",
     ),
-    (r"\bthere (?:should|must|ought to|might|has to) be (?=(?:an?|the|some|one|two|my)\b)", "there is "),
     (r"^(?:(?:hey|ok|okay|hi|hello),? )?(?:alexa|siri|google|jarvis|cortana)[,!.]* (?=\w)(?!me\b|it\b)", ""),
     (
         (

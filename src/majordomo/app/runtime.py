@@ -27,6 +27,7 @@ from majordomo.app.scene_documents import robot_document, scene_document
 from majordomo.app.scheduler import TICK_S, Agent, LockstepScheduler, RealTimeScheduler, Scheduler, Turns
 from majordomo.app.settings import ClockMode, Settings
 from majordomo.app.stack import BuildStack, Stack
+from majordomo.app.task_journal import TaskJournal
 from majordomo.planner.grammar.control import Control, control_word
 from majordomo.planner.models.protocol import LanguageModel
 from majordomo.planner.obedience import obey
@@ -75,7 +76,8 @@ class Runtime:
         self.settings = settings
         self._build, self._tick_s = build, tick_s
         self._witnesses = witnesses
-        self.queue = TaskQueue()
+        self._journal = TaskJournal.of(settings)
+        self.queue = TaskQueue(self._journal.tasks() if self._journal is not None else ())
         self.stream = EventStream(self._snapshot_document, first_seq=time.time_ns() // 1_000_000)
         self.log = EventLog(event_log)
         self._http = httpx.AsyncClient()
@@ -99,6 +101,8 @@ class Runtime:
             await self._halt()
             await self._http.aclose()
             self.log.close()
+            if self._journal is not None:
+                self._journal.close()
 
     @property
     def memory(self) -> WorkingMemory:
@@ -313,6 +317,8 @@ class Runtime:
             await self._stack.close()
 
     def _on_task(self, task: Task) -> None:
+        if self._journal is not None:
+            self._journal.write(task)
         document = task.document()
         self.stream.publish("task", document, self.now_s)
         self.log.write(self.now_s, "task", {"task": document})

@@ -38,6 +38,7 @@ SYNONYMS: tuple[tuple[str, ...], ...] = (
     ("yogurt", "yoghurt"),
     ("kettle", "tea kettle"),
     ("screwdriver", "screw driver"),
+    ("bathtub", "tub"),
     ("couch", "sofa", "settee", "loveseat"),
     ("fridge", "refrigerator", "freezer", "icebox"),
     ("tv", "television", "telly", "tv set", "tv monitor"),

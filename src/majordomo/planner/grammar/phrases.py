@@ -145,6 +145,10 @@ class PhraseReader(Transformer[Token, Any]):
         lone_orange = phrase.colors == ("orange",) and len(parts) == 1  # the fruit, not the color
         return replace(phrase, words=()) if lone_orange else phrase
 
+    def bare_color(self, children: Children) -> NounPhrase:
+        """*Except red*: those of that color."""
+        return NounPhrase(words=("one",), quantity=Quantity.ALL, colors=(str(children[0]),))
+
     def whatever(self, children: Children) -> NounPhrase:
         phrase = NounPhrase(words=("things",), quantity=Quantity.THE)
         parts = values_of(children)

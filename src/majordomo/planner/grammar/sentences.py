@@ -190,6 +190,9 @@ class Structure:
             if _is_forbidding(step):
                 found.append(Forbidden(tokens=tuple(step)))
                 continue
+            if verb and verb[0].type in _CARRYING and _is_leaving(step):
+                found.append(Forbidden(tokens=(_MOVE, *step[1:])))
+                continue
             going = not self.parts or _goes(self.parts[-1])
             whither = step[0].type in ("TO", "INTO") and not (verb or found) and going
             asked = [] if not asks(step) or self.parses("question", step) else plainly(step, self.parses)
@@ -249,7 +252,9 @@ class Structure:
         return trimmed(tokens[:index]), trimmed(tokens[index + 1 :])
 
 
-_GO, _TO = Terminal("GO", "go", "go"), Terminal("TO", "to", "to")
+_GO, _TO, _MOVE = Terminal("GO", "go", "go"), Terminal("TO", "to", "to"), Terminal("MOVE", "move", "leave")
+_GOING = frozenset({"GO", "VISIT", "COME", "FIND"})
+_CARRYING = frozenset({"BRING", "GET", "TAKE", "CARRY", "MOVE", "RETURN", "GIVE", "PUT", "WANT"})
 
 
 def _second_if(sentence: Tokens) -> int | None:
@@ -285,8 +290,15 @@ def _is_forbidding(step: Tokens) -> bool:
     return kinds[:1] == ["NOT"] or kinds[:2] == ["DO", "NOT"]
 
 
+def _is_leaving(step: Tokens) -> bool:
+    """Whether a step after one that carries names what is to stay: *bring me the cup and leave the book*."""
+    places = RELATING | {"INTO", "ONTO", "TO", "FLOOR", "FOR", "IT", "WHERE"}
+    return step[0].typed == "leave" and len(step) > 1 and not places & {token.type for token in step}
+
+
 def _verb_of(step: Tokens) -> list[Terminal]:
-    """The verb of a command, with the recipient that follows it."""
+    """The verb of a command, with the recipient that follows one of giving."""
     if not step or step[0].type not in ACTING:
         return []
-    return list(step[: 2 if len(step) > 1 and step[1].type in _RECIPIENTS else 1])
+    given = len(step) > 1 and step[1].type in _RECIPIENTS and step[0].type not in _GOING
+    return list(step[: 2 if given else 1])

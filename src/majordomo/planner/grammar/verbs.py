@@ -11,7 +11,7 @@ VERBS: dict[str, tuple[str, ...]] = {
     "MOVE": ("move", "relocate", "shift"),
     "RETURN": ("return", "restore"),
     "GIVE": ("give", "hand", "pass", "hand over", "serve", "lend", "loan", "offer", "pass over", "slip"),
-    "SUPPLY": ("supply", "provide", "furnish", "equip", "present"),
+    "SUPPLY": ("supply", "surprise", "treat", "delight", "reward", "provide", "furnish", "equip", "present"),
     "PUT": ("put", "place", "set", "lay", "deposit", "stow", "stick", "put away", "pop", "store", "tidy", "tidy away",
             "plonk", "position", "gather", "gather up", "bung", "plop"),
     "DROP": ("drop", "drop off", "leave", "release", "let go of"),
@@ -33,7 +33,8 @@ VERBS: dict[str, tuple[str, ...]] = {
               "take a place", "take your place", "take up position", "plant yourself", "park yourself",
               "place yourself", "stay", "remain"),
     "VISIT": ("visit", "enter", "approach", "join", "head for", "make for", "call on", "look in on", "go see",
-        "check out", "go and see", "inspect", "check on",
+        "check in on", "check in with", "pop in on", "drop in on", "call in on", "stop in on", "pass through",
+              "pass by", "go past", "check out", "go and see", "inspect", "check on",
         "check up on"),
     "COME": ("come", "come over", "come on over", "come closer", "come along"),
     "FIND": ("find", "locate", "look for", "search for", "seek", "hunt for", "look out for", "go find",
@@ -58,7 +59,8 @@ VERBS: dict[str, tuple[str, ...]] = {
              "i would rather have",
              "i wish i had",
              "i would prefer", "i am craving", "i am in the mood for", "i would kill for", "can you spare me",
-             "i will need",
+             "i will need", "we will need", "we are going to need", "i will want", "we will want", "we could use",
+             "we could do with",
              "i am going to need", "i really need"),
 }  # fmt: skip
 """Verbs the robot can act on."""

@@ -7,6 +7,21 @@ _COLOR = r"(?:red|green|blue|yellow|black|white|brown|pink|purple|gray|grey|oran
 BRINGING: tuple[tuple[str, str], ...] = (
     (
         (
+            r"^(put |take |move |bring |carry |get |)(?:the )?([^,]+?), all of (?:it|them), (?=(?:to|in|into"
+            r"|on|onto|for) )"
+        ),
+        r"\1all the \2 ",
+    ),
+    (
+        (
+            r"^((?:some|an?|the|two|three|any) [^,.;]+?) for ((?:(?:mister|nurse|doctor|miss|mrs) )?[a-z]+)"
+            r" (from (?:the "
+            r"|my |our |room |ward |office |\w+'s )?[\w' ]+?)(?=[.!]*$)"
+        ),
+        r"bring \1 \3 to \2",
+    ),
+    (
+        (
             r"\b(the \w+ (?:\w+ )?(?:in|on|at|from|by|near|next to) [^,.;]+?), (?:and )?not the (?:one|other)s? "
             r"(?:in|on|at|from|by|near|next to) [^,.;]+(?=[.!]*$)"
         ),
@@ -171,7 +186,10 @@ BRINGING: tuple[tuple[str, str], ...] = (
         ),
         "should go ",
     ),
-    (r"\b(?:should|must|needs? to|ought to|has to|have to) (?:live|stand|sit|lie|end up|belong) ", "should be "),
+    (
+        r"\b(?:should|must|needs? to|ought to|has to|have to) (?:live|stand|sit|lie|sleep|rest|reside|end up|belong) ",
+        "should be ",
+    ),
     (r"\b(?:wants? to be|want) (?=(?:on|in|onto|into) the\b)", "should be "),
     (r"\b(\w+ (?:is|are)) to (?:be )?(?:put|placed|moved|brought|taken) ", r"\1 to go "),
     (r"\b(?:belongs?|goes) (?=(?:on|in|at|with|inside|next|into|onto|back)\b)", "should be "),

@@ -152,6 +152,15 @@ CHOOSING: tuple[tuple[str, str], ...] = (
     ),
     (
         (
+            r"^(?=[^.;]*\b(?:all|every|each|everything|both|any|things|(?:the|my|these|those) (?:\w+ ){0,2}\w+s)\b"
+            r"[^.;]*\bleave\b)([^.;]+?),? (?:and |but |though |just |only |please |you can )*leave "
+            r"((?:the|my|his|her|that|those|any) (?:(?!on\b|in\b|at\b|to\b|with\b|for\b|by\b|next\b|near\b)\w+ ?)+?)"
+            r"(?=[.!]*$)"
+        ),
+        r"\1 except \2",
+    ),
+    (
+        (
             r"(?:,? (?:something|anything|whichever|whatever)|, (?:any|one|an other))(?: one| color"
             r"| kind| sort)?(?: you like)?(?:,)? "
             r"(?:other than|but|except(?: for)?|apart from|besides|bar|that is not) (?:the |an? )?(\w+)"

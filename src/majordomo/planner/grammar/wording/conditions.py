@@ -11,6 +11,58 @@ _DEED = (
 _HANDS = r"(?:you have (?:your|one|both) hands?|your (?:hands?|grippers?|arms?) (?:is|are))"
 
 CONDITIONS: tuple[tuple[str, str], ...] = (
+    (
+        (
+            r"\b(there (?:is|are)|(?:is|are) there) ((?:no|not any|any|some|still|enough|an?|two|three"
+            r"|more)\b[^,.;?]*?) left"
+            r"\b(?! (?:of|side|hand)\b)"
+        ),
+        r"\1 \2",
+    ),
+    (r"\b(if|unless) no ((?:\w+ ){0,2}\w+) (?:is|are) (?:left(?: over)?|there|remaining)\b", r"\1 there is no \2"),
+    (
+        (
+            r",? (?:or |and |but )*if (?:(?:we|you|they|i|there) (?:have|has|are|is|find|see) (?:none|not any|no more)"
+            r"|(?:we|you) (?:are|have run) out|there (?:is|are) (?:none|not any))(?: of (?:them|it|those))?(?: left"
+            r"| there| any ?more)?,? (?:then |just |please )*(?=(?:the|an?|some|my|one|two)\b)"
+        ),
+        ", otherwise ",
+    ),
+    (
+        (
+            r"^no ([a-z ]+?)(?: left| there)?\? (?:well,? |ok,? |all right,? )*(?:then )?((?:the |some |an?"
+            r" )?[a-z ]+?) "
+            r"(?:is|are|will be|would be) (?:fine|ok|okay|good|all right|alright|nice)(?: too| as well| then)?"
+            r"(?:[,;.]| so| and)+ (?:bring|get|fetch|give)(?: me| us)? (?:it|that|them)(?: to me)?(?=[.!]*$)"
+        ),
+        r"if there is no \1, bring me \2",
+    ),
+    (
+        (
+            r"^(if there (?:is|are) (?:no|not any) [^.;!?]*?)[,;.] (?:but |and )*if there (?:is|are)(?: some"
+            r"| any| one)?,? "
+            r"(?:then )?(?=(?:the|an?|some|one|two|three|bring|take|get|give|fetch|put|go|come)\b)"
+        ),
+        r"\1, otherwise ",
+    ),
+    (
+        r"^when ((?:the|my|his|her) [\w ]+?) is (open|closed)(?=, )",
+        r"if \1 is \2",
+    ),
+    (
+        (
+            r"^(if [^,.;]+? is closed, [^.;!?]*?)[,;.] (?:but |and )*(?:when|if) it is (?:open|not closed),? (?:then )?"
+            r"(?=to )"
+        ),
+        r"\1, otherwise take it ",
+    ),
+    (
+        (
+            r"^(if [^,.;]+? is open, [^.;!?]*?)[,;.] (?:but |and )*(?:when|if) it is (?:closed|not open),? (?:then )?"
+            r"(?=to )"
+        ),
+        r"\1, otherwise take it ",
+    ),
     (r"^should you (?:happen to |ever )?(?=(?:see|find|come across|spot|notice|have|discover)\b)", "if you "),
     (
         (

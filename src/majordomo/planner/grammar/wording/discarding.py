@@ -13,6 +13,29 @@ _LEAD = r"(?:(?<=^)|(?<=[.,;!] )|(?<=\band )|(?<=\bthen )|(?<=\bplease )|(?<=\by
 DISCARDING: tuple[tuple[str, str], ...] = (
     (
         (
+            r"\b(?:swap|switch|exchange|change)(?: the)? (?:places|positions|spots|locations) (?:of|for)"
+            r" ([^,.;]+?) (?:and"
+            r"|with) (?=(?:the|my|his|her|\w+'s)\b)"
+        ),
+        r"swap \1 and ",
+    ),
+    (
+        (
+            r"^(?:please |can you )*clear(?: away| up)? (?:all )?(?:of )?the ((?:\w+ )?\w+s) (?:off|from|out of) "
+            r"((?:the|my|our) [\w' ]+?) (onto|into|on to|to) (?=(?:the|my|our|that|an?)\b)"
+        ),
+        r"put all the \1 from \2 \3 ",
+    ),
+    (
+        (
+            r"^(?:can|could|may|should|must|would) ((?:the|my|our) [\w ]+?) (?:please )?be (?:cleared|emptied|tidied)"
+            r"(?: off| out| up| please)*[?.,]+ (?:the|all the|its|all) (?:things|stuff|contents|items)(?: on it| in it"
+            r"| there)? (?:can |should |may |could |must |all )*(?:go|goes|belong|be put) (in|on|into|onto|to) "
+        ),
+        r"put everything from \1 \2 ",
+    ),
+    (
+        (
             r"\b(?:take|get|move|remove) ((?:the|my|those|these|that) [\w' ]+?) (?:away )?from ((?:the|my|\w+'s) "
             r"[\w' ]+?)(?:,|;| and"
             r")+ (?:then |please )*(?:put|place|bring|carry|take) (?:it|them) (?=(?:in|on|to|into|onto|next)\b)"
@@ -171,6 +194,13 @@ DISCARDING: tuple[tuple[str, str], ...] = (
             r"(?: please| for me| will you| now)*(?=[.!]*$)"
         ),
         "",
+    ),
+    (
+        (
+            r"(?<=[.;!] )(?:so |and |now |then )*(into|onto|in|on|to) ((?:the|my|our|its|his|her|\w+'s) [\w' ]+?) with "
+            r"(it|them|that|those|both)(?: now| please)*(?=[.!]*$)"
+        ),
+        r"put \3 \1 \2",
     ),
 )
 """In the order in which they are tried."""

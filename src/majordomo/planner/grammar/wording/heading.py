@@ -67,7 +67,10 @@ HEADING: tuple[tuple[str, str], ...] = (
     (rf"^({_THING})[.!,]+ (?:now|quick|quickly|at once|immediately|asap|hurry)(?=[.!]*$)", r"\1"),
     (r"(?:(?<=^)|(?<=[.!?,;] ))(give|bring|hand|pass|fetch|get) (me|us)(?: please| now)?(?=[.!]*$)", r"\1 \2 it"),
     (
-        r"^((?:the|my|an?|that|this|his|her|both|all) [^.;:!?,]+?)[.!]+ (?=(?:to|into|onto|in|on|for) [\w' ]+[.!]*$)",
+        (
+            r"^(?![^.!]*\b(?:is|are|was|were|has|have)\b|.*\bwith (?:it|them|that|those)\b)((?:the|my|an?|that|this|his"
+            r"|her|both|all) [^.;:!?,]+?)[.!]+ (?=(?:to|into|onto|in|on|for) [\w' ]+[.!]*$)"
+        ),
         r"\1 ",
     ),
     (

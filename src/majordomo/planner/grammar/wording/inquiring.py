@@ -14,6 +14,10 @@ _TAGS = (
 _BETWEEN = r"(?:of (?:them|these|those|the two) )?"
 
 INQUIRING: tuple[tuple[str, str], ...] = (
+    (
+        r"\b(?:what|which) (?:kinds?|sorts?|types?|varieties|variety) of (?!colou?rs?\b)(?=\w)",
+        "what ",
+    ),
     (r"^((?:in|on|at|and|tell me) )*(?:wich|whitch|wihch|whcih)\b", r"\1which"),
     (
         (

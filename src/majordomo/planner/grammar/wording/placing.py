@@ -22,6 +22,50 @@ _MISPLACED = (
 PLACING: tuple[tuple[str, str], ...] = (
     (
         (
+            r"(?<=\w)(?: back)? (?:among|amongst|with|beside|to|next to) (?:all )?(?:the|its) (?:others?"
+            r"|rest|other ones?"
+            r"|other \w+s) (?=(?:on|in|at|inside) )"
+        ),
+        " ",
+    ),
+    (
+        (
+            r"^(?!.*\b(?:only|remains?|stays?|left|two|three|one|ones|empty|none|nothing|full|each|same|other)\b)"
+            r"((?:please |can you |could you |you can |just )*(?:leave|put|place|set|lay|bring|take|carry|move|get|drop"
+            r"|fetch|hang|hand)\b[^,;.]*?),? so (?:that )?(?:i|we|he|she|they|nobody|no one|everyone"
+            r"|everybody|people|it"
+            r"|you|(?:the )?[a-z]+) (?:can |will |do not |does not |may |could |have |has |am |is |are )?[a-z]+\b"
+            r"[^,.;]*(?=[.!?]*$)"
+        ),
+        r"\1",
+    ),
+    (
+        (
+            r"^((?:please |can you |could you )*(?:move|take|bring|put|carry|get|go)\b[^.;]*?)[,;.]"
+            r" (?:because |since )?"
+            r"(?!i\b|we\b|you\b|it\b)(?:\w+|the \w+) (?:wants?|needs?|has|have|likes?|loves?|would like|is going"
+            r"|are going|plans?) to (?!have\b|get\b)\w+(?: [\w' ]+?)? (?:there|with (?:it|them))(?=[.!]*$)"
+        ),
+        r"\1",
+    ),
+    (
+        (
+            r"^((?:please |can you |could you )*(?:pick|hold|take|grab|lift|get)\b[^.;]*?)[,;]?(?: but|"
+            r" and)? (?:please )?"
+            r"(?:do not (?:go|drive|move|run|come)|without (?:going|driving|moving|running))(?: off| away| anywhere)+"
+            r"(?: with (?:it|them|that))?(?: just yet| yet| now| for now)*(?=[.!]*$)"
+        ),
+        r"\1",
+    ),
+    (
+        (
+            r"\b(?:pile|stack|heap) (it|them|those|these|both) (?:up |neatly )*(?=(?:on|onto|in|into|upon) (?:the|my"
+            r"|our|\w+'s) )"
+        ),
+        r"put \1 ",
+    ),
+    (
+        (
             r"^there (?:is|are) (?:an?|some|the) ([^,.;!?]+?) (?:which|that) (?:(?:should|must|needs? to|has to|"
             rf"have to|ought to) (?:go|be|come)|belongs?|goes?) {_PREP}"
         ),

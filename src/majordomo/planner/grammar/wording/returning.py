@@ -31,6 +31,21 @@ _DONE = (
 RETURNING: tuple[tuple[str, str], ...] = (
     (
         (
+            r"(?:^|(?<=[.;!,] ))(?:and |so |now |then |ok )*back(?: again)? with (it|them|that|those|both) "
+            r"(?=(?:to|in|into|on|onto) )"
+        ),
+        r"put \1 back ",
+    ),
+    (
+        (
+            r"^(?:and |so |now |then |ok |please )*(?:get|take|fetch) (it|them) back,? and (?:then )?(put"
+            r"|bring|take|carry"
+            r"|give) (?:it|them) "
+        ),
+        r"\2 \1 ",
+    ),
+    (
+        (
             rf"^(?:(?:i|we|he|she|they) (?:have|has|am|are|is)|[a-z]+'s|[a-z]+ (?:is|has)|all)(?: now| all|"
             rf" just| already)? {_DONE}"
             r"(?: now| already| again)?[,.;!]+ (?:and |so |now )*"

@@ -231,5 +231,57 @@ VISITING: tuple[tuple[str, str], ...] = (
         ),
         "go ",
     ),
+    (
+        (
+            r"^((?:please |can you |could you |would you |will you |you can |just )*(?:go (?:and )?)?(?:go"
+            r"|drive|wait|stay|stand"
+            r"|remain|stop|sit|park)\b[^,.;]*?),? (?:until|till) (?:i|we|he|she|they|someone|somebody|(?:the )?\w+ "
+            r"(?:is|are|has|comes|calls|needs|wants|gets|arrives|returns))\b[^,.;]*(?=[.!?]*$)"
+        ),
+        r"\1",
+    ),
+    (
+        (
+            r"\bi (?:want|need|would like|would love|expect) you (?:to be )?(?:standing|waiting|sitting"
+            r"|parked|stationed"
+            r"|positioned|ready|staying|posted)(?: right)? (?=(?:in|at|by|on|near|next|beside|outside)\b)"
+        ),
+        "go ",
+    ),
+    (
+        (
+            r"^(?:hey |oh |sorry |watch out |careful )*you are (?:standing |sitting )?(?:in (?:the|my|our|everyone's) "
+            r"(?:way|road|light)|blocking (?:the|my|our) \w+|too close|not (?:needed|wanted) here|under our feet)"
+            r"(?: over| right)?(?: there| here| again)*[,.;!]+ (?:so |and |please )*"
+            r"(?=(?:go|move|drive|get|come|head|roll|wait|stand|step)\b)"
+        ),
+        "",
+    ),
+    (
+        (
+            r"^(?!(?:i|we|it|that|who|if|they|he|she|you|nobody|someone|somebody)\b)((?:[a-z]+ )?[a-z]+) (?:needs|wants"
+            r"|would like to see|wants to see|needs to see|wishes to see|has called for|sent for) you"
+            r"(?: now| please| at once| urgently| right away| over)*(?=[.!]*$)"
+        ),
+        r"go to \1",
+    ),
+    (
+        (
+            r"^(?:one |an? |your |the |do )*(?:round ?trip|rounds?|tour|route|itinerary|stops|stations)(?: please| for"
+            r" you| today| now)*[:,] ([^,.;:]+?), ([^,.;:]+?),? (?:and |then )*([^,.;:]+?)(?=[.!]*$)"
+        ),
+        r"go to \1, then go to \2, then go to \3",
+    ),
+    (
+        (
+            r"^(?:one |an? |your |the |do )*(?:round ?trip|rounds?|tour|route|itinerary|stops|stations)(?: please| for"
+            r" you| today| now)*[:,] ([^,.;:]+?)(?:,| and| then)+ ([^,.;:]+?)(?=[.!]*$)"
+        ),
+        r"go to \1, then go to \2",
+    ),
+    (
+        r"\b(back (?:over |down |up )?to (?:the|my|our) [\w ]+?) again(?=$|[.,!?])",
+        r"\1",
+    ),
 )
 """In the order in which they are tried."""

@@ -20,7 +20,94 @@ _INTENDS = (
     r"|feels? like|fancy|fancies|was about to)"
 )
 
+_HANDED = r"(?:handed|brought|given|delivered|carried|passed|taken|fetched|sent|served)"
+
 WISHING: tuple[tuple[str, str], ...] = (
+    (
+        r"\b(to|for) [^,.;]+?, (?:and )?(?:which|that|who|this) (?:is|would be) me(?=[.!]*$)",
+        r"\1 me",
+    ),
+    (
+        (
+            r"(?<=\w)[,.;]* (?:and |but )*(?:no,? )?(?:they|it|these|those|that|this) (?:are|is) not (?:all )?for "
+            r"(?:me|us)(?=[.!]*$)"
+        ),
+        "",
+    ),
+    (
+        (r"(?<=\w)[.,;!]+ (?:so |and )?you know (?:what to do|the drill|how it goes|the rest|what i mean)(?=[.!]*$)"),
+        "",
+    ),
+    (
+        (
+            r"^(?:the )?[\w' ]+? (?:in|at|on) ([\w ]+?) (?:asks|wants|would like|needs|wishes|asked|requests)(?: you)?"
+            r"(?: to have)? ((?:the|an?|some|his|her|both|all) [^,.;]+?) from there(?: to be)? "
+            rf"{_HANDED} to (?!him\b|her\b|them\b)([^,.;]+?)(?=[.!]*$)"
+        ),
+        r"bring \2 from \1 to \3",
+    ),
+    (
+        (
+            r"^(?:the )?[\w' ]+? (?:asks|wants|would like|needs|wishes|asked|requests)(?: you)?(?: to have)? "
+            r"((?:the|an?|some|both|all) [^,.;]+?)(?: to be)? "
+            rf"{_HANDED} to (?!him\b|her\b|them\b|me\b|us\b)([^,.;]+?)(?=[.!]*$)"
+        ),
+        r"bring \1 to \2",
+    ),
+    (
+        (
+            r"\b((?:wants|needs|would like|would love|asks for|asked for|wishes|expects)(?: to have)? (?:the"
+            r"|an?|some|his"
+            rf"|her|my|two|both|all) [^,.;]+?) {_HANDED}(?: over| up| down| along)?(?: to (?:him|her|them))?(?=[.!]*$)"
+        ),
+        r"\1",
+    ),
+    (
+        (
+            r"^the (?:man|woman|person|guy|lady|boy|girl|one|patient|visitor|guest|kid|child|gentleman)"
+            r" ((?:in|at|on|by) "
+            r"(?:the |my |our )?[\w ]+?) (?:would like|wants|needs|asks for|asked for|would love|is waiting"
+            r" for|could use"
+            r"|requests|could do with|ordered) (?:his|her|their|the) ([^,.;]+?)(?=[.!]*$)"
+        ),
+        r"bring the \2 to the person \1",
+    ),
+    (
+        (
+            r"^((?:[a-z]+ )?[a-z]+) (?:is missing|has lost|lost|needs|wants|can not find|is looking for|forgot"
+            r"|has forgotten|could use) ((?:the|his|her|an?|some) [^,.;]+?)[,.;]+ (?:so |please |and )*(?:take|bring"
+            r"|carry|give|get) (?:those|the ones?|them|it|that one|one) ((?:from|in|on|at|out of) [^,.;]+?) to "
+            r"(?:her|him|them)(?=[.!]*$)"
+        ),
+        r"bring \2 \3 to \1",
+    ),
+    (
+        (
+            r"^((?:any|one|either|an?|some)(?: one)?(?: of (?:the|my|those|these))? [^,.;?]+?) (?:would|will|should) do"
+            r"(?: nicely| just fine| fine)?(?: for me| for now| please| now)*(?=[.!]*$)"
+        ),
+        r"i want \1",
+    ),
+    (
+        (
+            r"\b(i (?:want|need|would like|would love) (?:one|two|three|all|both|the|an?|my|some|his|her)"
+            r" [^,.;]+?) (?:laid"
+            r"|put|placed|stood|stored|stowed|moved|dropped|deposited|set down|laid out)(?: down| over)? "
+            r"(?=(?:on|in|at|by|next to|into|onto|to|near) )"
+        ),
+        r"\1 ",
+    ),
+    (
+        r"\bhere (?:with|beside|next to|by) (?:me|us)\b",
+        "here",
+    ),
+    (
+        (
+            r"^(?:please )?show (?!me\b|us\b)((?:[a-z]+ )??[a-z]+) ((?:the|my|his|her|an?) [^,.;]+?)(?:[,.;]| and)+ "
+            r"(?:please |so |and )*(?:take|bring|carry) (?:it|them) to (?:her|him|them)(?=[.!]*$)"
+        ),
+        r"take \2 to \1",
+    ),
     (
         (
             r"^it would be (?:\w+ )?(?:lovely|nice|great|good|wonderful|perfect|kind|splendid) to have (?=(?:the|my"

@@ -262,3 +262,8 @@ def test_speech_that_a_machine_has_typed(text, args):
 @pytest.mark.parametrize("text", ["how many books have we got", "how many books we have", "how many books do we have"])
 def test_a_space_stays_between_words_that_are_known(text):
     assert "3 books" in read(text).reply
+
+
+@pytest.mark.parametrize("text", ["bring me a beer", "bring me the soup", "bring me the key and staple these sheets"])
+def test_a_word_that_is_no_slip_is_not_taken_for_what_is_here(text):
+    assert not read(text).goals

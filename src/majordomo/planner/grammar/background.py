@@ -88,6 +88,8 @@ def is_told(clause: Tokens) -> bool:
         "BESIDE"
     }:  # *the room Anna is in* goes on with what comes before
         return False
+    if kinds[-2:-1] == ["CAN"] and kinds[-1] in _SUBJECTS:  # *the letter, could that* goes on with a verb
+        return False
     verb = _verb(clause)
     asking = _ASKING_FOR - {"SHOULD"} if _is_misplaced(clause, verb) else _ASKING_FOR
     asking -= {"SHOULD"} if _is_wished(clause) else set()
@@ -181,6 +183,8 @@ def _verb(clause: Tokens) -> int | None:
 def _is_finite(token: Terminal, subject: Tokens) -> bool:
     """*attracts* after *it*, *drinks* after a name, *sleep* after *we*: a verb by its place and its ending."""
     last = subject[-1].type
+    if subject[-1].typed in ("these", "those"):  # *staple these sheets*
+        return token.typed in _PLAIN
     if token.type in ("WORD", "UNABLE", "MEANING") and last in ("IT", "HIM", "NAME", "THAT", "THIS"):
         return (token.typed.endswith("s") and len(token.typed) > 3) or token.typed in _PLAIN
     if token.type == "NOUN" and last == "NAME":

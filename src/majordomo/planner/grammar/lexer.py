@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
-from majordomo.planner.grammar.lexicon import KNOWN, Lexicon
+from majordomo.planner.grammar.lexicon import PHRASES, Lexicon
 from majordomo.planner.grammar.politeness import ADVERBS
 from majordomo.planner.grammar.settling import settled_uses
 from majordomo.planner.grammar.tagging import tagged
@@ -71,10 +71,12 @@ def _is_name(words: Sequence[Word], index: int) -> bool:
 
 
 def _is_stranger(words: Sequence[Word], index: int, slip: str, lexicon: Lexicon) -> bool:
-    """*Bring Steve a muffin*: who receives is nobody's stove, though letters would allow it."""
+    """*Bring Steve a muffin*, *and staple these*: who receives is no stove, and what is done no stapler."""
     given = index > 0 and words[index - 1].text in GIVING
-    thing = index + 1 < len(words) and words[index + 1].text in ("a", "an", "the", "some", "his", "her", "my", "one")
-    return given and thing and (slip,) in KNOWN and (slip,) not in lexicon.persons
+    begins = index == 0 or words[index - 1].text in ("and", "then") or words[index - 1].kind != "word"
+    thing = index + 1 < len(words) and words[index + 1].text in DETERMINERS | {"these", "those", "one"}
+    named = lexicon.is_noun((slip,)) and (slip,) not in lexicon.persons
+    return (given or begins) and thing and named and (slip,) not in PHRASES
 
 
 def _joined(words: Sequence[Word], lexicon: Lexicon) -> list[Word]:

@@ -13,19 +13,23 @@ MIN_TWICE = 8
 
 
 ORDINARY = frozenset(
-    {"acre", "angel", "ate", "bare", "bat", "bean", "beard", "been", "being", "best", "boat", "bond", "bone", "book",
-     "boot", "bored", "brain", "bread", "break", "bride", "cap", "cape", "card", "care", "cart", "cat", "coat", "cold",
-     "cone", "cook", "cord", "dairy", "dart", "dear", "diary", "done", "drain", "earth", "east", "eat", "eats",
-     "felt", "fine", "fond", "food", "foot", "form", "forms", "gallery", "gap", "goat", "gone", "good", "grain", "hat",
-     "hate", "hated", "hates", "heart", "hood", "hook", "lame", "lap", "late", "least", "left", "line", "listen",
-     "look", "loop", "lots", "male", "map", "mat", "meal", "mine", "moat", "nap", "nest", "night", "nine", "nook",
-     "pain", "part", "party", "pasta", "paste", "pets", "phone", "pine", "plain", "plan", "plane", "play", "pond",
-     "pool", "post", "pots", "pray", "pride", "quiet", "quite", "race", "rain", "rat", "read", "rest", "robed",
-     "rook", "root", "rose", "sacred", "sale", "save", "scared", "seal", "sign", "song", "seat", "silent", "slate",
-     "slot",
-     "sore", "speak", "spot", "stale", "steak", "steal", "step", "stone", "tale", "tales", "tap", "tape", "taste",
-     "tea", "teas", "test", "thing", "tone", "took", "tops", "trail", "train", "tray", "trial", "united", "vase",
-     "vest", "waste", "west", "wine", "wood", "zone"},
+    {"acre", "angel", "ate", "badger", "bandana", "bare", "bat", "battle", "bean", "beard", "bears", "been", "beer",
+     "beers", "being", "bell", "bells", "best", "bill", "bills", "boat", "bond", "bone", "book", "boot", "bored",
+     "brain", "bread", "break", "bride", "bull", "bulls", "bunch", "cap", "cape", "card", "care", "cart", "cartoon",
+     "cartoons", "cat", "chops", "coat", "cold", "collar", "collars", "cone", "cook", "cord", "dairy", "dart", "dear",
+     "diary", "dill", "discs", "disk", "disks", "done", "drain", "dull", "earth", "east", "eat", "eats", "felt",
+     "fine", "flour", "fond", "food", "foot", "form", "forms", "gallery", "gap", "goat", "gone", "good", "grain",
+     "hat", "hate", "hated", "hates", "heart", "hood", "hook", "hummer", "juicer", "lame", "lap", "late", "latter",
+     "least", "left", "line", "listen", "litter", "look", "loop", "lots", "male", "map", "mat", "meal", "mine",
+     "mint", "mints", "moat", "moose", "nap", "nest", "night", "nine", "nook", "pain", "part", "party", "pasta",
+     "paste", "peer", "pets", "phone", "phoney", "pine", "plain", "plan", "plane", "platter", "platters", "play",
+     "pond", "pool", "post", "pots", "pray", "pride", "quiet", "quite", "race", "rain", "rat", "read", "rest",
+     "robed", "rook", "root", "rose", "sacred", "sale", "sauce", "sauces", "save", "scanner", "scared", "seal",
+     "seat", "shop", "shops", "sign", "silent", "slate", "slot", "soda", "song", "sore", "soup", "soups", "speak",
+     "spinner", "spot", "stale", "staple", "staples", "stature", "statute", "steak", "steal", "step", "stone",
+     "tablet", "tablets", "tale", "tales", "tap", "tape", "taste", "tea", "teas", "test", "thing", "tone", "took",
+     "tops", "trail", "train", "tray", "trial", "trowel", "trowels", "united", "vase", "vest", "waste", "west",
+     "wine", "wood", "zone"},
 )  # fmt: skip
 """English words that are nobody's slip of another word, though letters or sounds would allow it."""
 _HARD_C = re.compile(r"c(?![eihky])")

@@ -39,7 +39,7 @@ from majordomo.skills.skill import Skill
 Choices = dict[str, tuple[str, ...]]
 _PLEASE = re.compile(
     r"\b(?:please|pls|plz|asap|pronto|at once|right away|immediately|(?:as )?(?:quick|fast)(?:ly)? as you can|now|quick"
-    r"|hurry)\b"
+    r"|hurry|chop chop)\b|^(?:hey|oi|oy|yo|you|robot|majordomo)\b"
 )
 """Shows that what has no verb is a request."""
 DOUBT = "did you mean"

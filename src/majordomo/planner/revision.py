@@ -28,7 +28,8 @@ _THANKED = re.compile(
 )
 """Praise before the next request."""
 _TRAILING = re.compile(
-    r"[\s,]+(?:(?:would|will|might) be (?:better|best|nicer|good|great|fine|preferable)|is better|instead|please"
+    r"[\s,]+(?:(?:would|will|might) be (?:better|best|nicer|good|great|fine|preferable)|(?:will"
+    r"|would|should) do|is better|instead|please"
     r"|rather|actually|i mean|i meant|(?:that)?(?: is|'s)?(?: what)?[\s,]*\bi (?:wanted|meant|said|was trying"
     r"|tried|intended)(?: to say)?"
     r"|(?:it )?should (?:have been|be)|was what i meant|of course|obviously|not the other(?: one)?)[\s.!]*$"
@@ -53,7 +54,7 @@ _NO = re.compile(
     r"say)?[\s,]*)?(?P<rest>.*)$"
 )
 _REPAIR = re.compile(
-    r"^(?P<said>.+?)(?:[\s,.;:!…-]+(?:forget (?:it|that)|on second thoughts?|come to think of it"
+    r"^(?P<said>.+?)(?:[\s,.;:!…–—-]+(?:forget (?:it|that)|on second thoughts?|come to think of it"
     r"|i mean(?:t)?(?: to say)?|no,? (?:sorry|wait)|(?:sorry|wait),? no|scratch that"
     r"|strike that|scrap that|or rather|make that"
     r"|no,? i mean(?:t)?|correction)\b|\s*(?:[,.;:!…]+|\s[-–—])\s*(?:(?:oh|ah|oops|uh|um|er+"
@@ -71,7 +72,7 @@ _SLIP = (
 )
 _BARE = re.compile(
     rf"^(?P<said>.+?\w)[\s,.;:!…–-]+(?:(?:or|oh|ah|uh|um|er|hm+|and|but|well|hmm+)[\s,]+)*(?:no"
-    rf"(?=,? (?:the|an?|my|to|in|on|into|onto|at|next)\b)"
+    rf"(?=,? (?:the|an?|my|to|in|on|into|onto|at|next|(?:just )?(?:put|take|bring|leave|give) (?:it|them))\b)"
     r"|or no|or rather|or actually|or better(?: yet| still)?"
     rf"|pardon me|pardon|excuse me|no,? better|no,? rather|actually,? (?:no"
     rf"|make (?:it|that))|make (?:it|that)|no,? make (?:it|that)|(?<=, )i mean|better"
@@ -142,6 +143,8 @@ _COLORED = re.compile(
     rf"^(?:the )?(?P<color>{'|'.join(COLORS)})(?: one)?(?P<more>(?:,? (?:to|in|on|into|onto|for|at|next) .+)?)$"
 )
 """*The red cup, sorry, the blue one, to Ben*: only the color is taken back."""
+_RENAMED = re.compile(r"^(?:the|my|an?|his|her) (?:\w+ ){1,2}(?P<noun>\w+)$")
+"""*The green folder to Victor, correction, the red folder*: the thing of that name is another one."""
 MAX_REPLACED = 5
 _WHERE = frozenset({"to", "on", "onto", "in", "into", "at", "under", "beside", "near", "next", "by", "for"})
 """Words that a remark may stand for."""
@@ -213,6 +216,11 @@ def restated(said: str, rest: str) -> Iterator[str]:
         yield " ".join(colored["color"] if word in COLORS else word for word in words) + colored["more"].replace(
             ",", ""
         )
+    renamed = _RENAMED.match(rest)
+    if renamed:
+        same = re.compile(rf"\b(?:the|my|an?|his|her) (?:\w+ ){{0,2}}?{re.escape(renamed['noun'])}\b")
+        if len(same.findall(said)) == 1:
+            yield same.sub(rest, said)
     if re.search(r" and (?!nothing else)", said) or " then " in said:
         return
     counted = _COUNTED.match(rest)

@@ -267,3 +267,25 @@ def test_a_space_stays_between_words_that_are_known(text):
 @pytest.mark.parametrize("text", ["bring me a beer", "bring me the soup", "bring me the key and staple these sheets"])
 def test_a_word_that_is_no_slip_is_not_taken_for_what_is_here(text):
     assert not read(text).goals
+
+
+@pytest.mark.parametrize(
+    "text", ["whoa, stop there", "oi, stop right there", "easy, stop", "ouch! stop!", "no no, stop"]
+)
+def test_a_cry_before_stop_does_not_hide_it(text):
+    assert control_word(text) is Control.STOP
+
+
+@pytest.mark.parametrize(
+    ("text", "args"),
+    [
+        ("the green book could that go to Anna", ("book_1", "person_1")),
+        ("it must the green book to Anna", ("book_1", "person_1")),
+        ("can you me the key give", ("key_1", "person_2")),
+        ("hey tin can, the key, chop chop", ("key_1", "person_2")),
+        ("the blue book to Anna, correction, the green book", ("book_1", "person_1")),
+        ("bring me the key. on second thought the phone will do", ("phone_1", "person_2")),
+    ],
+)
+def test_the_hurried_and_the_learner_are_understood(text, args):
+    assert [goal.args for goal in read(text).goals] == [args]

@@ -62,6 +62,12 @@ _COURTESY = frozenset(
         "immediately",
     }
 )
+_CRY = re.compile(
+    r"^(?:(?:who+a+|wo+ah+|hey+|oi+|oy+|ho|ow+|ouch|aa+h*|argh+|ah+|oh+|easy(?: (?:there|now"
+    r"|on))?|steady(?: on)?|no+(?=[,!.])|hold up"
+    r"|(?:oh )?my (?:god|goodness)|careful|look out|watch (?:out|it)|for (?:god|heaven)'?s sake)\b[\s,!.–—-]+)+(?=\w)"
+)
+"""What people cry before they say what they want."""
 _VAGUE = frozenset({"right", "a", "second", "moment", "minute", "sec", "just", "for", "at", "once", "bit",
     "everything",
                     "thanks", "then", "so", "well"})  # fmt: skip
@@ -270,6 +276,7 @@ def control_word(text: str) -> Control | None:
     """
     if len(text) > MAX_CHARACTERS:
         return None
+    text = _CRY.sub("", text.casefold())
     words = [word.text for word in words_of(text) if word.kind == "word" and word.text not in _COURTESY]
     return _one_control(words) or _one_control([word for word in words if word not in _VAGUE]) or _shaped(text)
 

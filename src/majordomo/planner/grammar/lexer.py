@@ -19,6 +19,9 @@ NAMING_LEADS = (("name", "is"), ("is", "called"), ("called",), ("named",), ("kno
 GIVING = frozenset({"bring", "give", "hand", "pass", "fetch", "get", "take", "lend", "offer", "show"})
 """Verbs that a receiver may follow, before the thing."""
 DETERMINERS = frozenset({"the", "a", "an", "my", "his", "her", "our", "your", "their", "this", "that", "some", "any"})
+HONORIFICS = frozenset(
+    {"mister", "mr", "mr.", "mrs", "miss", "ms", "missus", "sir", "madam", "lady", "uncle", "aunt", "auntie"}
+)
 MAX_ROLE = 3
 """Words that tell what a person is, before the name."""
 
@@ -96,7 +99,7 @@ def _parted(word: Word, lexicon: Lexicon) -> tuple[str, ...]:
 
 
 def _by_name(tokens: Sequence[Terminal]) -> list[Terminal]:
-    """*My wife Rosa*, *the old porter Ben*: the name says who it is."""
+    """*My wife Rosa*, *the old porter Ben*, *mister Tom*: the name says who it is."""
     kept: list[Terminal] = []
     for token in tokens:
         if token.type == "NAME":
@@ -109,6 +112,8 @@ def _by_name(tokens: Sequence[Terminal]) -> list[Terminal]:
                 start -= 1
             if start < len(kept) and start > 0 and kept[start - 1].type in ("THE", "MY", "HIS"):
                 del kept[start - 1 :]
+            elif kept and kept[-1].type == "WORD" and kept[-1].typed in HONORIFICS:
+                kept.pop()
         kept.append(token)
     return kept
 

@@ -30,6 +30,7 @@ from majordomo.planner.grammar.wording.knowing import KNOWING
 from majordomo.planner.grammar.wording.learning import LEARNING
 from majordomo.planner.grammar.wording.motives import MOTIVES
 from majordomo.planner.grammar.wording.naming import NAMING
+from majordomo.planner.grammar.wording.offhand import OFFHAND, SCOLDING
 from majordomo.planner.grammar.wording.placing import PLACING
 from majordomo.planner.grammar.wording.relating import RELATING
 from majordomo.planner.grammar.wording.renaming import RENAMING
@@ -44,8 +45,10 @@ from majordomo.planner.grammar.wording.wishing import WISHING
 RULES: tuple[tuple[str, str], ...] = (
     *(
         *MISTYPED,
+        *SCOLDING,
         *DICTATING,
         *ADDRESSING,
+        *OFFHAND,
         *BEYOND,
         *LEARNING,
         *FOREIGN,

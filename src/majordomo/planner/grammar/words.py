@@ -66,7 +66,7 @@ CLOSED: dict[str, tuple[str, ...]] = {
     "START": ("your starting point",),
     "PART": ( "cover", "lid", "label", "cap", "binding", "spine", "shell", "finish", "paint", "stripe", "stripes",
         "sleeve",
-             "front", "exterior"),
+             "front", "exterior", "frame", "frames", "handle", "handles", "rim", "strap", "straps", "trim", "grip"),
     "WITH": ("with", "containing", "that has", "which has", "that contains", "together with", "alongside with"),
     "BESIDE": ("under", "underneath", "below", "beneath", "behind", "in front of", "above", "left of", "right of",
                "to the left of", "to the right of", "over", "against", "across from", "opposite", "on the left of",

@@ -118,7 +118,6 @@ ASKING: tuple[tuple[str, str], ...] = (
         ),
         r"where is \1",
     ),
-    ("^where (?:has|have) (.+?) (?:gone|got to|ended up|disappeared(?: to)?|gotten to)(?=$|[.!?])", r"where is \1"),
     ("^where(?: on earth| in the world| exactly| the hell|abouts) ", "where "),
     (
         (

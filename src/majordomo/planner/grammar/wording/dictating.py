@@ -10,8 +10,41 @@ _LEAD = (
     r" now)?|how do i say(?: this)?)"
 )
 _NP = r"(?:the|an?|my|that|his|her|some) (?:\w+ )?\w+"
+_NP_LONG = r"(?:the|my|that|this|his|her|our|those|these) [\w' ]+?"
+_MARK = r"(?:question mark|comma|period|full stop|exclamation (?:mark|point))"
+_DEED = r"(?:bring|take|put|go|get|fetch|give|come|carry|move|find|drop|return|look|hand|pick|place|pass|grab|drive)"
 
 DICTATING: tuple[tuple[str, str], ...] = (
+    (rf"\b{_MARK},? (?:no|oops|sorry|i mean|wait)(?:,? (?:no|sorry|i mean))*,? (?={_MARK}\b)", ""),
+    (
+        (
+            rf"^(?:(?!,).)*?\b(?:the|an?|my|some|to|in|on|from|his|her|with)(?:\.{{2,}}|…| ?[—–]| -)+ "
+            rf"?(?:no,? |sorry,? "
+            rf"|wait,? |i mean,? )*(?={_DEED}\b)"
+        ),
+        "",
+    ),
+    (
+        r"\b(?:the|my|that) (\w+) (?:the|my|that) (\w+ \1),? the one (?=(?:in|on|at|under|from|with|next to|that)\b)",
+        r"the \2 ",
+    ),
+    (r"\b((?:the|my|that) (?:\w+ )?\w+),? the one (?=(?:in|on|at|under|from|with|next to) (?:the|my)\b)", r"\1 "),
+    (
+        (
+            rf"^({_NP_LONG}),? (?:i|we) (?:really |just )?(want|need|would like) (?:it|that|them|those|him"
+            rf"|her)(?: now| please)*(?=[.!]*$)"
+        ),
+        r"i \2 \1",
+    ),
+    (r"\b((?:the|my|that) [\w' ]+?),? (?:and |but )?not (?:the|any)(?: of the)? others?(?: ones?)?(?=[.!,]|$)", r"\1"),
+    (
+        (
+            r"\b(?:two|three|four|a few|a couple of|several|some|these|the following)(?: two| three)? "
+            r"(?:things|items)[,:;.]* "
+            r"(?=(?:the|my|an?|his|her) [\w' ]+ and )"
+        ),
+        "",
+    ),
     (r"\b([a-z]+ [a-z]+(?: [a-z]+)?),? \1\b", r"\1"),
     (
         (

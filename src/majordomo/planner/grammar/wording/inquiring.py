@@ -14,6 +14,53 @@ _TAGS = (
 _BETWEEN = r"(?:of (?:them|these|those|the two) )?"
 
 INQUIRING: tuple[tuple[str, str], ...] = (
+    (r"^where abouts? (?=(?:is|are|was|were|did|do|can|in|on)\b)", "where "),
+    (
+        (
+            r"^where (?:have|has|did) (.+?) (?:gone|got(?:ten)?|go|get|wandered off|run off"
+            r"|disappeared|vanished|ended up|end up|been put)(?: to)?(?=[?.!,;]|$)"
+        ),
+        r"where is \1",
+    ),
+    (
+        (
+            r"^what (is|are) ([^?,;]+?) (?:in|on|inside)[,;]* (?:and )?(?:in |and )*(?:which|what) "
+            r"room(?: (?:is it|are they))?(?: in)?(?=[?.!]*$)"
+        ),
+        r"where \1 \2",
+    ),
+    (r"^(when did you [^?,;]+?)[,;]* (?:and )where(?: (?:was|were) (?:it|that|they))?(?=[?.!]*$)", r"\1"),
+    (
+        (
+            r"^where (?:was|were) ([^?,;]+?),? (?:the )?last time(?: that)? you (?:saw|noticed|looked)(?: "
+            r"(?:it|them|him|her))?(?=[?.!]*$)"
+        ),
+        r"where did you last see \1",
+    ),
+    (
+        (
+            r"^(?:do (?:we|you|i) (?:still |even )?(?:have|own)|have (?:we|you) (?:still )?got|(?:is|are) "
+            r"there(?: still)?) (?:any |some )?([\w ]+?)(?: left)?((?: (?:in|on|at|under|near"
+            r"|next to) [^?,.;]+)?)[?,.;]+ (?:and )?(?:if (?:so|yes),? )?how many(?: of them)?(?: (?:are "
+            r"there|do we have|are left))?(?=[?.!]*$)"
+        ),
+        r"how many \1 are there\2",
+    ),
+    (r"^(?:please )?(?:list|name|enumerate|recite|read out)(?: me)? (?=(?:what|who) (?:is|are)\b)", ""),
+    (
+        (
+            r"^what (?:kinds?|sorts?|types?) of (?:things?|tasks?|jobs?|stuff|work|chores?) (?:can|could"
+            r"|do|are) you (?:do|able to do|help(?: me)? with|manage)(?: for (?:me|us))?(?=[?.!]*$)"
+        ),
+        "what can you do",
+    ),
+    (
+        (
+            r"^(?:in |at )?(?:which|what) (?:part|area|corner|end|side|section)(?: of (?:the |this "
+            r")?(?:building|house|flat|home|place|apartment))? (is|are) (?!the \w+er\b)"
+        ),
+        r"where \1 ",
+    ),
     (
         r"\b(?:what|which) (?:kinds?|sorts?|types?|varieties|variety) of (?!colou?rs?\b)(?=\w)",
         "what ",

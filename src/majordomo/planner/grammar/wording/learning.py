@@ -6,8 +6,43 @@ _DEED = r"(?:bring|take|put|go|get|fetch|give|come|carry|move|find|drop|return|l
 _COLOR = r"(?:red|green|blue|yellow|black|white|brown|pink|purple|gray|grey|orange|gold|silver)"
 _WHERE = r"(?=(?:in|on|at|inside|next to|by|near|under|with|beside)\b)"
 _HUNGRY = r"(?:hungry|thirsty|tired|cold|sleepy|bored|sick|sad|hot|ill)"
+_THING = r"(?:the|an?|my|this|that|his|her) [\w' ]+?"
+_GIVING = r"(bring|give|carry|take|deliver|hand|pass|fetch)"
 
 LEARNING: tuple[tuple[str, str], ...] = (
+    (r"\bdo the needful(?: and| to)? (?=\w)", ""),
+    (
+        r"\b(i|we) (?:have|am in|are in|has|have got) (?:a |the )?(?:need|necessity|want) (?:of|for|to have) ",
+        r"\1 need ",
+    ),
+    (
+        (
+            rf"\b((?:can|could|will|would|must) you|you must|please) (?:to )?(me|us|him|her) ({_THING}) "
+            rf"(?:to )?{_GIVING}(?=[?.!]*$)"
+        ),
+        r"\1 \4 \2 \3",
+    ),
+    (rf"^(?:please )?(to (?!me\b)\w+(?: \w+)?),? ({_THING}) (?:please )?{_GIVING}(?=[?.!]*$)", r"\3 \2 \1"),
+    (
+        (
+            rf"\b(?:make|do)(?: it)?(?: so)? that ({_THING}) (?:is coming|comes|come|is going|goes|go|gets"
+            rf"|is brought|arrives) to (?=\w)"
+        ),
+        r"bring \1 to ",
+    ),
+    (
+        rf"^it (?:must|has to|needs?|should|is necessary)(?: be)? ({_THING}) (?=(?:to|in|on|at|into|onto)\b)",
+        r"\1 should go ",
+    ),
+    (
+        (
+            r"^((?:the|this|that|these|those|my) [\w' ]+?),? (?:is|are) for ((?!me\b)[\w' ]+?),? (?:and "
+            r"|so |then )?(?:you |please |you must |must )*"
+            r"(?:bring|give|carry|take|deliver|hand|pass)(?: it| them)?(?: to (?:him|her|them))?(?: please)?(?=[.!]*$)"
+        ),
+        r"bring \1 to \2",
+    ),
+    (r"^(?:please,? )?((?:the|this|that|my) [\w' ]+?),? for (\w+) (?:it )?(?:is|are)(?=[.!]*$)", r"bring \1 to \2"),
     (rf"^(?:me |i |i is |me is |we ){_HUNGRY}[,.!;]* (?=\w)", ""),
     (r"\bout(?:t)?a (?=(?:the|my|his|her)\b)", "out of "),
     (rf"\b({_DEED}) 2 (?=(?:me|us|him|her)\b)", r"\1 to "),

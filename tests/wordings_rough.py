@@ -166,6 +166,7 @@ ROUGH: list[tuple[str, str]] = [
     ("bring me either the milk or the juice", "bring me the milk, otherwise the juice"),
     ("suppose the banana is on the table: bring it to me", "if the banana is on the table, bring it to me"),
     ("hey you useless machine, the newspaper", "the newspaper"),
+    ("the cup is dirty, could it go in the sink", "the cup is dirty, put it in the sink"),
     ("hey tin can, bring me the remote", "bring me the remote"),
     ("bring me the remote, you silly robot", "bring me the remote"),
     ("can i have a cookie pretty please", "can i have a cookie"),

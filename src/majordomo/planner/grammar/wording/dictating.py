@@ -10,7 +10,10 @@ _LEAD = (
     r" now)?|how do i say(?: this)?)"
 )
 _NP = r"(?:the|an?|my|that|his|her|some) (?:\w+ )?\w+"
-_NP_LONG = r"(?:the|my|that|this|his|her|our|those|these) [\w' ]+?"
+_NP_LONG = (
+    r"(?:the|my|that|this|his|her|our|those|these)"
+    r"(?: (?!(?:is|are|was|were|has|have|had|will|does|did|fell|broke|smells|looks|belongs|goes)\b)[\w']+)+?"
+)
 _MARK = r"(?:question mark|comma|period|full stop|exclamation (?:mark|point))"
 _DEED = r"(?:bring|take|put|go|get|fetch|give|come|carry|move|find|drop|return|look|hand|pick|place|pass|grab|drive)"
 

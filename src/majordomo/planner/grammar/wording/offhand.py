@@ -21,6 +21,10 @@ _BARE = (
 _HURRY = r"(?:go|go go(?: go)?|now|move|move it|quick|quickly|hurry(?: up)?|chop chop|pronto|asap|fast|come on)"
 _BRING = r"(?:bring|give|get|fetch|hand|pass|take|carry|deliver)"
 _NP = r"(?:the|my|that|this|his|her|our|an?) [\w' ]+?"
+_PLAIN_NP = (
+    r"(?:the|my|that|this|his|her|our)"
+    r"(?: (?!(?:is|are|was|were|has|have|had|will|does|did|fell|broke|smells|looks|belongs|goes)\b)[\w']+)+?"
+)
 _KIN = (
     r"(?:(?:my |the |our )?(?:mum|mom|mummy|mommy|mama|dad|daddy|papa|grandma|granny|grandpa|teacher|nurse|doctor|boss"
     r"|sister|brother|wife|husband|everyone|everybody)|she|he|they|[a-z]+)"
@@ -74,9 +78,10 @@ OFFHAND: tuple[tuple[str, str], ...] = (
     ),
     (r"^(?:it is |this is )?(?:only |just )?me again[,.! ]*(?=\w)", ""),
     (
-        rf"^({_NP}),? (can|could|may|might|should|would) (?:it|that|they|those|this|these) (?=(?:go|be|come)\b)",
+        rf"^({_PLAIN_NP}),? (can|could|may|might|should|would) (?:it|that|they|those|this|these) (?=(?:go|be|come)\b)",
         r"\2 \1 ",
     ),
+    (r"(?<=[,.;] )(?:can|could|may|might) (it|they|that|those) go (?=(?:on|in|into|onto|to|next)\b)", r"put \1 "),
     (r"\b([a-z]+)(?:'s| is) the one (?:who|that) (wants|needs|asked for|ordered|would like|gets|likes)\b", r"\1 \2"),
     (r"^((?:my|the|his|her) [\w' ]+?) (?:wants|would like) to (?:come|be brought|go) to (?=\w)", r"bring \1 to "),
     (
@@ -87,10 +92,10 @@ OFFHAND: tuple[tuple[str, str], ...] = (
         "",
     ),
     (
-        rf"^(?:the |my )?({_BARE})[.!,] ({_SHORT})[.!,] (?:to )?(?:here|me|over here)(?:[.!,]+ {_HURRY})*[.!]*$",
+        rf"^(?:the |my )?({_BARE})[.!] ({_SHORT})[.!] (?:to )?(?:here|me|over here)(?:[.!,]+ {_HURRY})*[.!]*$",
         r"bring me the \1 from \2",
     ),
-    (rf"^({_BARE})[.!,] (?!here\b|me\b)({_SHORT})(?:[.!,]+ {_HURRY})+[.!]*$", r"\1. \2."),
+    (rf"^({_BARE})[.!] (?!here\b|me\b)({_SHORT})(?:[.!,]+ {_HURRY})+[.!]*$", r"\1. \2."),
     (rf"^((?:the |my |that |an? )?{_BARE}),? (?:over|right over|right) here(?:[.!,]+ {_HURRY})*[.!]*$", r"bring me \1"),
     (
         (

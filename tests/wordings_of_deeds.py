@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 DEEDS: list[tuple[str, str]] = [
+    ("visit the library, and finish in the hall", "visit the library, then go to the hall"),
+    ("what fruit does the cafeteria have", "what fruit are in the cafeteria"),
+    ("whatever is in the bowl, bring it all to ben", "bring everything in the bowl to ben"),
     ("can you wait by the fridge until i call you", "can you wait by the fridge"),
     ("i want you standing at the shelf", "go to the shelf"),
     ("you are in the way there, move into the kitchen", "go to the kitchen"),

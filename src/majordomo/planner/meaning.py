@@ -40,6 +40,7 @@ from majordomo.planner.naming import aim_phrase, name_of
 from majordomo.planner.returning import Returning
 from majordomo.planner.siding import SIDES, beside
 from majordomo.planner.teaching import Teaching
+from majordomo.planner.vocabulary import OPEN_AIR
 from majordomo.scene_graph.nodes import ObjectNode, PersonNode, RoomNode
 from majordomo.skills.rooms import in_room
 
@@ -289,7 +290,7 @@ class Meaning:
             return Predicate.NEAR
         if isinstance(node, PersonNode) and relation == "to":
             return Predicate.GIVEN
-        if isinstance(node, RoomNode) and relation in ("to", "in"):
+        if isinstance(node, RoomNode) and (relation in ("to", "in") or node.label in OPEN_AIR):
             return Predicate.IN
         container = thing is not None and thing.container
         shelf = isinstance(node, ObjectNode) and node.support and node.label in SHELF_LIKE

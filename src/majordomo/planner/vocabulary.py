@@ -168,6 +168,8 @@ ANYTHING = frozenset({"thing", "object", "item", "stuff", "one", "everything"})
 """Words that fit any object that can be carried."""
 
 FURNITURE = frozenset({"furniture"})
+OPEN_AIR = frozenset({"terrace", "balcony", "patio", "porch", "deck", "veranda", "landing"})
+"""Rooms that one is *on* and not *in*."""
 ROOM_WORDS = frozenset({"room", "place"})
 PERSON_WORDS = frozenset(
     {"person", "human", "man", "woman", "guy", "lady", "someone", "somebody", "people", "user", "everyone", "anyone"}

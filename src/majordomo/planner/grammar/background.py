@@ -213,8 +213,10 @@ def spoken_of(clause: Tokens) -> list[tuple[bool, list[Terminal]]]:
     index = 0
     while index < len(clause) and len(found) < MAX_PHRASES:
         head = _past(clause, index, _IN_PHRASE)
-        names = head < len(clause) and clause[head].type in _NAMES and not (index <= verb <= head and verb)
-        end = _past(clause, head, _NAMES, verb) if names else index + 1
+        fruit = head > index and clause[head - 1].type == "ORANGE" and not _is_named(clause, head)
+        head -= fruit
+        names = (fruit or _is_named(clause, head)) and not (index <= verb <= head and verb)
+        end = _past(clause, head + fruit, _NAMES, verb) if names else index + 1
         if names and clause[end - 1].typed not in _ANYBODY | BODILY and not _tells_how(clause, index, head):
             before = clause[index - 1].type if index else ""
             found.append((before in _LANDMARK, list(clause[index : verb if index < verb else None])))
@@ -222,6 +224,10 @@ def spoken_of(clause: Tokens) -> list[tuple[bool, list[Terminal]]]:
                 end = _past(clause, _past(clause, end + 1, _IN_PHRASE), _NAMES, verb)
         index = max(end, index + 1)
     return found
+
+
+def _is_named(clause: Tokens, index: int) -> bool:
+    return index < len(clause) and clause[index].type in _NAMES
 
 
 def _past(clause: Tokens, index: int, kinds: frozenset[str], stop: int = 0) -> int:

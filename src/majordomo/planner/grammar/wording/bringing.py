@@ -7,6 +7,15 @@ _COLOR = r"(?:red|green|blue|yellow|black|white|brown|pink|purple|gray|grey|oran
 BRINGING: tuple[tuple[str, str], ...] = (
     (
         (
+            r"^(?:whatever|everything that|anything that|all that)(?: there)? (?:is|are|stands|lies|you"
+            r" find|you see) "
+            r"((?:in|on|at|under|by) [^,;.?]+?)[,;.:]+ (?:please |just |you can )*(bring|take|put|carry|move|give|get) "
+            r"(?:it|them|that|those) all (?=(?:to|in|on|into|onto|me)\b)"
+        ),
+        r"\2 everything \1 ",
+    ),
+    (
+        (
             r"^(put |take |move |bring |carry |get |)(?:the )?([^,]+?), all of (?:it|them), (?=(?:to|in|into"
             r"|on|onto|for) )"
         ),

@@ -62,6 +62,15 @@ INQUIRING: tuple[tuple[str, str], ...] = (
         r"where \1 ",
     ),
     (
+        (
+            r"^(what|which) (?![\w ]*\bcolou?r)([\w ]+?) (?:does|do) ((?:the|my|our|room|ward|\w+'s) ?[\w"
+            r" ]*?) (?:have|hold"
+            r"|contain|store|offer"
+            r"|stock|keep)(?: in stock)?(?=[?.!]*$)"
+        ),
+        r"\1 \2 are in \3",
+    ),
+    (
         r"\b(?:what|which) (?:kinds?|sorts?|types?|varieties|variety) of (?!colou?rs?\b)(?=\w)",
         "what ",
     ),

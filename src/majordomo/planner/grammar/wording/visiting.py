@@ -18,6 +18,14 @@ _WATCH = (
 )
 
 VISITING: tuple[tuple[str, str], ...] = (
+    (
+        (
+            r"(?:,|;| and| then|, and|, then|, and then) (?:finally )?(?:finish|end|conclude|wind up"
+            r"|stop)(?: off| there)? "
+            r"(?=(?:in|at|by|near) (?:the |my |our |room |ward |office |meeting )?\w+(?: \w+)?[.!]*$)"
+        ),
+        ", then go ",
+    ),
     (r"(?<=\byou )(?:(?:kindly|please|just|quickly|possibly|simply|also|maybe|perhaps) )+(?=\w)", ""),
     (
         (

@@ -73,7 +73,7 @@ class SensorBuffer:
 
     Attributes:
         odometry: recent odometry, oldest first.
-        scan, frame, joints: newest of each, ``None`` until the first arrives.
+        scan, frame, joints: newest of each, ``None`` until the first arrives. frame_before: the one before ``frame``.
         scans, frames: how many LiDAR revolutions and camera frames arrived so far.
         silent: sensor name -> time in seconds since which it has been silent.
     """
@@ -84,6 +84,7 @@ class SensorBuffer:
         self.scan: LidarScan | None = None
         self.scans = 0
         self.frame: RgbdFrame | None = None
+        self.frame_before: RgbdFrame | None = None
         self.frames = 0
         self.joints: JointState | None = None
         self.silent: dict[str, float] = {}
@@ -100,8 +101,15 @@ class SensorBuffer:
 
     def add_frame(self, frame: RgbdFrame) -> None:
         """Take in a camera frame; the same one twice counts once."""
-        self.frames += self.frame is None or frame.stamp_s > self.frame.stamp_s
+        if self.frame is None or frame.stamp_s > self.frame.stamp_s:
+            self.frames += 1
+            self.frame_before = self.frame
         self.frame = frame
+
+    def frame_after(self, stamp_s: float) -> RgbdFrame | None:
+        """Of the newest two frames the older that is newer than ``stamp_s``, if any: who is late by one misses none."""
+        kept = (self.frame_before, self.frame)
+        return next((frame for frame in kept if frame is not None and frame.stamp_s > stamp_s), None)
 
     def odometry_at(self, stamp_s: float) -> SE3:
         """Pose of the base in the odometry frame at ``stamp_s``.

@@ -298,6 +298,24 @@ def test_a_thing_that_slips_from_the_fingers_is_missing_near_the_robot_until_see
     assert np.linalg.norm(graph.position("bottle_1", "room_1") - (-1.2, 0.2, 0.12)) < 0.02
 
 
+@pytest.mark.parametrize(("late_s", "understood"), [(0.05, [0.25, 0.3]), (1.0, [1.25])])
+def test_a_frame_that_came_during_a_long_step_is_not_missed_unless_it_is_old(late_s, understood):
+    story, seen = Story([TABLE]), []
+    story.run(1)
+    answer = story.room.infer
+
+    async def infer(frame):
+        seen.append(frame.stamp_s)
+        return await answer(frame)
+
+    story.room.infer = infer
+    for stamp_s in (0.25, 0.25 + late_s):
+        story.buffer.add_frame(story.room.frame(round(stamp_s, 3)))
+    story.now_s = round(0.25 + late_s, 3)
+    story.agent_only(3)
+    assert seen == understood
+
+
 def test_contact_without_an_announcement_is_no_grasp():
     story = Story([TABLE, BLUE_BOTTLE])
     story.run(5)

@@ -51,13 +51,15 @@ _SPARSE = 4
 class ObjectMemorySettings:
     """Settings of every stage.
 
-    ``silent_s``: age of the newest frame from which on the camera counts as silent. ``wall_share``: of the points of
+    ``silent_s``: age of the newest frame from which on the camera counts as silent. ``late_s``: so much older than the
+    newest a frame may be that waits for its turn. ``wall_share``: of the points of
     furniture; where so many are of walls, it is one. ``sure_rad``: standard deviation of the robot's heading from which
     on nothing is placed by it.
     """
 
     period_s: float = 0.2
     silent_s: float = 2.0
+    late_s: float = 0.3
     inference_timeout_s: float = 10.0
     depth_share_min: float = 0.05
     in_hand_m: float = 0.12
@@ -122,15 +124,15 @@ class ObjectMemory:
         self._publish(stamp_s)
 
     def _new_frame(self, stamp_s: float) -> RgbdFrame | None:
-        """The newest frame if it has not been used yet and shows depth."""
-        frame = self._buffer.frame
-        newest_s = frame.stamp_s if frame is not None else -np.inf
-        if stamp_s - newest_s > self._settings.silent_s:
+        """The next frame that has not been used yet and shows depth; one that is too old for that is left out."""
+        newest = self._buffer.frame
+        if newest is None or stamp_s - newest.stamp_s > self._settings.silent_s:
             self._mark("the camera is silent")
             return None
-        if frame is None or newest_s <= self._frame_s:
+        frame = self._buffer.frame_after(max(self._frame_s, min(newest.stamp_s, stamp_s) - self._settings.late_s))
+        if frame is None:
             return None
-        self._frame_s = newest_s
+        self._frame_s = frame.stamp_s
         with np.errstate(invalid="ignore"):
             share = float(np.mean(frame.depth_m > 0.0))
         if share < self._settings.depth_share_min:

@@ -51,7 +51,7 @@ class ModelRounds:
 
     async def run(self, text: str, snapshot: Snapshot, dialogue: Dialogue) -> Interpretation | ModelFailure:
         """A checked interpretation, or why there is none. The ``reply`` of an answer is the question."""
-        scene = outline(snapshot, text, mentioned=dialogue.mentioned)
+        scene = _scene(text, snapshot, dialogue)
         messages = self._opening(text, scene, dialogue)
         end_s, repeated = self._clock() + self._deadline_s, 0
         failure = ModelFailure(kind=FailureKind.TIMEOUT, message="there was no time to ask it")
@@ -149,3 +149,11 @@ def _correction(text: str, failure: ModelFailure) -> list[Message]:
 def _is_missing(node_id: str, snapshot: Snapshot) -> bool:
     node = snapshot.get(node_id)
     return isinstance(node, ObjectNode) and node.state is ObjectState.MISSING
+
+
+def _scene(text: str, snapshot: Snapshot, dialogue: Dialogue) -> Outline:
+    """What the request may be about: *put it back* is about where that was, an answer about what was asked."""
+    origins = [dialogue.origins[thing] for thing in dialogue.mentioned if thing in dialogue.origins]
+    answered = [part for pair in dialogue.answers for part in pair]
+    before = " ".join((*answered, *(exchange.request for exchange in dialogue.earlier[:1])))
+    return outline(snapshot, text, mentioned=(*dialogue.mentioned, *origins), before=before)

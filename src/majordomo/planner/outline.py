@@ -20,6 +20,8 @@ from majordomo.scene_graph.nodes import DoorNode, DoorState, ObjectNode, ObjectS
 from majordomo.scene_graph.snapshot import Snapshot
 
 MAX_OBJECTS = 64
+MAX_THERE = 24
+"""Of what is on or in what the request names, so that it leaves room for other things."""
 MAX_ROOMS = 60
 MAX_IDENTIFIERS = 250
 _WORD = re.compile(r"\w+")
@@ -34,10 +36,12 @@ class Outline:
     left_out: int
 
 
-def outline(snapshot: Snapshot, request: str, *, mentioned: Sequence[str] = ()) -> Outline:
-    """The part of the graph that ``request`` may be about; what it names, furniture, then the rest."""
+def outline(snapshot: Snapshot, request: str, *, mentioned: Sequence[str] = (), before: str = "") -> Outline:
+    """The part of the graph that ``request`` may be about: what it names or ``mentioned`` identifiers, what is on that,
+    what was spoken of ``before``, furniture, then the rest.
+    """
     rooms = [room for room in snapshot.of_type(RoomNode) if room.status is not RoomStatus.TEMPORARY]
-    objects = _chosen(snapshot, request, mentioned)
+    objects = _chosen(snapshot, request, mentioned, before)
     used = {snapshot.room_of(node.id) for node in objects} | {snapshot.current_room}
     rooms = sorted(rooms, key=lambda room: (room.id not in used, natural_key(room.id)))[:MAX_ROOMS]
     people = list(snapshot.of_type(PersonNode))[:20]
@@ -61,28 +65,48 @@ def outline(snapshot: Snapshot, request: str, *, mentioned: Sequence[str] = ()) 
     )
 
 
-def _chosen(snapshot: Snapshot, request: str, mentioned: Sequence[str]) -> list[ObjectNode]:
+def _chosen(snapshot: Snapshot, request: str, mentioned: Sequence[str], before: str) -> list[ObjectNode]:
     """At most ``MAX_OBJECTS``: what the request means best or mentioned, what that stands on, what else has a name in
-    the request, furniture, and the rest.
+    the request, what is on or in what it names, what was spoken of before, furniture, and the rest.
     """
     objects = snapshot.of_type(ObjectNode)
-    words = _words(request, {normal(node.label) for node in objects})
+    labels = {normal(node.label) for node in objects}
+    words, words_before = _words(request, labels), _words(before, labels)
     named = [node for node in objects if node.id in mentioned or _is_named(node, words)]
     meant = _meant(named, words, snapshot) | set(mentioned)
     held = snapshot.robot.holding if snapshot.robot is not None else None
     below = {support for i in meant if i in snapshot and (support := snapshot.support_of(i)) is not None}
     others = {node.id for node in named}
+    there = _at(meant | _rooms(words, snapshot), objects, snapshot)
 
     def rank(node: ObjectNode) -> tuple[int, object]:
-        tiers = (node.id in meant or node.id == held, node.id in below, node.id in others, _is_furniture(node))
+        tiers = (
+            node.id in meant or node.id == held,
+            node.id in below,
+            node.id in others,
+            node.id in there,
+            _is_named(node, words_before),
+            _is_furniture(node),
+        )
         return next((tier for tier, fits in enumerate(tiers) if fits), len(tiers)), natural_key(node.id)
 
     return sorted(sorted(objects, key=rank)[:MAX_OBJECTS], key=lambda node: natural_key(node.id))
 
 
+def _at(places: Collection[str], objects: Sequence[ObjectNode], snapshot: Snapshot) -> set[str]:
+    """What is on or in ``places``, at most ``MAX_THERE``; what may be carried from rooms comes last."""
+    on = [node.id for node in objects if snapshot.support_of(node.id) in places]
+    around = [node.id for node in objects if node.graspable and snapshot.room_of(node.id) in places]
+    return set((*sorted(on, key=natural_key), *sorted(around, key=natural_key))[:MAX_THERE])
+
+
+def _rooms(words: frozenset[str], snapshot: Snapshot) -> set[str]:
+    return {room.id for room in snapshot.of_type(RoomNode) if normal(room.label) in words or room.id in words}
+
+
 def _meant(named: Sequence[ObjectNode], words: frozenset[str], snapshot: Snapshot) -> set[str]:
     """Of each kind of thing those whose color or room is in the request too; all of a kind where none is."""
-    rooms = {room.id for room in snapshot.of_type(RoomNode) if normal(room.label) in words or room.id in words}
+    rooms = _rooms(words, snapshot)
     told = {node.id for node in named if node.id in words or normal(node.color) in words}
     told |= {node.id for node in named if snapshot.room_of(node.id) in rooms}
     kinds = {node.label for node in named if node.id in told}
@@ -107,7 +131,8 @@ def _words(request: str, labels: Collection[str]) -> frozenset[str]:
 
 def _is_named(node: ObjectNode, words: frozenset[str]) -> bool:
     label = normal(node.label)
-    return label in words or label.rpartition(" ")[2] in words or node.id in words or normal(node.name) in words
+    kinds = {singular(normal(category)) for category in node.categories}
+    return not words.isdisjoint({label, *label.split(), node.id, normal(node.name), *kinds})
 
 
 def _tree(snapshot: Snapshot, objects: Sequence[ObjectNode], room: str) -> list[str]:

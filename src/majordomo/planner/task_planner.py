@@ -61,10 +61,10 @@ class TaskPlanner:
 
     async def interpret(self, text: str, snapshot: Snapshot, dialogue: Dialogue) -> Interpretation:
         """What ``text`` means on ``snapshot``, with the answers to earlier questions about it."""
-        wording, reading = self.read(text, snapshot, dialogue)
+        _, reading = self.read(text, snapshot, dialogue)
         if reading.wholly or self._rounds is None:
             return reading.interpretation
-        outcome = await self._rounds.run(wording, snapshot, dialogue)
+        outcome = await self._rounds.run(text, snapshot, dialogue)
         if isinstance(outcome, ModelFailure):
             return _without_model(reading.interpretation, outcome)
         if outcome.kind is Kind.ANSWER:

@@ -97,3 +97,27 @@ def test_closed_doors_and_lost_things_are_said():
 def test_what_the_robot_holds_is_said():
     snapshot = flat().snapshot(robot_in="room_2", at=(4.2, 0.0), holding="cup_1")
     assert outline(snapshot, "").text.startswith("robot holding cup_1")
+
+
+def crowded(label="yogurt", **special):
+    """A hundred cups on a table, something there besides, and something on a bench."""
+    sketch = Sketch().room("room_1", "garage", at=(0.0, 0.0)).furniture("table_1", "table", "room_1", at=(0.0, 1.0))
+    sketch.furniture("bench_1", "bench", "room_1", at=(1.0, -1.0))
+    for k in range(1, 101):
+        sketch.thing(f"cup_{k}", "cup", on="table_1")
+    sketch.thing("zither_1", "zither", on="bench_1").thing("yogurt_1", label, on="table_1", **special)
+    return sketch.snapshot(robot_in="room_1", at=(0.0, 0.0))
+
+
+def test_what_is_of_a_named_kind_on_a_named_place_or_was_spoken_of_before_is_shown():
+    snapshot = crowded(categories=("snack",))
+    assert not {"zither_1", "yogurt_1"} & set(outline(snapshot, "hello").identifiers)
+    assert "yogurt_1" in outline(snapshot, "bring me some snacks").identifiers
+    assert "zither_1" in outline(snapshot, "clear the bench").identifiers
+    assert "yogurt_1" in outline(snapshot, "the other one", before="give Anna the yogurt").identifiers
+    assert "zither_1" in outline(snapshot, "put it back", mentioned=("zither_1",)).identifiers
+
+
+def test_a_label_of_several_words_is_named_by_any_of_them():
+    snapshot = crowded(label="toy car")
+    assert "yogurt_1" in outline(snapshot, "all toys go into the box").identifiers

@@ -105,14 +105,13 @@ def taken_up(task: Task) -> Task:
         return replace(waiting, status=TaskStatus.QUEUED)
     if task.status not in (TaskStatus.RUNNING, TaskStatus.PAUSED):
         return waiting
-    message = f"I was switched off while I carried this out{_how_far(task)}."
-    suggestion = "Ask for it again if it is still wanted: I have to look first how things are now."
-    failure = FailureReport(step=_step_under_way(task), code=INTERRUPTED, message=message, suggestion=suggestion)
+    failure = FailureReport(step=_step_under_way(task), code=INTERRUPTED, message="I was switched off.")
+    again = "Ask for it again if it is still wanted: I have to look first how things are now."
     return replace(
         task,
         status=TaskStatus.FAILED,
         failures=(*task.failures, failure),
-        explanation=failure.sentence,
+        explanation=f"I was switched off {_how_far(task)}. {again}",
         plan=_cut_off(task),
     )
 
@@ -141,10 +140,8 @@ def _step_under_way(task: Task) -> str:
 
 def _how_far(task: Task) -> str:
     steps = task.plan.steps if task.plan is not None else ()
-    done = [step.text for step in steps if step.status is StepStatus.SUCCEEDED]
-    under_way = _step_under_way(task)
-    during = f", during {under_way}" if under_way else ""
-    return f"{during}; the last step that I saw done is {done[-1]}" if done else f"{during}, before any step was done"
+    done = sum(step.status is StepStatus.SUCCEEDED for step in steps)
+    return f"after {done} of {len(steps)} steps" if done else "before any step was done"
 
 
 def _connected(file: Path) -> sqlite3.Connection:

@@ -50,7 +50,7 @@ def stages_ms(text, snapshot, planner, interpreter, verifier):
     marks = [time.perf_counter()]
     verifier.state(snapshot), interpreter.lexicon(snapshot)
     marks.append(time.perf_counter())
-    _, reading = planner.read(text, snapshot, Dialogue())
+    reading = planner.read(text, snapshot, Dialogue())
     marks.append(time.perf_counter())
     goals = reading.interpretation.goals
     plan = Replanner(verifier).plan(goals, snapshot, 0.0) if goals else None

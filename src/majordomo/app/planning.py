@@ -37,7 +37,7 @@ def plan_on(snapshot: Snapshot, request: str) -> Outcome:
     """Plan for ``request`` on ``snapshot`` with the command grammar and the installed skills."""
     skills = load_registry()
     verifier = Verifier(skills)
-    _, reading = TaskPlanner(CommandGrammar(), verifier).read(request, snapshot, Dialogue())
+    reading = TaskPlanner(CommandGrammar(), verifier).read(request, snapshot, Dialogue())
     meaning = reading.interpretation
     if meaning.kind is not Kind.PLAN:
         return Outcome(meaning=meaning, plan=None, problem=None)

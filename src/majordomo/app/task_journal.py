@@ -12,6 +12,7 @@ from pydantic import TypeAdapter, ValidationError
 
 from majordomo.app.remembering import building_folder
 from majordomo.app.settings import Settings
+from majordomo.planner.queue import KEEP
 from majordomo.planner.tasks import FailureReport, PlanReport, StepStatus, Task, TaskStatus, TaskTimes
 
 logger = logging.getLogger(__name__)
@@ -20,7 +21,6 @@ SCHEMA = 1
 """Of the file; another is set aside, since nobody knows yet what it would hold."""
 INTERRUPTED = "interrupted"
 """Code of the failure of what was under way; no skill fails so."""
-KEEP = 500
 _TASK = TypeAdapter(Task)
 _ENDED_AS = {StepStatus.RUNNING: StepStatus.FAILED, StepStatus.PENDING: StepStatus.SKIPPED}
 

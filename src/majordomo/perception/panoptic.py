@@ -10,9 +10,6 @@ from numpy.typing import NDArray
 
 from majordomo.perception.ports import RgbdFrame
 
-UNKNOWN_LABEL = "unknown"
-"""Label of what a model sees and cannot name; ``vocabulary.category_of`` judges it by its measured size."""
-
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Instance:

@@ -7,7 +7,8 @@ else improved from the cheapest insertion until no exchange helps or ``TRIES`` a
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterator, Sequence
+from collections import Counter
+from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
 from itertools import chain, pairwise, permutations, product
 from math import factorial, prod
 
@@ -34,7 +35,8 @@ def orders(goals: Sequence[Goal], state: PlanState, leg: Leg) -> Iterator[tuple[
     few: Iterator[tuple[Goal, ...]] = iter(())
     if prod(factorial(len(run)) for run in runs) <= FEW:
         few = (tuple(chain(*order)) for order in product(*(permutations(run) for run in runs)))
-    kinds = {goal: _kind(goal, goals, state) for goal in goals}
+    spoken = Counter(arg for goal in goals for arg in goal.args)
+    kinds = {goal: _kind(goal, spoken, state) for goal in goals}
     tried: set[tuple[Hashable, ...]] = set()
     for order in chain((arranged(goals, state, leg), tuple(goals)), few):
         kind = tuple(kinds[goal] for goal in order)
@@ -43,11 +45,10 @@ def orders(goals: Sequence[Goal], state: PlanState, leg: Leg) -> Iterator[tuple[
             yield order
 
 
-def _kind(goal: Goal, goals: Sequence[Goal], state: PlanState) -> Hashable:
+def _kind(goal: Goal, spoken: Mapping[str, int], state: PlanState) -> Hashable:
     """The same for two goals that take things alike from one place to another; else the goal itself."""
     thing_id, place = goal.args[0], state.places.get(goal.args[0])
-    spoken = [arg for other in goals for arg in other.args]
-    alone = spoken.count(thing_id) == 1 and not state.on_top_of(thing_id) and thing_id not in state.missing
+    alone = spoken[thing_id] == 1 and not state.on_top_of(thing_id) and thing_id not in state.missing
     thing = state.world.things.get(thing_id)
     if goal.predicate not in PLACING or place is None or thing is None or not alone or thing_id in state.near:
         return goal

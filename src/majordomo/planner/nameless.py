@@ -3,20 +3,18 @@
 from __future__ import annotations
 
 from majordomo.planner.vocabulary import normal, singular, words_for
-from majordomo.scene_graph.nodes import ObjectNode
+from majordomo.scene_graph.nodes import UNKNOWN_LABEL, ObjectNode
 from majordomo.scene_graph.snapshot import Snapshot
 
-NAMELESS = "unknown"
-"""What perception calls a thing that it has no name for: that is no other kind."""
 LIKELY = 0.3
 """Probability from which a nameless thing may be meant by a name, where nothing of that name is known."""
 
 
 def likely_label(node: ObjectNode) -> str | None:
     """What a nameless thing most probably is; None of one that has a name, and where nothing is likely enough."""
-    if normal(node.label) != NAMELESS:
+    if normal(node.label) != UNKNOWN_LABEL:
         return None
-    named = ((probability, label) for label, probability in node.label_distribution if normal(label) != NAMELESS)
+    named = ((probability, label) for label, probability in node.label_distribution if normal(label) != UNKNOWN_LABEL)
     probability, label = max(named, default=(0.0, ""))
     return normal(label) if probability >= LIKELY else None
 

@@ -12,6 +12,8 @@ from majordomo.planner.plan import Kind
 from majordomo.planner.tasks import Approval, Task, TaskStatus, TaskTimes
 
 TaskListener = Callable[[Task], None]
+KEEP = 500
+"""Of ended tasks, the newest that are remembered."""
 
 OPERATIONS: Mapping[str, tuple[frozenset[TaskStatus], TaskStatus]] = MappingProxyType(
     {
@@ -33,7 +35,7 @@ class TaskQueue:
     order of arrival, when the person has spoken. Ended tasks beyond ``keep`` are forgotten, oldest first.
     """
 
-    def __init__(self, tasks: Iterable[Task] = (), *, keep: int = 500) -> None:
+    def __init__(self, tasks: Iterable[Task] = (), *, keep: int = KEEP) -> None:
         self._tasks = {task.id: task for task in tasks}
         self._keep = keep
         self._count = max((int(task_id.rpartition("_")[2]) for task_id in self._tasks), default=0)

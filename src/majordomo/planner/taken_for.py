@@ -6,10 +6,10 @@ import re
 from collections.abc import Sequence
 
 from majordomo.planner.goals import PLACING, Goal
-from majordomo.planner.nameless import NAMELESS, likely_label
+from majordomo.planner.nameless import likely_label
 from majordomo.planner.phrasing import article
 from majordomo.planner.vocabulary import normal, singular, words_for
-from majordomo.scene_graph.nodes import ObjectNode
+from majordomo.scene_graph.nodes import UNKNOWN_LABEL, ObjectNode
 from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.skills.failures import Evidence, Failure, FailureCode
 
@@ -45,7 +45,7 @@ class TakenFor:
         """
         for object_id, called in self._labels.items():
             node = snapshot.get(object_id)
-            if not isinstance(node, ObjectNode) or normal(node.label) in _names(called) | {NAMELESS}:
+            if not isinstance(node, ObjectNode) or normal(node.label) in _names(called) | {UNKNOWN_LABEL}:
                 continue
             chances = {normal(label): probability for label, probability in node.label_distribution}
             old, new = chances.get(called, 0.0), chances.get(normal(node.label), 0.0)

@@ -61,7 +61,7 @@ class TaskPlanner:
 
     async def interpret(self, text: str, snapshot: Snapshot, dialogue: Dialogue) -> Interpretation:
         """What ``text`` means on ``snapshot``, with the answers to earlier questions about it."""
-        _, reading = self.read(text, snapshot, dialogue)
+        reading = self.read(text, snapshot, dialogue)
         if reading.wholly or self._rounds is None:
             return reading.interpretation
         outcome = await self._rounds.run(text, snapshot, dialogue)
@@ -71,8 +71,8 @@ class TaskPlanner:
             return self._answered(outcome, reading, snapshot, dialogue)
         return outcome
 
-    def read(self, text: str, snapshot: Snapshot, dialogue: Dialogue) -> tuple[str, Reading]:
-        """The grammar's reading of the request and the answers given so far, and the words it now consists of."""
+    def read(self, text: str, snapshot: Snapshot, dialogue: Dialogue) -> Reading:
+        """The grammar's reading of the request and the answers given so far."""
         choices: Choices = {}
         reading = self._interpreter.read(text, snapshot, dialogue, choices)
         for _, answer in dialogue.answers:
@@ -81,10 +81,10 @@ class TaskPlanner:
             if not answer.strip():
                 continue
             if declines(answer) and not reading.asked.startswith(WHETHER):
-                return text, Reading(interpretation=Interpretation(kind=Kind.REFUSE, reply=NOTHING_THEN))
+                return Reading(interpretation=Interpretation(kind=Kind.REFUSE, reply=NOTHING_THEN))
             text, choices = self._take_answer(text, answer, reading, choices, snapshot)
             reading = self._interpreter.read(text, snapshot, dialogue, choices)
-        return text, reading
+        return reading
 
     def _take_answer(
         self, text: str, answer: str, reading: Reading, choices: Choices, snapshot: Snapshot

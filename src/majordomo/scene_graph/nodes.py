@@ -31,6 +31,10 @@ class NodeType(StrEnum):
     REGION = "region"
 
 
+UNKNOWN_LABEL = "unknown"
+"""Label of an object that perception sees and cannot name."""
+
+
 class RoomStatus(StrEnum):
     """Stage of a room's life: temporary while being measured, permanent once it stands, partial if no concept fits."""
 

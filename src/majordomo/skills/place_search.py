@@ -7,7 +7,7 @@ from math import dist, hypot, pi
 
 import numpy as np
 
-from majordomo.scene_graph.nodes import ROBOT_ID, ObjectNode, ObjectState, PersonNode
+from majordomo.scene_graph.nodes import ROBOT_ID, UNKNOWN_LABEL, ObjectNode, ObjectState, PersonNode
 from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.skills.action import RobotContext
 from majordomo.skills.anchor import Anchor
@@ -24,8 +24,6 @@ FLOOR_GAP_M = 0.10
 DOORWAY_M = 0.6
 HIGHEST_M = 1.15
 LOWEST_M = 0.15
-NAMELESS = "unknown"
-"""The label of what perception cannot name: perhaps furniture, perhaps a part of some."""
 BLOCKED_M = 0.12
 """What stopped the arm may be so large."""
 BLOCKED_S = 120.0
@@ -49,7 +47,7 @@ def free_spots(context: RobotContext, held: str, target: str) -> list[Spot]:
         spots = [
             spot
             for support in supports
-            if (snapshot.object(support).label == NAMELESS) == nameless
+            if (snapshot.object(support).label == UNKNOWN_LABEL) == nameless
             for spot in spots_on(snapshot, support, size_m, held)
             if near_m == np.inf or _distance_m(snapshot, spot.anchor, target) < near_m - 0.3
         ]

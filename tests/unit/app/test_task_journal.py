@@ -10,9 +10,9 @@ from dataclasses import replace
 
 import pytest
 
-from majordomo.app.task_journal import INTERRUPTED, KEEP, TaskJournal, taken_up
+from majordomo.app.task_journal import INTERRUPTED, TaskJournal, taken_up
 from majordomo.planner.goals import Goal, Predicate
-from majordomo.planner.queue import TaskQueue
+from majordomo.planner.queue import KEEP, TaskQueue
 from majordomo.planner.tasks import (
     ActionReport,
     FailureReport,
@@ -168,7 +168,7 @@ WRITER = """
 import sys
 from pathlib import Path
 from majordomo.app.task_journal import TaskJournal
-from majordomo.planner.queue import TaskQueue
+from majordomo.planner.queue import KEEP, TaskQueue
 journal = TaskJournal.open(Path(sys.argv[1]))
 queue = TaskQueue(journal.tasks())
 queue.listen(journal.write)

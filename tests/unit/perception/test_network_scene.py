@@ -13,8 +13,8 @@ from hypothesis import strategies as st
 from majordomo.perception.network.metadata import Description, Thresholds
 from majordomo.perception.network.postprocessing import Outputs, panoptic_scene
 from majordomo.perception.network.resize import FixedSize, Placement
-from majordomo.perception.panoptic import UNKNOWN_LABEL
 from majordomo.perception.vocabulary import category_of
+from majordomo.scene_graph.nodes import UNKNOWN_LABEL
 
 CLASSES = ("cup", "table", "wall")
 CUP, TABLE, WALL, BACKGROUND = range(4)

@@ -71,7 +71,7 @@ KEPT = [
 
 
 def heard(text):
-    return PLANNER.read(text, SNAPSHOT, Dialogue())[1].interpretation
+    return PLANNER.read(text, SNAPSHOT, Dialogue()).interpretation
 
 
 @pytest.mark.parametrize(("text", "goals"), TOLD)

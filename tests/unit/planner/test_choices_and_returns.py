@@ -26,7 +26,7 @@ LEFT_OUT = [
 
 
 def heard(text, snapshot, dialogue):
-    return PLANNER.read(text, snapshot, dialogue)[1].interpretation
+    return PLANNER.read(text, snapshot, dialogue).interpretation
 
 
 def colors(candidates):

@@ -81,7 +81,7 @@ CONTROLS = [
 
 
 def heard(text):
-    return PLANNER.read(text, SNAPSHOT, Dialogue())[1].interpretation
+    return PLANNER.read(text, SNAPSHOT, Dialogue()).interpretation
 
 
 def goals_of(text):
@@ -224,9 +224,9 @@ def test_a_side_where_nothing_can_be_put_is_refused(text):
 def test_a_sink_of_several_is_the_one_in_the_room_that_was_named():
     shelved = home().furniture("shelf_9", "shelf", "room_5", at=(7.0, 5.0)).snapshot(robot_in="room_2", at=(4.2, 0.0))
     said = "put the books on the bed on the shelf"
-    found = PLANNER.read(said, shelved, Dialogue())[1].interpretation
+    found = PLANNER.read(said, shelved, Dialogue()).interpretation
     assert {goal.args[1] for goal in found.goals} == {"shelf_9"}, found.reply
-    asked = PLANNER.read("put the key on the shelf", shelved, Dialogue())[1].interpretation
+    asked = PLANNER.read("put the key on the shelf", shelved, Dialogue()).interpretation
     assert asked.kind is Kind.CLARIFY
 
 
@@ -259,6 +259,6 @@ def test_what_is_on_it_is_on_what_the_heading_names(text):
 def test_a_definite_topic_is_one_thing():
     sketch = home().thing("medicine_1", "medicine", on="desk_1", color="white", at=(4.4, 5.6))
     snapshot = sketch.thing("medicine_2", "medicine", on="bed_1", color="blue").snapshot(robot_in="room_2", at=(4.2, 0))
-    _, reading = PLANNER.read("my medicine, please, I have to take it", snapshot, Dialogue())
+    reading = PLANNER.read("my medicine, please, I have to take it", snapshot, Dialogue())
     assert reading.interpretation.kind is Kind.CLARIFY
     assert set(reading.interpretation.candidates) == {"medicine_1", "medicine_2"}

@@ -78,7 +78,7 @@ def test_schema_prompt_and_phrases_know_it(skills):
 )
 def test_what_a_package_can_do_is_asked_for_in_its_words(skills, text, goals):
     snapshot, verifier = three_rooms(), Verifier(skills)
-    found = TaskPlanner(CommandGrammar(), verifier).read(text, snapshot, Dialogue())[1].interpretation
+    found = TaskPlanner(CommandGrammar(), verifier).read(text, snapshot, Dialogue()).interpretation
     assert [str(goal) for goal in found.goals] == goals, found.reply
     plan = verifier.plan_for(found.goals, snapshot)
     assert isinstance(plan, Plan), plan
@@ -89,7 +89,7 @@ def test_what_a_package_can_do_is_asked_for_in_its_words(skills, text, goals):
 def test_only_doors_are_opened_and_only_with_the_package(skills):
     for known, said in ((skills, "doors only"), (load_registry([]), "cannot open")):
         planner = TaskPlanner(CommandGrammar(), Verifier(known))
-        found = planner.read("open the cup", three_rooms(), Dialogue())[1].interpretation
+        found = planner.read("open the cup", three_rooms(), Dialogue()).interpretation
         assert not found.goals
         assert said in found.reply
     flaws = Verifier(load_registry([])).verify_goals([goal("open", "door_1_0_0")], three_rooms())

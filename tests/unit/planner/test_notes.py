@@ -16,7 +16,7 @@ PLANNER = TaskPlanner(CommandGrammar(), Verifier(load_registry([])))
 
 
 def heard(text):
-    return PLANNER.read(text, SNAPSHOT, Dialogue())[1].interpretation
+    return PLANNER.read(text, SNAPSHOT, Dialogue()).interpretation
 
 
 @pytest.mark.parametrize(

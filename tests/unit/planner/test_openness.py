@@ -24,7 +24,7 @@ def house(state=DoorState.UNKNOWN):
 
 def ask(text, *answers, snapshot=None):
     dialogue = Dialogue(answers=tuple(("?", answer) for answer in answers))
-    return PLANNER.read(text, snapshot or house(), dialogue)[1].interpretation
+    return PLANNER.read(text, snapshot or house(), dialogue).interpretation
 
 
 def test_a_room_behind_doors_of_which_none_is_known_is_not_known_to_be_open():

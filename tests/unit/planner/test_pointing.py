@@ -23,7 +23,7 @@ def taught(request, *, moved="", mentioned=(), answers=()):
         earlier=(Exchange(request="before", goals=goals),),
         answers=answers,
     )
-    return PLANNER.read(request, SNAPSHOT, dialogue)[1].interpretation
+    return PLANNER.read(request, SNAPSHOT, dialogue).interpretation
 
 
 @pytest.mark.parametrize(

@@ -169,7 +169,7 @@ def test_slips_of_keys_and_spaces(text):
 
 def answers(request, *told):
     planner = TaskPlanner(CommandGrammar(), Verifier(load_registry([])))
-    return planner.read(request, SNAPSHOT, Dialogue(answers=tuple(("?", answer) for answer in told)))[1].interpretation
+    return planner.read(request, SNAPSHOT, Dialogue(answers=tuple(("?", answer) for answer in told))).interpretation
 
 
 def test_an_answer_that_leaves_several_is_asked_on_about_those():

@@ -17,7 +17,7 @@ SNAPSHOT = home().snapshot(robot_in="room_2", at=(4.2, 0.0))
 
 
 def chosen(request, answer):
-    read = PLANNER.read(request, SNAPSHOT, Dialogue(answers=(("?", answer),)))[1].interpretation
+    read = PLANNER.read(request, SNAPSHOT, Dialogue(answers=(("?", answer),))).interpretation
     return {goal.args[0] for goal in read.goals}
 
 
@@ -62,7 +62,7 @@ def test_what_is_left_out_leaves_the_other(answer):
 
 
 def test_a_request_in_the_place_of_an_answer_is_a_request():
-    read = PLANNER.read("bring me the book", SNAPSHOT, Dialogue(answers=(("?", "go to the bedroom"),)))[1]
+    read = PLANNER.read("bring me the book", SNAPSHOT, Dialogue(answers=(("?", "go to the bedroom"),)))
     assert [goal.args for goal in read.interpretation.goals] == [("room_5",)]
 
 
@@ -99,5 +99,5 @@ def test_what_says_more_is_no_control(text):
 
 
 def test_an_unclear_answer_asks_again():
-    read = PLANNER.read("bring me the book", SNAPSHOT, Dialogue(answers=(("?", "the pretty one"),)))[1]
+    read = PLANNER.read("bring me the book", SNAPSHOT, Dialogue(answers=(("?", "the pretty one"),)))
     assert read.interpretation.kind is Kind.CLARIFY

@@ -12,7 +12,7 @@ from majordomo.app.evaluations.inventory import GraphContents, GraphThing, TrueT
 from majordomo.app.evaluations.recognition import EITHER_WAY, share
 from majordomo.app.evaluations.stocktaking import Stocktaking, off_m, take_stock
 from majordomo.perception.labels import room_label
-from majordomo.perception.panoptic import UNKNOWN_LABEL
+from majordomo.scene_graph.nodes import UNKNOWN_LABEL
 from majordomo.simulation.house import House
 
 BANDS_M = (0.0, 1.0, 2.0, 3.0)

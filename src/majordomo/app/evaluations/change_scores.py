@@ -11,7 +11,7 @@ import numpy as np
 from majordomo.app.evaluations.inventory import GraphThing, TrueThing
 from majordomo.app.evaluations.recognition import share
 from majordomo.app.evaluations.stocktaking import Stocktaking, off_m, take_stock
-from majordomo.perception.panoptic import UNKNOWN_LABEL
+from majordomo.scene_graph.nodes import UNKNOWN_LABEL
 
 PLACE_M = 0.3
 """A thing is at its new place for the graph if its node is so near, and has left the old one if none is."""

@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import linear_sum_assignment
 
-from majordomo.perception.panoptic import UNKNOWN_LABEL, PanopticScene
+from majordomo.perception.panoptic import PanopticScene
+from majordomo.scene_graph.nodes import UNKNOWN_LABEL
 from majordomo.simulation.catalog import CATEGORIES, category_named
 from majordomo.simulation.photographs import FLOOR, WALL, Photograph
 

@@ -15,7 +15,8 @@ from majordomo.perception.network.merging import same_things
 from majordomo.perception.network.metadata import Description, Thresholds
 from majordomo.perception.network.recognition import UNKNOWN, Recognition, joined, recognize, softmax
 from majordomo.perception.network.resize import Placement
-from majordomo.perception.panoptic import UNKNOWN_LABEL, Instance, PanopticScene, Triplet
+from majordomo.perception.panoptic import Instance, PanopticScene, Triplet
+from majordomo.scene_graph.nodes import UNKNOWN_LABEL
 
 Array = NDArray[np.float32]
 _NONE = -1

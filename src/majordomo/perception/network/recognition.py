@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from majordomo.perception.network.metadata import Thresholds
-from majordomo.perception.panoptic import UNKNOWN_LABEL
+from majordomo.scene_graph.nodes import UNKNOWN_LABEL
 
 UNKNOWN = -1
 """Class index of what the network does not know."""

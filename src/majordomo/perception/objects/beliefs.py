@@ -6,9 +6,8 @@ from collections.abc import Hashable, Mapping
 
 import numpy as np
 
-from majordomo.perception.panoptic import UNKNOWN_LABEL
 from majordomo.perception.vocabulary import is_oversized
-from majordomo.scene_graph.nodes import Point3
+from majordomo.scene_graph.nodes import UNKNOWN_LABEL, Point3
 
 LabelDistribution = tuple[tuple[str, float], ...]
 

@@ -84,9 +84,7 @@ def is_told(clause: Tokens) -> bool:
     words = {token.typed for token in clause}
     if _is_own_plan(kinds):
         return True
-    if kinds[-2:-1] == ["BE"] and kinds[-1] in _LANDMARK - {
-        "BESIDE"
-    }:  # *the room Anna is in* goes on with what comes before
+    if kinds[-2:-1] == ["BE"] and kinds[-1] in _LANDMARK - {"BESIDE"}:  # *the room Anna is in* goes on after what it is
         return False
     if kinds[-2:-1] == ["CAN"] and kinds[-1] in _SUBJECTS:  # *the letter, could that* goes on with a verb
         return False

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from math import atan2, pi
 
 from py_trees.common import Status
@@ -14,9 +13,7 @@ from majordomo.skills.actions.driving import DriveTo
 from majordomo.skills.actions.looking import Gaze, aim
 from majordomo.skills.anchor import Anchor
 from majordomo.skills.navigation.goals import overlooking
-from majordomo.skills.navigation.plan import Goal
 from majordomo.skills.navigation.pose import in_base
-from majordomo.skills.navigation.route import Routes
 
 NOTICEABLE = 0.02
 """By so much the probability falls that a thing is there while one looks and does not find it."""
@@ -99,30 +96,25 @@ class SeeFromElsewhere(DriveTo):
     """
 
     def __init__(self, account: Account, standoff_m: float) -> None:
-        super().__init__(account.context, account.node_id, self._elsewhere)
+        super().__init__(account.context, account.node_id, overlooking(account.context, account.node_id, standoff_m))
         self.name = f"see {account.node_id} from elsewhere"
         self._account, self._standoff_m = account, standoff_m
-        self._side_rad: float | None = None
-        self._hiding: list[str] = []
+        self._needed = False
 
     def begin(self) -> None:
         """Decide which side it is: the one across from here."""
-        self._side_rad, self._hiding = None, self._account.unseen()
-        if self._hiding:
-            robot = in_base(self.context, self._account.node_id).inverse()
-            self._side_rad = pi + atan2(robot.y_m, robot.x_m)
+        hiding = self._account.unseen()
+        self._needed = bool(hiding)
+        if hiding:
+            context, node_id = self.context, self._account.node_id
+            robot = in_base(context, node_id).inverse()
+            side_rad = pi + atan2(robot.y_m, robot.x_m)
+            self._goals = overlooking(context, node_id, self._standoff_m, side_rad=side_rad, things=hiding)
             super().begin()
 
     def step(self) -> Status:
         """Drive on, as long as there is a reason to."""
-        if self._side_rad is None or super().step() is not Status.RUNNING:
+        if not self._needed or super().step() is not Status.RUNNING:
             self.failure = None
             return Status.SUCCESS
         return Status.RUNNING
-
-    def _elsewhere(self, routes: Routes | None) -> Sequence[Goal]:
-        hiding = [thing for thing in self._hiding if thing in self.context.snapshot]
-        source = overlooking(
-            self.context, self._account.node_id, self._standoff_m, side_rad=self._side_rad, things=hiding
-        )
-        return source(routes)

@@ -129,6 +129,7 @@ def _hidden(context: RobotContext, node_id: str, places: Points, things: Sequenc
     """
     snapshot = context.snapshot
     frame = robot_frame(snapshot)
+    things = [thing for thing in things if thing in snapshot]
     if things:
         targets, spared = np.array([snapshot.position(thing, frame) for thing in things]), {node_id, *things}
     else:

@@ -190,6 +190,7 @@ class Stage:
             size_m=size,
             graspable=graspable,
             support=category.support and not movable,
+            surfaces_m=tuple(sorted(share * size[2] for share in category.levels)) if len(category.levels) > 1 else (),
         )
         if movable:
             record = self.where(item["id"])

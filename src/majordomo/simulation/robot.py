@@ -307,6 +307,8 @@ def T_base_gripper(joints: Joints, geometry: ArmGeometry) -> SE3:
 
 
 def _clip(value: float, limits: tuple[float, float]) -> float:
+    """``value`` within the limits; what is no number counts as zero, since no comparison would hold it."""
+    value = 0.0 if math.isnan(value) else value
     return min(max(value, limits[0]), limits[1])
 
 

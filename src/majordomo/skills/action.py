@@ -68,7 +68,9 @@ class RobotContext:
     ``obstacles_base``: (N, 3), base frame; ``floor_base``: what may rise a little from the floor. ``path_room``: the
     path being followed, for display, current room's frame. ``surroundings`` remembers obstacle points, ``grip`` what
     the fingers hold, ``blocked_doors`` in which doors something stood, and when, ``blocked_spots`` over which
-    points of which node the arm was stopped as it put something down, and when; they outlive a single action.
+    points of which node the arm was stopped as it put something down, and when, ``blocked_reaches`` from which side
+    of which node (the base's bearing from it, in its room) it was stopped as it reached for it, and when; they outlive
+    a single action.
     """
 
     memory: WorkingMemory
@@ -84,6 +86,7 @@ class RobotContext:
     grip: Grip | None = None
     blocked_doors: dict[str, float] = field(default_factory=dict)
     blocked_spots: dict[tuple[str, tuple[float, float, float]], float] = field(default_factory=dict)
+    blocked_reaches: dict[tuple[str, float], float] = field(default_factory=dict)
 
     @property
     def snapshot(self) -> Snapshot:

@@ -9,7 +9,9 @@ import numpy as np
 
 from majordomo.scene_graph.nodes import ObjectNode
 from majordomo.scene_graph.snapshot import Snapshot
+from majordomo.skills.boards import BOTH_SIDES, Board, boards_of, headroom_m, is_in_reach
 from majordomo.skills.geometry import Points
+from majordomo.skills.grasping import DOWN_RAD, LEVEL_SHARE, PAD_DEPTH_M, TIP_M, Size3, is_tall
 from majordomo.skills.place_spot import (
     FINE_STEP_M,
     GAP_M,
@@ -17,8 +19,11 @@ from majordomo.skills.place_spot import (
     lattice,
     outline_radius_m,
     room_m,
-    stands_on,
+    stands_at,
+    surface_m,
+    ways_in,
 )
+from majordomo.skills.ports import ArmGeometry
 from majordomo.skills.state import Thing
 
 
@@ -48,23 +53,64 @@ class Capacity:
         return sum(map(prod, sizes)) <= prod(place.size_m) and all(min(size_m[:2]) <= narrow for size_m in sizes)
 
     def _set(self, support: str, staying: frozenset[str], coming: tuple[str, ...]) -> bool:
-        here = [node for node in stands_on(self._snapshot, support, None) if self._stays(node, support, staying)]
-        radii_m = sorted((outline_radius_m(self._size_m(thing)) for thing in coming), reverse=True)
-        return any(self._in_rows(support, here, radii_m, step_m) for step_m in (STEP_M, FINE_STEP_M))
+        sizes = sorted((self._size_m(thing) for thing in coming), key=outline_radius_m, reverse=True)
+        sides = range(len(BOTH_SIDES)) if len(self._boards(support)) > 1 else (0,)
+        return any(
+            self._in_rows(support, staying, sizes, step_m, side) for step_m in (STEP_M, FINE_STEP_M) for side in sides
+        )
 
-    def _in_rows(self, support: str, here: Sequence[ObjectNode], radii_m: Sequence[float], step_m: float) -> bool:
-        """Whether discs of these radii fit beside what is ``here``, each set down at the first free point."""
-        done: list[tuple[Points, float]] = []
-        for radius_m in radii_m:
-            points = lattice(self._snapshot.object(support), radius_m, step_m)
-            air_m = room_m(self._snapshot, support, points, here) - radius_m
-            for point, other_m in done:
-                air_m = np.minimum(air_m, np.hypot(*(points - point).T) - other_m - radius_m)
-            free = points[air_m >= GAP_M]
-            if not len(free):
-                return False
-            done.append((free[0], radius_m))
+    def _in_rows(self, support: str, staying: frozenset[str], sizes: Sequence[Size3], step_m: float, side: int) -> bool:
+        """Whether things of these sizes fit beside what stays, each set down at the first free point, on the lowest
+        board that has one; below another board, all from one side.
+        """
+        boards = self._boards(support)
+        heres = [
+            [node for node in stands_at(self._snapshot, support, board, None) if self._stays(node, support, staying)]
+            for board in boards
+        ]
+        done: list[list[tuple[Points, float]]] = [[] for _ in boards]
+        return all(
+            any(
+                self._set_down(support, board, here, taken, size_m, step_m, side)
+                for board, here, taken in zip(boards, heres, done, strict=True)
+            )
+            for size_m in sizes
+        )
+
+    def _set_down(
+        self,
+        support: str,
+        board: Board,
+        here: Sequence[ObjectNode],
+        done: list[tuple[Points, float]],
+        size_m: Size3,
+        step_m: float,
+        side: int,
+    ) -> bool:
+        """Whether one more fits on a board beside what is ``here`` and ``done``, to which it is added."""
+        if board.free_m < _headroom_m(size_m):
+            return False
+        node, radius_m = self._snapshot.object(support), outline_radius_m(size_m)
+        points = lattice(node, radius_m, step_m, covered=board.is_covered)
+        air_m = room_m(self._snapshot, support, points, here) - radius_m
+        for point, other_m in done:
+            air_m = np.minimum(air_m, np.hypot(*(points - point).T) - other_m - radius_m)
+        before = [(point, np.full(2, other_m)) for point, other_m in done]
+        ways = ways_in(self._snapshot, node, board, points, radius_m, here, before)
+        free = points[(air_m >= GAP_M) & ways[:, side]]
+        if not len(free):
+            return False
+        done.append((free[0], radius_m))
         return True
+
+    def _boards(self, support: str) -> list[Board]:
+        """The surfaces that the arm reaches; of what has no boards that are known, the top, be it as it may."""
+        node, room = self._snapshot.object(support), self._snapshot.room_of(support)
+        boards = boards_of(node)
+        if not boards or room is None:
+            return [Board(height_m=surface_m(self._snapshot, support, None))]
+        center_m = float(self._snapshot.position(support, room)[2])
+        return [board for board in boards if is_in_reach(board, center_m)]
 
     def _stays(self, node: ObjectNode, support: str, staying: frozenset[str]) -> bool:
         carried_off = node.graspable and self._snapshot.support_of(node.id) == support and node.id not in staying
@@ -73,3 +119,10 @@ class Capacity:
     def _size_m(self, object_id: str) -> tuple[float, float, float]:
         node = self._snapshot.get(object_id)
         return node.size_m if isinstance(node, ObjectNode) else (0.0, 0.0, 0.0)
+
+
+def _headroom_m(size_m: Size3) -> float:
+    """What must be free over a board for a thing that is held as such things are mostly."""
+    if is_tall(size_m):
+        return headroom_m(size_m[2], LEVEL_SHARE * size_m[2], 0.0, ArmGeometry())
+    return headroom_m(size_m[2], max(size_m[2] - PAD_DEPTH_M, size_m[2] / 2, TIP_M), DOWN_RAD, ArmGeometry())

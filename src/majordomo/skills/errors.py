@@ -52,3 +52,11 @@ class Unreachable(SkillError):
     def __init__(self, x_m: float, z_m: float, pitch_rad: float, why: str) -> None:
         self.x_m, self.z_m, self.pitch_rad, self.why = x_m, z_m, pitch_rad, why
         super().__init__(f"x {x_m:.2f} m, z {z_m:.2f} m at pitch {pitch_rad:.2f} rad is out of reach: {why}")
+
+
+class BodySilent(SkillError):
+    """The robot's body does not answer: what is raised by the body port of a robot that can be out of reach."""
+
+    def __init__(self, why: str) -> None:
+        self.why = why
+        super().__init__(f"the robot's body does not answer: {why}")

@@ -12,16 +12,18 @@ from math import cos, pi, sin
 from majordomo.scene_graph.nodes import ObjectNode, ObjectState
 from majordomo.scene_graph.se3 import SE3
 from majordomo.scene_graph.snapshot import Snapshot
+from majordomo.skills.boards import HAND_HALF_WIDTH_M, boards_of
 from majordomo.skills.errors import Unreachable
 from majordomo.skills.geometry import wrap_rad
 from majordomo.skills.kinematics import arm_target
-from majordomo.skills.place_spot import is_seat
 from majordomo.skills.ports import ArmGeometry, ArmTarget, BodyLimits
+from majordomo.skills.seats import is_seat
 
 Size3 = tuple[float, float, float]
 
 DOWN_RAD = -pi / 2
-MAX_WIDTH_M = 0.105
+MAX_WIDTH_M = 0.118
+"""The fingers open to 0.12 m. What is seen of a thing is rather more than there is between them: a handle, an edge."""
 DOUBTFUL_WIDTH_M = 0.17
 """What looks wider than the fingers span, but not more than this, may be narrower when it is seen from near: from one
 side, nobody sees how deep a thing is.
@@ -38,8 +40,6 @@ LEVEL_CLEARANCE_M = 0.06
 LEVEL_STANDOFF_M = 0.06
 LEVEL_SHARE = 0.5
 TALL_M, TALL_RATIO = 0.16, 2.0
-HAND_HALF_WIDTH_M = 0.09
-"""Half the width of palm and open fingers: what a level hand sweeps to each side of its way."""
 SQUARE_SHARE = 0.15
 
 
@@ -153,7 +153,8 @@ def _in_the_way(snapshot: Snapshot, object_id: str, T_base_object: SE3) -> bool:
 
 
 def is_covered(snapshot: Snapshot, object_id: str, room: str) -> bool:
-    """Whether something reaches over the object: another thing's extent is above its center, within half a meter.
+    """Whether something reaches over the object: another thing's extent, or a board of it, is above its center, within
+    half a meter.
 
     Arms and back of a seat do not: over the seat itself there is nothing.
     """
@@ -165,9 +166,10 @@ def is_covered(snapshot: Snapshot, object_id: str, room: str) -> bool:
         if other.id == support and is_seat(other.label):
             continue
         x_m, y_m, _ = snapshot.transform(other.id, object_id).translation_m
-        other_top_m = float(snapshot.position(other.id, room)[2]) + other.size_m[2] / 2
+        center_m = float(snapshot.position(other.id, room)[2])
+        heights = (center_m + other.size_m[2] / 2, *(center_m + board.height_m for board in boards_of(other)))
         over = abs(x_m) < other.size_m[0] / 2 and abs(y_m) < other.size_m[1] / 2
-        if over and other_top_m > top_m + 0.05 and other_top_m < top_m + 0.6:
+        if over and any(top_m + 0.05 < height_m < top_m + 0.6 for height_m in heights):
             return True
     return False
 

@@ -14,6 +14,7 @@ from majordomo.skills.actions.driving import TurnTo
 from majordomo.skills.actions.grasp import CloseGripper, Reach
 from majordomo.skills.actions.watching import Check, Confirm, Refine
 from majordomo.skills.anchor import Anchor
+from majordomo.skills.boards import off_end
 from majordomo.skills.failures import Evidence, Failure, FailureCode
 from majordomo.skills.grasping import DOUBTFUL_WIDTH_M
 from majordomo.skills.journeys import travel
@@ -74,13 +75,18 @@ class Pick:
             message = f"it is not known where {target} is."
             return [Refusal(context, Failure(code=FailureCode.OBJECT_GONE, message=message))]
         place, here = Anchor.fix(snapshot, target, holder), Anchor(target)
+        opening_m = context.limits.gripper_opening_m[1]
+
+        def aim() -> Anchor:
+            return off_end(context.snapshot, target, opening_m)
+
         return [
             Stow(context),
             *travel(context, snapshot.room_of(target)),
             ApproachForReach(context, target, here),
             TurnTo(context, target, here),
             Refine(context, target, place),
-            TurnTo(context, target, here, tolerance_rad=AIM_RAD),
+            TurnTo(context, target, aim, tolerance_rad=AIM_RAD),
             Reach(context, target),
             CloseGripper(context, target),
             Lift(context, target),

@@ -14,7 +14,8 @@ from majordomo.skills.actions.arm import Retract, Stow
 from majordomo.skills.actions.driving import TurnTo
 from majordomo.skills.actions.grasp import OpenGripper
 from majordomo.skills.actions.looking import LookAt
-from majordomo.skills.actions.place import CheckSpot, ChooseSpot, LowerToPlace, Placement
+from majordomo.skills.actions.place import CheckSpot, ChooseSpot, LowerToPlace
+from majordomo.skills.actions.spot_reach import Placement
 from majordomo.skills.actions.watching import Check, Confirm
 from majordomo.skills.anchor import Anchor
 from majordomo.skills.failures import Evidence, Failure, FailureCode
@@ -83,13 +84,18 @@ class Place:
         there.
         """
         held, target = args
-        placement = Placement(object_id=held, target=target, spots=lambda: free_spots(context, held, target))
+        placement = Placement(
+            object_id=held,
+            target=target,
+            spots=lambda: free_spots(context, held, target),
+            spots_if_empty=lambda: free_spots(context, held, target, as_empty=True),
+        )
         spot = placement.anchor
         return [
             Stow(context),
             *travel(context, context.building.room_of(target)),
             ChooseSpot(context, placement),
-            ApproachForReach(context, target, spot),
+            ApproachForReach(context, target, spot, admits=lambda places: placement.admits(context, places)),
             LookAt(context, target, spot, dwell_s=INSPECT_S),
             CheckSpot(context, placement),
             TurnTo(context, target, spot, tolerance_rad=AIM_RAD),

@@ -11,7 +11,8 @@ from majordomo.scene_graph.nodes import ROBOT_ID, UNKNOWN_LABEL, ObjectNode, Obj
 from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.skills.action import RobotContext
 from majordomo.skills.anchor import Anchor
-from majordomo.skills.containers import is_container
+from majordomo.skills.boards import HIGHEST_M, Board, boards_of
+from majordomo.skills.containers import is_open_container
 from majordomo.skills.navigation.local_map import draw_map
 from majordomo.skills.navigation.walls import Walls, door_gaps
 from majordomo.skills.place_spot import Spot, outline_radius_m, spots_on
@@ -22,7 +23,6 @@ FLOOR_RADII_M = (0.55, 0.75, 0.95)
 FLOOR_ANGLES = 24
 FLOOR_GAP_M = 0.10
 DOORWAY_M = 0.6
-HIGHEST_M = 1.15
 LOWEST_M = 0.15
 BLOCKED_M = 0.12
 """What stopped the arm may be so large."""
@@ -30,9 +30,10 @@ BLOCKED_S = 120.0
 """So long it is expected to be there."""
 
 
-def free_spots(context: RobotContext, held: str, target: str) -> list[Spot]:
+def free_spots(context: RobotContext, held: str, target: str, *, as_empty: bool = False) -> list[Spot]:
     """Free spots at ``target`` for ``held`` as the graph is now. A person or a room takes supports first, those that
-    are surely furniture before what is not known by name, then the floor.
+    are surely furniture before what is not known by name, then the floor. ``as_empty``: those of furniture if nothing
+    stood on it.
     """
     snapshot = context.snapshot
     size_m = held_size_m(context, held)
@@ -40,7 +41,7 @@ def free_spots(context: RobotContext, held: str, target: str) -> list[Spot]:
     if node is None:
         return []
     if isinstance(node, ObjectNode):
-        return _unblocked(context, spots_on(snapshot, target, size_m, held))
+        return _unblocked(context, spots_on(snapshot, target, size_m, held, as_empty=as_empty))
     near_m = HANDOVER_M if isinstance(node, PersonNode) else np.inf
     supports = _supports(snapshot, snapshot.room_of(target), held)
     for nameless in (False, True):
@@ -79,10 +80,11 @@ def _supports(snapshot: Snapshot, room: str | None, held: str) -> list[str]:
     found = []
     for node in snapshot.of_type(ObjectNode):
         usable = node.support and node.state is ObjectState.PRESENT and node.id != held and not node.graspable
-        if not usable or is_container(node.label) or snapshot.room_of(node.id) != room or room is None:
+        if not usable or is_open_container(node.label) or snapshot.room_of(node.id) != room or room is None:
             continue
-        top_m = snapshot.position(node.id, room)[2] + node.size_m[2] / 2
-        if LOWEST_M <= top_m <= HIGHEST_M:
+        center_m = float(snapshot.position(node.id, room)[2])
+        boards = boards_of(node) or (Board(height_m=node.size_m[2] / 2),)
+        if any(LOWEST_M <= center_m + board.height_m <= HIGHEST_M for board in boards):
             x_m, y_m, _ = snapshot.position(node.id, ROBOT_ID)
             found.append((float(hypot(x_m, y_m)), node.id))
     return [node_id for _, node_id in sorted(found)]

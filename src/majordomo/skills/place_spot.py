@@ -1,21 +1,24 @@
-"""Free spots for what the hand holds: on a support's top, in a container, or on the floor."""
+"""Free spots for what the hand holds: on a support's top, on the boards of a shelf, in a container."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import hypot
+from math import hypot, inf
 
 import numpy as np
+from numpy.typing import NDArray
 
 from majordomo.scene_graph.edges import EdgeType
 from majordomo.scene_graph.identifiers import natural_key
 from majordomo.scene_graph.nodes import ObjectNode, ObjectState
 from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.skills.anchor import Anchor
-from majordomo.skills.containers import is_container
+from majordomo.skills.boards import ASIDE_M, BOTH_SIDES, Board, axes, board_at, boards_of, open_sides
+from majordomo.skills.containers import is_open_container
 from majordomo.skills.geometry import Points
 from majordomo.skills.rooms import in_room
+from majordomo.skills.seats import rims_m, seat_share
 
 EDGE_MARGIN_M = 0.04
 GAP_M = 0.03
@@ -23,64 +26,130 @@ GAP_M = 0.03
 STEP_M = 0.04
 FINE_STEP_M = 0.01
 """Tried where no spot of the coarse steps is free: a gap between things need not lie on them."""
+AMPLE_M = 0.10
+"""More room than this around a thing is no better."""
 STRIP_M = 0.48
 """How far in from an edge the arm reaches: 0.80 m from the axis less the base and its clearance."""
 TOP_TOLERANCE_M = 0.12
-SEAT_SHARES = {"chair": 0.5, "couch": 0.5, "sofa": 0.5, "bed": 0.55, "toilet": 0.5}
-"""Height of the surface as a share of the whole, for furniture that rises above what things are put on."""
-SEAT_RIMS_M = {"chair": (0.03, 0.03), "couch": (0.2, 0.22), "sofa": (0.2, 0.22), "bed": (0.06, 0.06)}
-"""What arms and back take of the surface at the ends and at both of the long sides: which has the back is not known."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Spot:
     """Where to put something down: a point on the surface, tied to what carries it, and how free it is there.
 
-    ``inside``: dropped into a container, from above its rim.
+    ``inside``: dropped into a container, from above its rim. ``free_m``: height up to the board above; below one, the
+    hand comes in level-wise, across one of the ``sides`` of the support.
     """
 
     anchor: Anchor
     room_m: float
     inside: bool = False
+    free_m: float = inf
+    sides: tuple[int, ...] = BOTH_SIDES
+
+    @property
+    def is_covered(self) -> bool:
+        """Whether there is a board above."""
+        return self.free_m < inf
 
 
-def spots_on(snapshot: Snapshot, support_id: str, size_m: tuple[float, float, float], held: str | None) -> list[Spot]:
-    """Free spots on ``support_id`` for an object of ``size_m``, the freest first.
+def spots_on(
+    snapshot: Snapshot,
+    support_id: str,
+    size_m: tuple[float, float, float],
+    held: str | None,
+    *,
+    as_empty: bool = False,
+) -> list[Spot]:
+    """Free spots on ``support_id`` for an object of ``size_m``, the freest first; ``as_empty``: if nothing stood there.
 
     The object's outline is taken as the disc around its horizontal extent, so any turn of it fits.
     """
     support = snapshot.object(support_id)
-    top_m = surface_m(snapshot, support_id, held)
-    if is_container(support.label):
-        return [Spot(anchor=Anchor(support_id, (0.0, 0.0, top_m)), room_m=0.0, inside=True)]
+    if is_open_container(support.label):
+        return [
+            Spot(anchor=Anchor(support_id, (0.0, 0.0, surface_m(snapshot, support_id, held))), room_m=0.0, inside=True)
+        ]
     radius_m = outline_radius_m(size_m)
-    others = stands_on(snapshot, support_id, held)
-    for step_m in (STEP_M, FINE_STEP_M):
-        points = lattice(support, radius_m, step_m)
-        room = room_m(snapshot, support_id, points, others) - radius_m
-        if (room >= GAP_M).any():
-            break
-    order = np.argsort(-np.minimum(room, 0.10), kind="stable")
-    return [
-        Spot(anchor=Anchor(support_id, (float(points[i, 0]), float(points[i, 1]), top_m)), room_m=float(room[i]))
-        for i in order
-        if room[i] >= GAP_M
+    spots = [
+        spot
+        for board in boards_of(support) or (Board(height_m=surface_m(snapshot, support_id, held)),)
+        if board.free_m > size_m[2]
+        for spot in _spots_at(
+            snapshot, support, board, radius_m, [] if as_empty else stands_at(snapshot, support_id, board, held)
+        )
     ]
+    return sorted(spots, key=lambda spot: -min(spot.room_m, AMPLE_M))
+
+
+def _spots_at(
+    snapshot: Snapshot, support: ObjectNode, board: Board, radius_m: float, others: Sequence[ObjectNode]
+) -> list[Spot]:
+    """Spots on one surface, in rows, that ``others`` leave free."""
+    for step_m in (STEP_M, FINE_STEP_M):
+        points = lattice(support, radius_m, step_m, covered=board.is_covered)
+        room = room_m(snapshot, support.id, points, others) - radius_m
+        sides = ways_in(snapshot, support, board, points, radius_m, others)
+        free = (room >= GAP_M) & sides.any(axis=1)
+        if free.any():
+            break
+    return [
+        Spot(
+            anchor=Anchor(support.id, (float(points[i, 0]), float(points[i, 1]), board.height_m)),
+            room_m=float(room[i]),
+            free_m=board.free_m,
+            sides=tuple(side for side, is_open in zip(BOTH_SIDES, sides[i], strict=True) if is_open),
+        )
+        for i in np.nonzero(free)[0]
+    ]
+
+
+def ways_in(
+    snapshot: Snapshot,
+    support: ObjectNode,
+    board: Board,
+    points: Points,
+    radius_m: float,
+    others: Sequence[ObjectNode],
+    more: Sequence[tuple[Points, Points]] = (),
+) -> NDArray[np.bool_]:
+    """(N, 2): from which of the two sides the hand gets to the points (N, 2) on a board; from both, to a top.
+
+    ``more``: middles (2,) and half extents (2,) of what is not there yet.
+    """
+    if not board.is_covered:
+        return np.ones((len(points), 2), dtype=bool)
+    return open_sides(support, points, radius_m, [*(_extent(snapshot, support.id, node) for node in others), *more])
+
+
+def _extent(snapshot: Snapshot, support_id: str, node: ObjectNode) -> tuple[Points, Points]:
+    """Middle (2,) and half extents (2,) of a thing along the axes of what carries it."""
+    T_support_node = snapshot.transform(support_id, node.id)
+    c, s = abs(np.cos(T_support_node.yaw_rad)), abs(np.sin(T_support_node.yaw_rad))
+    half = np.array([[c, s], [s, c]]) @ np.array(node.size_m[:2]) / 2
+    return np.asarray(T_support_node.translation_m[:2]), half
 
 
 def surface_m(snapshot: Snapshot, support_id: str, held: str | None) -> float:
-    """Height of the surface of a support in its own frame: where things stand on it already, else what its kind
-    suggests.
+    """Height of the surface of a support in its own frame: of a shelf, the board that ``held`` stands on; else where
+    things stand on it already, or what its kind suggests.
     """
     support = snapshot.object(support_id)
+    boards = boards_of(support)
+    if boards and held is not None and snapshot.support_of(held) == support_id:
+        return board_at(boards, _bottom_m(snapshot, support_id, snapshot.object(held))).height_m
     bottoms = [
-        snapshot.position(node.id, support_id)[2] - node.size_m[2] / 2
+        _bottom_m(snapshot, support_id, node)
         for node in _objects_beside(snapshot, support_id)
         if node.id != held and node.state is ObjectState.PRESENT and snapshot.support_of(node.id) == support_id
     ]
-    share = SEAT_SHARES.get(_plain(support.label), 1.0)
+    share = seat_share(support.label)
     expected_m = (share - 0.5) * support.size_m[2]
     return expected_m if share == 1.0 or not bottoms else float(np.median(bottoms))
+
+
+def _bottom_m(snapshot: Snapshot, support_id: str, node: ObjectNode) -> float:
+    return float(snapshot.position(node.id, support_id)[2]) - node.size_m[2] / 2
 
 
 def outline_radius_m(size_m: tuple[float, float, float]) -> float:
@@ -90,8 +159,9 @@ def outline_radius_m(size_m: tuple[float, float, float]) -> float:
 
 
 def stands_on(snapshot: Snapshot, support_id: str, held: str | None) -> list[ObjectNode]:
-    """Objects whose extent touches the top of ``support_id``, by relation or by geometry."""
+    """Objects whose extent touches the top of ``support_id``, or one of its boards, by relation or by geometry."""
     support = snapshot.object(support_id)
+    heights = [board.height_m for board in boards_of(support)] or [support.size_m[2] / 2]
     found = []
     for node in _objects_beside(snapshot, support_id):
         if node.id in (support_id, held) or node.state is not ObjectState.PRESENT:
@@ -103,18 +173,17 @@ def stands_on(snapshot: Snapshot, support_id: str, held: str | None) -> list[Obj
             continue
         x_m, y_m, z_m = snapshot.transform(support_id, node.id).translation_m
         over = abs(x_m) < support.size_m[0] / 2 + 0.1 and abs(y_m) < support.size_m[1] / 2 + 0.1
-        if over and abs(z_m - node.size_m[2] / 2 - support.size_m[2] / 2) < TOP_TOLERANCE_M:
+        if over and any(abs(z_m - node.size_m[2] / 2 - height_m) < TOP_TOLERANCE_M for height_m in heights):
             found.append(node)
     return found
 
 
-def is_seat(label: str) -> bool:
-    """Whether furniture of that name carries things lower than its top, with nothing over them."""
-    return _plain(label) in SEAT_SHARES
-
-
-def _plain(label: str) -> str:
-    return label.replace("_", " ")
+def stands_at(snapshot: Snapshot, support_id: str, board: Board, held: str | None) -> list[ObjectNode]:
+    """Those of them that stand on that surface."""
+    others, boards = stands_on(snapshot, support_id, held), boards_of(snapshot.object(support_id))
+    if not boards:
+        return others
+    return [node for node in others if board_at(boards, _bottom_m(snapshot, support_id, node)) == board]
 
 
 def _objects_beside(snapshot: Snapshot, support_id: str) -> list[ObjectNode]:
@@ -126,12 +195,16 @@ def _objects_beside(snapshot: Snapshot, support_id: str) -> list[ObjectNode]:
     return [node for node in nodes if isinstance(node, ObjectNode)]
 
 
-def lattice(support: ObjectNode, radius_m: float, step_m: float = STEP_M) -> Points:
+def lattice(support: ObjectNode, radius_m: float, step_m: float = STEP_M, *, covered: bool = False) -> Points:
     """Points (N, 2) about ``step_m`` apart on the top of ``support``, in rows, where a disc stands within the arm's
-    reach, clear of arms and back; none where it is too large.
+    reach, clear of arms and back; none where it is too large. ``covered``: on a board below the top, where the hand
+    passes between the ends.
     """
-    size_m, rim_m = support.size_m, SEAT_RIMS_M.get(_plain(support.label), (0.0, 0.0))
+    size_m, rim_m = support.size_m, rims_m(support.label)
     half = np.array(size_m[:2]) / 2 - EDGE_MARGIN_M - radius_m
+    if covered:
+        long, _ = axes(support)
+        half[long] = min(half[long], size_m[long] / 2 - ASIDE_M)
     if (half < 0).any():
         return np.zeros((0, 2))
     half = np.maximum(half - (rim_m if size_m[0] >= size_m[1] else rim_m[::-1]), 0.0)

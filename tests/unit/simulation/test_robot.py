@@ -95,6 +95,33 @@ def test_speed_and_acceleration_stay_within_the_limits_whatever_is_commanded(cli
     assert np.diff(linear).max() <= robot.limits.linear_mps2 * STEP_S + 1e-3
 
 
+@pytest.mark.parametrize("wrong", [1e9, -1e9, math.inf, -math.inf, math.nan])
+def test_no_command_takes_base_arm_camera_or_fingers_beyond_their_limits(client, wrong):
+    robot = RobotBody(client, (-5.0, 0.0, 0.0))
+    limits = robot.limits
+    robot.command_arm(ArmTarget(lift_m=wrong, extension_m=wrong, wrist_pitch_rad=wrong, wrist_roll_rad=wrong))
+    robot.command_look(wrong, wrong)
+    robot.command_grip(wrong, wrong)
+    for _ in range(60):
+        run(robot, client, STEP_S, (wrong, wrong))
+        linear, angular = robot.velocity
+        assert abs(linear) <= limits.linear_mps + 1e-3
+        assert abs(angular) <= limits.angular_radps + 1e-3
+    assert all(low <= robot._targets[name] <= high for name, (low, high) in _ranges(limits).items())
+    assert limits.gripper_opening_m[0] <= robot._opening_m <= limits.gripper_opening_m[1]
+
+
+def _ranges(limits):
+    return {
+        "lift": limits.lift_m,
+        "extension": limits.extension_m,
+        "wrist_pitch": limits.wrist_pitch_rad,
+        "wrist_roll": limits.wrist_roll_rad,
+        "pan": limits.pan_rad,
+        "tilt": limits.tilt_rad,
+    }
+
+
 def test_a_drive_command_lapses_and_the_base_stops(client):
     robot = RobotBody(client, (-5.0, 0.0, 0.0))
     run(robot, client, 1.5, (0.6, 0.0))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from itertools import pairwise
+from math import inf
 
 import numpy as np
 import pytest
@@ -11,13 +12,17 @@ import pytest
 from majordomo.scene_graph.edges import RtEdge
 from majordomo.scene_graph.nodes import ObjectState
 from majordomo.scene_graph.se3 import SE3
+from majordomo.skills.actions.approach import BARRED_COST_M, passing_over
 from majordomo.skills.actions.arm import CARRY_LIFT_M, Retract
 from majordomo.skills.actions.grasp import CloseGripper
+from majordomo.skills.actions.place import ChooseSpot, LowerToPlace, Placement
+from majordomo.skills.anchor import Anchor
 from majordomo.skills.doubles import BoxWorld, FakeBody, Rehearsal
 from majordomo.skills.failures import FailureCode
 from majordomo.skills.geometry import Box2, Pose2
 from majordomo.skills.grasping import DOWN_RAD
 from majordomo.skills.kinematics import gripper_pose
+from majordomo.skills.navigation.pose import bearing_rad
 from majordomo.skills.place_search import free_spots
 from majordomo.skills.ports import ArmTarget
 from majordomo.skills.registry import load_registry
@@ -202,6 +207,22 @@ async def test_a_full_table_is_told_before_anything_moves(kitchen):
     assert failure.code is FailureCode.SUPPORT_FULL
 
 
+async def test_where_things_leave_free_only_what_cannot_be_reached_the_table_is_full(kitchen):
+    rehearsal = kitchen()
+    context = await rehearsal.prepare()
+    assert await carry_out(rehearsal, ("PICK", "bottle_1"), ("GOTO", "table_2")) is None
+    spot = free_spots(context, "bottle_1", "table_1")[0]
+    placement = Placement(
+        object_id="bottle_1",
+        target="table_2",
+        spots=lambda: [replace(spot, anchor=Anchor("table_2", (0.0, 0.0, 3.0)))],
+        spots_if_empty=lambda: free_spots(context, "bottle_1", "table_2", as_empty=True),
+    )
+    assert (await rehearsal.run([ChooseSpot(context, placement)])).code is FailureCode.SUPPORT_FULL
+    placement.spots_if_empty = list
+    assert (await rehearsal.run([ChooseSpot(context, placement)])).code is FailureCode.UNREACHABLE
+
+
 async def test_a_place_taken_meanwhile_is_exchanged_for_a_free_one(kitchen, onlooker):
     rehearsal = kitchen()
     assert await carry_out(rehearsal, ("PICK", "bottle_1"), ("GOTO", "table_2")) is None
@@ -293,7 +314,7 @@ async def test_what_is_too_high_for_a_hand_from_above_is_taken_from_the_side_tha
     world = BoxWorld(boxes=(Box2(Pose2(1.0, 1.2), 0.5, 0.5),), heights_m=(0.3, 0.6))
     rehearsal = Rehearsal(memory=built.memory, body=body, world=world, observe=onlooker)
     assert await carry_out(rehearsal, ("GOTO", "bear_1"), ("PICK", "bear_1")) is None
-    assert abs(rehearsal.body.pose.y_m - 1.2) < 0.2
+    assert abs(rehearsal.body.pose.y_m - 1.2) < 0.3
 
 
 async def test_where_something_unseen_stopped_the_arm_nothing_is_put_next_time(kitchen, onlooker):
@@ -315,6 +336,59 @@ async def test_where_something_unseen_stopped_the_arm_nothing_is_put_next_time(k
     left = [each.anchor.position(rehearsal.memory.snapshot(), "room_1")[:2] for each in actions[1]._placement.spots()]
     assert min(np.hypot(*(at - spot)) for at in left) > 0.1
     assert await carry_out(rehearsal, ("PLACE", "bottle_1", "table_2")) is None
+
+
+async def test_from_where_the_arm_was_stopped_it_is_not_reached_again_while_there_is_another_side(kitchen, onlooker):
+    rehearsal = kitchen()
+    context = await rehearsal.prepare()
+    bottle, sides = np.array((1.0, 0.95)), []
+
+    def stop_the_arm(r):
+        onlooker(r)
+        side = bearing_rad(context, "bottle_1")
+        hand = gripper_pose(r.body.arm, r.body.geometry)
+        near = np.hypot(*(r.body.pose.apply(np.array([[hand.x_m, hand.y_m]]))[0] - bottle)) < 0.1
+        if near and abs(np.angle(np.exp(1j * (side - (sides or [side])[0])))) < 0.3:
+            sides.append(side)
+            r.body.arm = replace(r.body.arm, lift_m=max(r.body.arm.lift_m, 1.2))
+
+    rehearsal.observe = stop_the_arm
+    assert (await carry_out(rehearsal, ("PICK", "bottle_1"))).code is FailureCode.UNREACHABLE
+    assert sides
+    assert await carry_out(rehearsal, ("PICK", "bottle_1")) is None
+
+
+async def test_what_stops_the_arm_on_its_way_in_between_boards_is_not_the_board(flat, onlooker, fingers):
+    built = flat().table().bottle()
+    built.thing("shelf_1", (-1.5, 2.3, 0.8), (0.9, 0.35, 1.6), support=True, surfaces_m=(0.4, 0.8, 1.2))
+    body = FakeBody(pose=Pose2(0.9, 0.35, 1.5), grasped_width_m=fingers(built.memory))
+    rehearsal = Rehearsal(memory=built.memory, body=body, observe=onlooker)
+    assert await carry_out(rehearsal, ("PICK", "bottle_1"), ("GOTO", "shelf_1")) is None
+    context = await rehearsal.prepare()
+    actions = SKILLS["PLACE"].actions(context, ["bottle_1", "shelf_1"])
+    lowering = next(index for index, action in enumerate(actions) if isinstance(action, LowerToPlace))
+    assert await rehearsal.run(actions[:lowering], 900.0) is None
+
+    def stop_the_arm(r):
+        onlooker(r)
+        r.body.arm = replace(r.body.arm, extension_m=min(r.body.arm.extension_m, 0.15))
+
+    rehearsal.observe = stop_the_arm
+    assert (await rehearsal.run(actions[lowering:], 900.0)).code is FailureCode.UNREACHABLE
+
+
+@pytest.mark.parametrize(
+    ("height_m", "aside_m", "cost_m"),
+    [(0.96, 0.0, inf), (0.96, -0.01, BARRED_COST_M), (0.96, -0.15, 0.0), (0.4, 0.0, 0.0)],
+)
+async def test_the_end_of_something_long_bars_the_arm_if_it_is_higher_than_the_hand(flat, height_m, aside_m, cost_m):
+    built = flat().thing("stool_1", (0.12, 0.08, 0.25), (0.4, 0.4, 0.5), yaw=-2.08, support=True)
+    built.thing("bottle_1", (0.0, 0.0, 0.62), (0.07, 0.07, 0.24), on="stool_1", graspable=True)
+    built.thing("cabinet_1", (-0.31, -0.64 + aside_m, height_m / 2), (0.98, 0.44, height_m), yaw=-2.08, support=True)
+    places = np.array(((-0.70, -0.13), (0.70, 0.13)))  # past the end of the cabinet, whose middle is far, and opposite
+    snapshot = built.memory.snapshot()
+    costs = passing_over(snapshot, "room_1", np.zeros(3), 0.5, places, {"bottle_1", "stool_1"})
+    assert costs.tolist() == [cost_m, 0.0]
 
 
 async def test_a_hand_that_let_go_rises_over_the_arm_of_a_sofa_before_it_is_drawn_back(flat):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
@@ -91,3 +92,17 @@ def test_nothing_is_put_on_the_arms_or_the_back_of_a_sofa(flat):
 def test_a_narrow_chair_is_used_in_its_middle(flat):
     built = flat().thing("chair_1", (0.0, 0.0, 0.45), (0.2, 0.2, 0.9), support=True)
     assert {spot.anchor.point_m[:2] for spot in spots_on(built.memory.snapshot(), "chair_1", (0.1, 0.1, 0.1), None)}
+
+
+@pytest.mark.parametrize(
+    ("label", "inside"), [("cabinet", False), ("refrigerator", False), ("box", True), ("bin", True)]
+)
+def test_what_is_brought_to_a_cabinet_is_put_beside_what_stands_on_it_and_what_goes_into_a_box_is_dropped(
+    flat, label, inside
+):
+    built = flat().thing(f"{label}_1", (0.0, 0.0, 0.45), (0.9, 0.5, 0.9), support=True)
+    built.thing("cup_1", (0.0, 0.0, 0.95), (0.08, 0.08, 0.1), on=f"{label}_1", graspable=True)
+    spots = spots_on(built.memory.snapshot(), f"{label}_1", (0.07, 0.07, 0.24), None)
+    assert spots
+    assert all(spot.inside is inside for spot in spots)
+    assert inside or min(np.hypot(*spot.anchor.point_m[:2]) for spot in spots) > 0.08

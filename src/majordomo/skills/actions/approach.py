@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from math import atan2, cos, hypot, pi
 
 import numpy as np
@@ -14,11 +14,13 @@ from majordomo.scene_graph.se3 import SE3
 from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.skills.action import RobotContext
 from majordomo.skills.actions.driving import DriveTo
-from majordomo.skills.anchor import AnchorSource, resolved
+from majordomo.skills.anchor import Anchor, AnchorSource, resolved
+from majordomo.skills.boards import board_under, is_before
 from majordomo.skills.failures import FailureCode
 from majordomo.skills.geometry import Point2, Points
 from majordomo.skills.grasping import DOWN_RAD, HOVER_M, can_grasp, is_tall, underside_m
 from majordomo.skills.navigation.driver import DriverConfig
+from majordomo.skills.navigation.local_map import footprint
 from majordomo.skills.navigation.plan import Goal
 from majordomo.skills.navigation.pose import planar_pose, robot_frame
 from majordomo.skills.navigation.route import Routes
@@ -34,9 +36,24 @@ ANGLES = 36
 RADIUS_WEIGHT = 1.5
 CLEARANCE_WEIGHT = 1.0
 IN_THE_WAY_COST_M = 3.0
+STOPPED_COST_M, STOPPED_RAD, STOPPED_S = 5.0, 0.35, 120.0
+"""Sides as near as this to one from which the arm was stopped lately are tried again where no other is free."""
+BARRED_COST_M = 20.0
+"""More than any other: the arm would meet furniture that is higher than the hand, or the end of a shelf."""
+SAMPLE_M = 0.06
+"""How finely the arm's way is looked at."""
 ARM_HALF_WIDTH_M = 0.09
+SURELY_MET_M = 0.06
+"""So near to the middle of its way, the hand meets what is higher, however well that was measured."""
 TRIES = 3
 HELD_MARGIN_M = 0.06
+
+
+Admission = Callable[[Points], NDArray[np.bool_]]
+
+
+def _anywhere(places: Points) -> NDArray[np.bool_]:
+    return np.ones(len(places), np.bool_)
 
 
 class ApproachForReach(DriveTo):
@@ -46,10 +63,13 @@ class ApproachForReach(DriveTo):
     around the base, and things that the arm would have to pass over.
     """
 
-    def __init__(self, context: RobotContext, target: str, where: AnchorSource) -> None:
+    def __init__(
+        self, context: RobotContext, target: str, where: AnchorSource, *, admits: Admission | None = None
+    ) -> None:
+        """``admits``: which places, (N, 2) in the robot's frame, will do at all; all of them by default."""
         super().__init__(context, target, self._goals_around, config=DriverConfig(position_m=0.04))
         self.name = f"approach {target}"
-        self._where = where
+        self._where, self._admits = where, admits or _anywhere
         self._failed: list[Point2] = []
 
     def begin(self) -> None:
@@ -89,9 +109,13 @@ class ApproachForReach(DriveTo):
         costs += np.where(radii > EASY_RADIUS_M + 1e-6, STRETCH_COST_M, 0.0)
         costs += CLEARANCE_WEIGHT * np.clip(0.6 - routes.grid.clearance_at(points), 0.0, None)
         low_m = self._underside_m(float(target[2]))
-        costs += IN_THE_WAY_COST_M * _arm_passes_over(snapshot, frame, target, low_m, points, self._spared())
+        costs += passing_over(snapshot, frame, target, low_m, points, self._spared())
+        bearings = np.arctan2(points[:, 1] - target[1], points[:, 0] - target[0])
+        costs += np.where(self._stopped_lately(bearings), STOPPED_COST_M, 0.0)
         fits = self._fits(points, target)
         costs += np.where(fits | ~fits.any(), 0.0, np.inf)
+        costs += np.where(self._admits(points), 0.0, np.inf)
+        costs += np.where(self._faces_board(frame, points), 0.0, BARRED_COST_M)
         for failed in self._failed:
             costs += np.where(np.hypot(*(points - failed).T) < 0.25, np.inf, 0.0)
         yaws = np.arctan2(target[1] - points[:, 1], target[0] - points[:, 0])
@@ -109,8 +133,22 @@ class ApproachForReach(DriveTo):
         nearest_m, *_, farthest_m, _ = self._reaches_m()
         frame = robot_frame(self.context.snapshot)
         here = np.array([planar_pose(self.context, frame).point])
-        fits = self._fits(here, anchor.position(self.context.snapshot, frame))[0]
-        return bool(nearest_m < float(np.hypot(x_m, y_m)) < farthest_m and fits)
+        target = anchor.position(self.context.snapshot, frame)
+        fits = self._fits(here, target)[0]
+        stopped = self._stopped_lately(np.arctan2(here[:, 1] - target[1], here[:, 0] - target[0]))[0]
+        low_m = self._underside_m(float(target[2]))
+        free = passing_over(self.context.snapshot, frame, target, low_m, here, self._spared())[0] < BARRED_COST_M
+        faces = free and self._faces_board(frame, here)[0] and self._admits(here)[0]
+        return bool(nearest_m < float(np.hypot(x_m, y_m)) < farthest_m and fits and faces and not stopped)
+
+    def _stopped_lately(self, bearings_rad: Points) -> NDArray[np.bool_]:
+        """From which of (N,) sides the arm was stopped as it reached for the target a while ago."""
+        node_id = resolved(self._where).node_id
+        stopped = np.zeros(len(bearings_rad), np.bool_)
+        for (name, bearing), since_s in self.context.blocked_reaches.items():
+            if name == node_id and self.context.stamp_s - since_s < STOPPED_S:
+                stopped |= np.abs(np.angle(np.exp(1j * (bearings_rad - bearing)))) < STOPPED_RAD
+        return stopped
 
     def _reaches_m(self) -> tuple[float, ...]:
         """Level with what the hand holds and with what it will grasp around its middle, else from above."""
@@ -134,6 +172,16 @@ class ApproachForReach(DriveTo):
         )
         grasps = (can_grasp(node.size_m, pose, geometry=context.geometry, limits=context.limits) for pose in poses)
         return np.fromiter(grasps, np.bool_, len(points))
+
+    def _faces_board(self, frame: str, places: Points) -> NDArray[np.bool_]:
+        """From which of (N, 2) places the hand gets straight to a thing that stands below a board; else from all."""
+        snapshot, node_id = self.context.snapshot, resolved(self._where).node_id
+        board = board_under(snapshot, node_id) if self.context.grip is None else None
+        support_id = snapshot.support_of(node_id)
+        if board is None or not board.is_covered or support_id is None:
+            return np.ones(len(places), np.bool_)
+        point = Anchor.fix(snapshot, node_id, support_id).point_m
+        return is_before(snapshot, support_id, point, places, frame)
 
     def _underside_m(self, z_m: float) -> float:
         """Height over which the arm passes on its way to the target."""
@@ -166,12 +214,17 @@ def ring(center: Points, radii_m: Sequence[float], angles: int = ANGLES) -> tupl
     return center + offsets, radius.ravel()
 
 
-def _arm_passes_over(
+def passing_over(
     snapshot: Snapshot, frame: str, target: Points, low_m: float, points: Points, spared: set[str]
 ) -> Points:
-    """For each place, how many things that reach up to ``low_m`` lie under the straight line to the target, (N,)."""
-    count = np.zeros(len(points))
+    """For each place, (N,), what it costs that things which reach up to ``low_m`` lie on the way of the hand from there
+    straight to the target: small ones may be pushed, furniture bars it; no place will do from which the hand is sure to
+    meet that.
+    """
+    costs = np.zeros(len(points))
     farthest_m = float(np.hypot(*(points - target[:2]).T).max())
+    along = np.linspace(0.0, 1.0, max(int(farthest_m / SAMPLE_M), 2))[:, None, None]
+    way = target[:2] + along * (points - target[:2])
     for node in snapshot.of_type(ObjectNode):
         if node.id in spared or node.state is not ObjectState.PRESENT or snapshot.room_of(node.id) != frame:
             continue
@@ -179,13 +232,10 @@ def _arm_passes_over(
         reach_m = float(np.hypot(x_m - target[0], y_m - target[1]))
         if z_m + node.size_m[2] / 2 < low_m or reach_m > farthest_m + max(node.size_m[:2]):
             continue
-        radius_m = min(node.size_m[:2]) / 2 + ARM_HALF_WIDTH_M
-        count += _distance_to_lines_m(np.array([x_m, y_m]), target[:2], points) < radius_m
-    return count
-
-
-def _distance_to_lines_m(point: Points, start: Points, ends: Points) -> Points:
-    """Distance (N,) from one ``point`` (2,) to the segments from ``start`` (2,) to each of ``ends`` (N, 2)."""
-    along, offset = ends - start, point - start
-    t = np.clip(along @ offset / np.maximum((along**2).sum(axis=1), 1e-9), 0.0, 1.0)
-    return np.asarray(np.hypot(*(offset - t[:, None] * along).T))
+        away_m = footprint(snapshot, node, frame).distance_m(way.reshape(-1, 2)).reshape(way.shape[:2])
+        nearest_m = away_m.min(axis=0)
+        cost_m = IN_THE_WAY_COST_M if node.graspable else BARRED_COST_M
+        costs += np.where(nearest_m < ARM_HALF_WIDTH_M, cost_m, 0.0)
+        if not node.graspable:
+            costs += np.where(nearest_m < SURELY_MET_M, np.inf, 0.0)
+    return costs

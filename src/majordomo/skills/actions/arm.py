@@ -9,14 +9,18 @@ from enum import Enum, auto
 from py_trees.common import Status
 
 from majordomo.skills.action import Action, RobotContext
+from majordomo.skills.boards import is_among_boards
 from majordomo.skills.failures import FailureCode
 from majordomo.skills.grasping import DOWN_RAD
+from majordomo.skills.navigation.pose import base_pose, robot_frame
 from majordomo.skills.ports import ArmTarget, BodyState
 
 STOWED = ArmTarget(lift_m=0.75, extension_m=0.0, wrist_pitch_rad=DOWN_RAD, wrist_roll_rad=0.0)
 CARRY_LIFT_M = 0.95
 CARRY_EXTENSION_M = 0.05
 LIFT_M = 0.12
+OFF_BOARD_M = 0.02
+"""What is taken from below a board is raised by this before it is drawn out."""
 LENGTH_TOLERANCE_M = 0.008
 ANGLE_TOLERANCE_RAD = 0.05
 STALL_S = 0.8
@@ -117,8 +121,11 @@ class Lift(ArmAction):
         self.object_id = object_id
 
     def begin(self) -> None:
-        """As high as the carry pose, at least 12 cm."""
+        """As high as the carry pose, at least 12 cm; a little only below a board."""
         arm, (_, top_m) = self.context.body.arm, self.context.limits.lift_m
+        if is_below_board(self.context):
+            self.follow([replace(arm, lift_m=arm.lift_m + OFF_BOARD_M)])
+            return
         self.follow([replace(arm, lift_m=min(max(arm.lift_m + LIFT_M, CARRY_LIFT_M), top_m))])
 
     def step(self) -> Status:
@@ -159,12 +166,15 @@ class Retract(ArmAction):
 
 def way_back(context: RobotContext, travel: ArmTarget) -> list[ArmTarget]:
     """Targets from wherever the arm is to a travel pose: a hand that points down rises first, as high as it came, so
-    that it clears the arm of a sofa; a level one just draws back.
+    that it clears the arm of a sofa; a level one, or one below a board, just draws back.
     """
     arm, (_, top_m) = context.body.arm, context.limits.lift_m
     back = replace(arm, extension_m=travel.extension_m)
     if arm.extension_m < CARRY_EXTENSION_M + LENGTH_TOLERANCE_M or arm.wrist_pitch_rad > DOWN_RAD / 2:
         return [back, travel]
+    if is_below_board(context):
+        off = replace(arm, lift_m=arm.lift_m + OFF_BOARD_M / 2)
+        return [off, replace(back, lift_m=off.lift_m), travel]
     up_m = min(max(arm.lift_m + LIFT_M, CARRY_LIFT_M), top_m)
     return [replace(arm, lift_m=up_m), replace(back, lift_m=up_m), travel]
 
@@ -173,6 +183,12 @@ def carry_pose(arm: ArmTarget) -> ArmTarget:
     """The travel pose for something held: retracted, high, the wrist as it is."""
     extension_m = CARRY_EXTENSION_M if arm.wrist_pitch_rad < DOWN_RAD / 2 else 0.0
     return replace(arm, extension_m=extension_m, lift_m=max(CARRY_LIFT_M, min(arm.lift_m, 1.1)))
+
+
+def is_below_board(context: RobotContext) -> bool:
+    """Whether the hand is between the boards of a shelf: it must leave as it came, level-wise."""
+    hand = base_pose(context, robot_frame(context.snapshot)) @ context.body.T_base_gripper
+    return is_among_boards(context.snapshot, robot_frame(context.snapshot), hand.translation_m)
 
 
 def is_holding(context: RobotContext) -> bool:

@@ -11,11 +11,11 @@ from py_trees.common import Status
 from majordomo.scene_graph.se3 import SE3
 from majordomo.skills.action import Action, Grip, RobotContext
 from majordomo.skills.actions.arm import EMPTY_OPENING_M, ArmAction, ArmProgress, is_firm
-from majordomo.skills.containers import is_container
+from majordomo.skills.containers import is_open_container
 from majordomo.skills.errors import Unreachable
 from majordomo.skills.failures import FailureCode
 from majordomo.skills.grasping import Grasp, choose_grasp, prefers_level
-from majordomo.skills.navigation.pose import in_base
+from majordomo.skills.navigation.pose import bearing_rad, in_base
 from majordomo.skills.place_spot import surface_m
 
 HAND_TOLERANCE_M = 0.02
@@ -64,9 +64,12 @@ class Reach(ArmAction):
         self.context.commands.grip = (self._grasp.opening_m, CLOSE_EFFORT_N)
         progress = self.move_arm()
         if progress is ArmProgress.STALLED:
-            return (
-                Status.SUCCESS if self._hand_error_m(self._grasp) < HAND_TOLERANCE_M else self.stalled(self.object_id)
+            if self._hand_error_m(self._grasp) < HAND_TOLERANCE_M:
+                return Status.SUCCESS
+            self.context.blocked_reaches[self.object_id, bearing_rad(self.context, self.object_id)] = (
+                self.context.stamp_s
             )
+            return self.stalled(self.object_id)
         if progress is ArmProgress.MOVING:
             return Status.RUNNING
         if self._hand_error_m(self._grasp) > HAND_TOLERANCE_M:
@@ -160,7 +163,7 @@ class CloseGripper(Action):
         snapshot = self.context.snapshot
         x_m, y_m, z_m = snapshot.object(self.object_id).size_m
         support = snapshot.support_of(self.object_id)
-        if support is not None and is_container(snapshot.object(support).label):
+        if support is not None and is_open_container(snapshot.object(support).label):
             return x_m, y_m, z_m
         top_m = surface_m(snapshot, support, self.object_id) if support is not None else 0.0
         surface_z_m = in_base(self.context, support).z_m + top_m if support is not None else 0.0

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
-from math import hypot, sin
+from collections.abc import Sequence
+from dataclasses import replace
+from math import dist, hypot
 
 import numpy as np
 from py_trees.common import Status
 
-from majordomo.scene_graph.nodes import ObjectNode
 from majordomo.skills.action import Action, RobotContext
 from majordomo.skills.actions.approach import reaches_m, ring
-from majordomo.skills.actions.arm import ArmAction, ArmProgress
-from majordomo.skills.anchor import Anchor
+from majordomo.skills.actions.arm import STOWED, ArmAction, ArmProgress
+from majordomo.skills.actions.spot_reach import ABOVE_RIM_M, Placement, above_bottom_m, admitted, is_within_lift
+from majordomo.skills.boards import TURN_RAD
 from majordomo.skills.errors import Unreachable
 from majordomo.skills.failures import FailureCode
 from majordomo.skills.geometry import Points
@@ -21,45 +21,32 @@ from majordomo.skills.grasping import TIP_M
 from majordomo.skills.kinematics import arm_target
 from majordomo.skills.navigation.local_map import draw_map
 from majordomo.skills.navigation.pose import footprint_radius_m, look_around, planar_pose, robot_frame
-from majordomo.skills.navigation.route import find_routes
+from majordomo.skills.navigation.route import Routes, find_routes
 from majordomo.skills.navigation.walls import Walls
 from majordomo.skills.place_spot import GAP_M, Spot
 from majordomo.skills.ports import ArmTarget
 
 RELEASE_M = -0.004
 """The arm goes this far below the height at which the object should stand, so that it does stand when let go."""
-ABOVE_RIM_M = 0.04
 HOVER_M = 0.10
-TOUCH_M = 0.04
+TOUCH_M, OUT_M = 0.04, 0.02
+"""What stops the arm so near above the spot, and so near to it, is the surface."""
 SLOW_M, STEP_M = 0.04, 0.01
 """The last centimeters are lowered step by step, which is slow."""
-SPARE_LIFT_M = 0.02
-"""A surface may turn out to be a little higher when it is seen from near."""
+SLACK_RAD = 0.15
+"""What the drive to a place may be off, seen from the spot."""
+IN_M = 0.03
+"""So high over a board, at most, what is held comes in."""
 MOST_SPOTS = 40
 TIGHT_M = 0.10
 TIGHT_WEIGHT = 3.0
-DEFAULT_GRIP_SHARE = 0.6
-
-SpotSource = Callable[[], Sequence[Spot]]
-"""Gives the free spots as the graph is now."""
-
-
-@dataclass(kw_only=True)
-class Placement:
-    """What the actions of one PLACE share: the object, where it may go, and the spot chosen."""
-
-    object_id: str
-    target: str
-    spots: SpotSource
-    spot: Spot | None = None
-
-    def anchor(self) -> Anchor:
-        """The chosen spot; the target itself until one is chosen."""
-        return self.spot.anchor if self.spot is not None else Anchor(self.target)
 
 
 class ChooseSpot(Action):
-    """Chooses, among the free spots, the one that is cheapest to reach from here; fails with SUPPORT_FULL."""
+    """Chooses, among the free spots, the one that is cheapest to reach from here.
+
+    Fails with SUPPORT_FULL where there is none, or where other things leave only such as cannot be reached.
+    """
 
     def __init__(self, context: RobotContext, placement: Placement) -> None:
         super().__init__(f"choose a spot at {placement.target}", context)
@@ -73,15 +60,24 @@ class ChooseSpot(Action):
         spots = list(self._placement.spots())
         if not spots:
             return _full(self, self._placement)
-        if len(spots) > MOST_SPOTS:
-            spots = [spots[int(i)] for i in np.linspace(0, len(spots) - 1, MOST_SPOTS)]
-        costs = self._costs(spots)
-        best = int(np.argmin(costs))
-        if not np.isfinite(costs[best]):
+        found = len(spots)
+        spot = self._cheapest(spots)
+        if spot is None:
+            if self._cheapest(self._placement.spots_if_empty()) is not None:
+                return _full(self, self._placement)
             message = f"there is no free place from which the arm reaches {self._placement.target}."
-            return self.fail(FailureCode.UNREACHABLE, message, (self._placement.target,), f"{len(spots)} spots tried")
-        self._placement.spot = spots[best]
+            return self.fail(FailureCode.UNREACHABLE, message, (self._placement.target,), f"{found} spots tried")
+        self._placement.spot = spot
         return Status.SUCCESS
+
+    def _cheapest(self, spots: Sequence[Spot]) -> Spot | None:
+        """The one that is cheapest to reach from here; ``None`` where none can be."""
+        within = [spot for spot in spots if is_within_lift(self.context, spot)]
+        if len(within) > MOST_SPOTS:
+            within = [within[int(i)] for i in np.linspace(0, len(within) - 1, MOST_SPOTS)]
+        costs = self._costs(within) if within else np.array([np.inf])
+        best = int(np.argmin(costs))
+        return within[best] if np.isfinite(costs[best]) else None
 
     def _costs(self, spots: Sequence[Spot]) -> Points:
         """Way to the best place to stand for each spot, plus a little for tight ones, (N,)."""
@@ -94,20 +90,25 @@ class ChooseSpot(Action):
         grid = draw_map(snapshot, frame, around, points, walls=Walls.of(snapshot, frame), stamp_s=self.context.stamp_s)
         routes = find_routes(grid, pose.point, footprint_radius_m(self.context))
         radii_m = reaches_m(self.context, self.context.body.arm.wrist_pitch_rad)[:-1]
-        best = np.array([routes.cost_at(ring(center, radii_m)[0]).min() for center in centers])
-        best = np.where([self._is_low_enough(spot) for spot in spots], best, np.inf)
-        tight = np.array([0.0 if spot.inside else max(TIGHT_M - spot.room_m, 0.0) for spot in spots])
-        return np.asarray(best + TIGHT_WEIGHT * tight)
-
-    def _is_low_enough(self, spot: Spot) -> bool:
-        """Whether the lift gets the hand with what it holds over the spot."""
-        snapshot, arm = self.context.snapshot, self.context.body.arm
-        z_m = float(spot.anchor.position(snapshot, robot_frame(snapshot))[2]) + above_bottom_m(self.context)
-        lift_m = (
-            z_m + (ABOVE_RIM_M if spot.inside else 0.0) - self.context.geometry.hand_length_m * sin(arm.wrist_pitch_rad)
+        best = np.array(
+            [self._way_m(routes, spot, center, radii_m) for spot, center in zip(spots, centers, strict=True)]
         )
-        low_m, high_m = self.context.limits.lift_m
-        return low_m <= lift_m <= high_m - SPARE_LIFT_M
+        tight = np.array([0.0 if spot.inside else max(TIGHT_M - spot.room_m, 0.0) for spot in spots])
+        return np.asarray(best + TIGHT_WEIGHT * tight + [self._hidden_m(spot) for spot in spots])
+
+    def _way_m(self, routes: Routes, spot: Spot, center: Points, radii_m: Sequence[float]) -> float:
+        """Cost of the way to the best of the places from which the hand gets to a spot."""
+        places = ring(center, radii_m)[0]
+        costs = routes.cost_at(places)
+        return float(np.where(admitted(self.context, spot, places), costs, np.inf).min())
+
+    def _hidden_m(self, spot: Spot) -> float:
+        """The lower a board, the more of it the one above hides from the camera: a price, in meters of way."""
+        if not spot.is_covered:
+            return 0.0
+        snapshot = self.context.snapshot
+        z_m = float(spot.anchor.position(snapshot, robot_frame(snapshot))[2])
+        return max(self.context.geometry.camera_height_m - z_m, 0.0)
 
 
 class CheckSpot(Action):
@@ -134,12 +135,16 @@ class CheckSpot(Action):
     def _within_reach(self, spot: Spot) -> bool:
         x_m, y_m, _ = spot.anchor.in_base(self.context)
         nearest_m, *_, farthest_m = reaches_m(self.context, self.context.body.arm.wrist_pitch_rad)
-        return nearest_m - 0.06 < hypot(x_m, y_m) < farthest_m + 0.06 and spot.room_m >= GAP_M
+        near = nearest_m - 0.06 < hypot(x_m, y_m) < farthest_m + 0.06 and spot.room_m >= GAP_M
+        return near and is_within_lift(self.context, spot) and self._is_before(spot)
+
+    def _is_before(self, spot: Spot) -> bool:
+        here = np.array([planar_pose(self.context, robot_frame(self.context.snapshot)).point])
+        return bool(admitted(self.context, spot, here, turn_rad=TURN_RAD + SLACK_RAD)[0])
 
     @staticmethod
     def _offset_m(spot: Spot, chosen: Spot) -> float:
-        (ax, ay, _), (bx, by, _) = spot.anchor.point_m, chosen.anchor.point_m
-        return hypot(ax - bx, ay - by) + TIGHT_WEIGHT * max(TIGHT_M - spot.room_m, 0.0)
+        return dist(spot.anchor.point_m, chosen.anchor.point_m) + TIGHT_WEIGHT * max(TIGHT_M - spot.room_m, 0.0)
 
 
 class LowerToPlace(ArmAction):
@@ -149,7 +154,7 @@ class LowerToPlace(ArmAction):
         super().__init__(f"lower {placement.object_id}", context)
         self._placement = placement
         self._why = ""
-        self._standing_lift_m = 0.0
+        self._standing = STOWED
 
     def begin(self) -> None:
         """Work out the arm's targets."""
@@ -174,9 +179,14 @@ class LowerToPlace(ArmAction):
             message = f"{self._placement.object_id} was lost before it stood."
             return self.fail(FailureCode.DROPPED, message, (self._placement.object_id,))
         if progress is ArmProgress.STALLED:
-            lowering = self.context.body.arm.lift_m - self._standing_lift_m < TOUCH_M
-            return Status.SUCCESS if lowering else self._stopped()
+            return Status.SUCCESS if self._stands() else self._stopped()
         return Status.SUCCESS if progress is ArmProgress.THERE else Status.RUNNING
+
+    def _stands(self) -> bool:
+        """Whether what stopped the arm is the surface: it is out over the spot, and nearly down."""
+        arm = self.context.body.arm
+        out = self._standing.extension_m - arm.extension_m < OUT_M
+        return out and arm.lift_m - self._standing.lift_m < TOUCH_M
 
     def _stopped(self) -> Status:
         """Fail, and remember where, so that another spot is tried next."""
@@ -192,24 +202,24 @@ class LowerToPlace(ArmAction):
         inside = self._placement.spot is not None and self._placement.spot.inside
         pads_z_m = z_m + above_bottom_m(context) + (ABOVE_RIM_M if inside else RELEASE_M)
         pads_z_m = max(pads_z_m, z_m + TIP_M)
-        wrist = (arm.wrist_pitch_rad, arm.wrist_roll_rad)
+        covered = self._placement.spot is not None and self._placement.spot.is_covered
+        # to the sides, the fingers neither push what they leave nor touch the board above
+        wrist = (arm.wrist_pitch_rad, 0.0 if covered else arm.wrist_roll_rad)
         final = arm_target(hypot(x_m, y_m), pads_z_m, *wrist, context.geometry, context.limits)
-        self._standing_lift_m = final.lift_m
+        self._standing = final
+        if covered:
+            return self._level_way(final)
         above_m = min(final.lift_m + HOVER_M, context.limits.lift_m[1])
         steps = [replace(final, lift_m=final.lift_m + k * STEP_M) for k in range(int(SLOW_M / STEP_M), -1, -1)]
         highest_m = max(above_m, arm.lift_m)
         way = replace(arm, lift_m=highest_m), replace(final, lift_m=highest_m), replace(final, lift_m=above_m)
         return *way, *steps
 
-
-def above_bottom_m(context: RobotContext) -> float:
-    """Height of the pads over the bottom of what the hand holds."""
-    grip, hand = context.grip, context.body.T_base_gripper
-    if grip is not None:
-        return float(hand.z_m - (hand @ grip.T_gripper_object).z_m + grip.size_m[2] / 2)
-    robot = context.snapshot.robot
-    node = context.snapshot.get(robot.holding) if robot is not None and robot.holding is not None else None
-    return DEFAULT_GRIP_SHARE * node.size_m[2] if isinstance(node, ObjectNode) else 0.1
+    def _level_way(self, final: ArmTarget) -> tuple[ArmTarget, ...]:
+        """To the height at which it comes in, with the arm drawn in, straight in, and down."""
+        over = replace(final, lift_m=final.lift_m + IN_M - RELEASE_M)
+        down = [replace(over, lift_m=over.lift_m - k * STEP_M) for k in range(1, int((IN_M - RELEASE_M) / STEP_M) + 1)]
+        return replace(over, extension_m=self.context.body.arm.extension_m), over, *down, final
 
 
 def _full(action: Action, placement: Placement) -> Status:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from math import atan2
+
 from majordomo.scene_graph.nodes import ROBOT_ID, ROOT_ID
 from majordomo.scene_graph.se3 import SE3
 from majordomo.scene_graph.snapshot import Snapshot
@@ -67,3 +69,10 @@ def footprint_radius_m(context: RobotContext) -> float:
     held_m = max(context.grip.size_m[:2]) / 2 if context.grip is not None else 0.0
     hand_m = context.body.T_base_gripper.x_m + max(held_m, 0.04)
     return max(context.limits.footprint_radius_m, hand_m)
+
+
+def bearing_rad(context: RobotContext, node_id: str) -> float:
+    """Direction from a node to the base, in the frame that the robot hangs from."""
+    frame = robot_frame(context.snapshot)
+    x_m, y_m, _ = base_pose(context, frame).translation_m - context.snapshot.position(node_id, frame)
+    return atan2(y_m, x_m)

@@ -1,0 +1,91 @@
+"""Whether and from where the hand gets to a spot with what it holds: what the actions of one PLACE share."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from math import sin
+
+import numpy as np
+from numpy.typing import NDArray
+
+from majordomo.scene_graph.nodes import ObjectNode
+from majordomo.skills.action import RobotContext
+from majordomo.skills.anchor import Anchor
+from majordomo.skills.boards import LOWEST_M, TURN_RAD, headroom_m, is_before
+from majordomo.skills.geometry import Points
+from majordomo.skills.navigation.pose import robot_frame
+from majordomo.skills.place_spot import Spot
+
+ABOVE_RIM_M = 0.04
+SPARE_LIFT_M = 0.02
+"""A surface may turn out to be a little higher when it is seen from near."""
+DEFAULT_GRIP_SHARE = 0.6
+
+SpotSource = Callable[[], Sequence[Spot]]
+"""Gives the free spots as the graph is now."""
+
+
+@dataclass(kw_only=True)
+class Placement:
+    """What the actions of one PLACE share: the object, where it may go, and the spot chosen.
+
+    ``spots_if_empty``: where it could go if nothing else stood there.
+    """
+
+    object_id: str
+    target: str
+    spots: SpotSource
+    spots_if_empty: SpotSource = list
+    spot: Spot | None = None
+
+    def anchor(self) -> Anchor:
+        """The chosen spot; the target itself until one is chosen."""
+        return self.spot.anchor if self.spot is not None else Anchor(self.target)
+
+    def admits(self, context: RobotContext, places: Points) -> NDArray[np.bool_]:
+        """From which of (N, 2) places, in the robot's frame, the hand gets to the chosen spot."""
+        return admitted(context, self.spot, places) if self.spot is not None else np.ones(len(places), np.bool_)
+
+
+def admitted(context: RobotContext, spot: Spot, places: Points, *, turn_rad: float = TURN_RAD) -> NDArray[np.bool_]:
+    """From which of (N, 2) places, in the robot's frame, the hand gets to a spot: to one below a board, from straight
+    before.
+    """
+    if not spot.is_covered:
+        return np.ones(len(places), np.bool_)
+    on, frame = spot.anchor, robot_frame(context.snapshot)
+    return is_before(context.snapshot, on.node_id, on.point_m, places, frame, sides=spot.sides, turn_rad=turn_rad)
+
+
+def is_within_lift(context: RobotContext, spot: Spot) -> bool:
+    """Whether the lift gets the hand with what it holds over the spot, and below the board above, if there is one."""
+    snapshot, arm = context.snapshot, context.body.arm
+    surface_z_m = float(spot.anchor.position(snapshot, robot_frame(snapshot))[2])
+    above_m, pitch_rad = above_bottom_m(context), arm.wrist_pitch_rad
+    rim_m = ABOVE_RIM_M if spot.inside else 0.0
+    lift_m = surface_z_m + above_m + rim_m - context.geometry.hand_length_m * sin(pitch_rad)
+    low_m, high_m = context.limits.lift_m
+    if not low_m <= lift_m <= high_m - SPARE_LIFT_M:
+        return False
+    needed_m = headroom_m(held_height_m(context), above_m, pitch_rad, context.geometry)
+    return not spot.is_covered or (surface_z_m >= LOWEST_M and needed_m <= spot.free_m)
+
+
+def held_height_m(context: RobotContext) -> float:
+    """Height of what the hand holds."""
+    if context.grip is not None:
+        return context.grip.size_m[2]
+    robot = context.snapshot.robot
+    node = context.snapshot.get(robot.holding) if robot is not None and robot.holding is not None else None
+    return node.size_m[2] if isinstance(node, ObjectNode) else 0.2
+
+
+def above_bottom_m(context: RobotContext) -> float:
+    """Height of the pads over the bottom of what the hand holds."""
+    grip, hand = context.grip, context.body.T_base_gripper
+    if grip is not None:
+        return float(hand.z_m - (hand @ grip.T_gripper_object).z_m + grip.size_m[2] / 2)
+    robot = context.snapshot.robot
+    node = context.snapshot.get(robot.holding) if robot is not None and robot.holding is not None else None
+    return DEFAULT_GRIP_SHARE * node.size_m[2] if isinstance(node, ObjectNode) else 0.1

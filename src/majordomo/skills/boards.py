@@ -1,0 +1,181 @@
+"""The boards of a shelf: which there are, how much room is over each, and from where the arm gets in between.
+
+What stands on a board below another is put there and taken from there level-wise, through the open front: the longer
+side of the piece. Which of the two long sides is open is not known; the one at a wall has no place to stand before it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from math import copysign, inf, pi, sin, tan
+
+import numpy as np
+from numpy.typing import NDArray
+
+from majordomo.scene_graph.nodes import ObjectNode
+from majordomo.scene_graph.snapshot import Snapshot
+from majordomo.skills.anchor import Anchor
+from majordomo.skills.containers import is_open_container
+from majordomo.skills.geometry import Points
+from majordomo.skills.ports import ArmGeometry
+from majordomo.skills.seats import is_seat
+
+HIGHEST_M = 1.15
+"""On what is higher than this above the floor, the arm puts nothing."""
+LOWEST_M = 0.28
+"""Nor on a board lower than this: what the hand holds passes over the base on its way in."""
+THICKNESS_M = 0.035
+"""Of a board, at most: only its upper side is measured."""
+TOP_M = 0.10
+"""What is measured so near to the top is the top."""
+HAND_HALF_WIDTH_M = 0.09
+"""Half the width of palm and open fingers: what a hand sweeps to each side of its way."""
+ASIDE_M = HAND_HALF_WIDTH_M + 0.04
+"""From the end of a board, with its side, to the middle of the hand."""
+BESIDE_M = 0.015
+"""Air between what moves in between boards and what stands there."""
+ARM_HALF_M = 0.03
+AIR_M = 0.03
+"""Spared over the hand, and under what it holds while it comes in, together."""
+TURN_RAD = 22.0 * pi / 180.0
+"""The arm comes in at most so far from straight."""
+HAND_MARGIN_M = 0.05
+FINGER_AIR_M = 0.008
+"""Between a finger and what it comes down beside."""
+
+BOTH_SIDES = (-1, 1)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Board:
+    """One surface of a support. ``height_m``: over the support's center. ``free_m``: from there to what is above it."""
+
+    height_m: float
+    free_m: float = inf
+
+    @property
+    def is_covered(self) -> bool:
+        """Whether there is another above."""
+        return self.free_m < inf
+
+
+def boards_of(support: ObjectNode) -> tuple[Board, ...]:
+    """All surfaces of a support that has any below its top, as measured, lowest first, its top last; else none."""
+    half_m = support.size_m[2] / 2
+    if is_seat(support.label) or is_open_container(support.label):
+        return ()
+    inner = [height_m - half_m for height_m in support.surfaces_m if height_m < support.size_m[2] - TOP_M]
+    if not inner:
+        return ()
+    tops = [height_m - half_m for height_m in support.surfaces_m if height_m >= support.size_m[2] - TOP_M]
+    heights = [*inner, tops[-1] if tops else half_m]
+    free = [above - here - THICKNESS_M for here, above in pairwise(heights)]
+    return tuple(Board(height_m=here, free_m=air) for here, air in zip(heights, (*free, inf), strict=True))
+
+
+def board_at(boards: Sequence[Board], bottom_m: float) -> Board:
+    """The board on which something stands whose bottom is there, over the support's center."""
+    return min(boards, key=lambda board: abs(board.height_m - bottom_m))
+
+
+def is_in_reach(board: Board, center_m: float) -> bool:
+    """Whether the arm gets to a board of a support whose center is so high above the floor."""
+    height_m = center_m + board.height_m
+    return height_m <= HIGHEST_M and (height_m >= LOWEST_M or not board.is_covered)
+
+
+def headroom_m(height_m: float, above_bottom_m: float, pitch_rad: float, geometry: ArmGeometry) -> float:
+    """How much must be free over a board for a hand to come in with a thing so high that it holds there, and so."""
+    arm_m = above_bottom_m + max(-sin(pitch_rad), 0.0) * geometry.hand_length_m + ARM_HALF_M
+    return max(height_m, arm_m) + AIR_M
+
+
+def open_sides(
+    support: ObjectNode, points: Points, radius_m: float, others: Sequence[tuple[Points, Points]]
+) -> NDArray[np.bool_]:
+    """(N, 2): whether the hand gets straight in to each of the points (N, 2) from the one and from the other long side.
+
+    ``others``: middle (2,) and half extents (2,) of what stands on that board, along the support's own axes.
+    """
+    long, short = axes(support)
+    clear_m = max(radius_m, HAND_HALF_WIDTH_M) + BESIDE_M
+    free = np.ones((len(points), 2), dtype=bool)
+    for middle, half in others:
+        ahead = np.abs(points[:, long] - middle[long]) < half[long] + clear_m
+        for k, side in enumerate(BOTH_SIDES):
+            before = side * (middle[short] - points[:, short]) + half[short] > -radius_m
+            free[:, k] &= ~(ahead & before)
+    return free
+
+
+def is_before(
+    snapshot: Snapshot,
+    support_id: str,
+    point_m: tuple[float, float, float],
+    places: Points,
+    frame: str,
+    *,
+    sides: Collection[int] = BOTH_SIDES,
+    turn_rad: float = TURN_RAD,
+) -> NDArray[np.bool_]:
+    """Which of the places (N, 2) in ``frame`` are before a long side of the support, one of ``sides``, so that the arm
+    gets straight in to a point in the support's frame without touching the ends.
+    """
+    support = snapshot.object(support_id)
+    long, short = axes(support)
+    local = snapshot.transform(support_id, frame).apply(np.column_stack((places, np.zeros(len(places)))))
+    aside, away = local[:, long] - point_m[long], local[:, short] - point_m[short]
+    side = np.sign(local[:, short])
+    depth = support.size_m[short] / 2 - side * point_m[short]
+    outside = np.abs(local[:, short]) > support.size_m[short] / 2
+    straight = np.abs(aside) <= tan(turn_rad) * np.abs(away)
+    enters = point_m[long] + aside * depth / np.maximum(np.abs(away), 1e-6)
+    clear = np.abs(enters) <= support.size_m[long] / 2 - ASIDE_M + BESIDE_M
+    return np.asarray(outside & straight & clear & np.isin(side, list(sides)))
+
+
+def axes(support: ObjectNode) -> tuple[int, int]:
+    """Which of its own axes is along its long side, and which across."""
+    return (0, 1) if support.size_m[0] >= support.size_m[1] else (1, 0)
+
+
+def board_under(snapshot: Snapshot, object_id: str) -> Board | None:
+    """The board on which a thing stands on its support; ``None`` where that has none that are known."""
+    support_id = snapshot.support_of(object_id)
+    support = snapshot.get(support_id) if support_id is not None else None
+    if support_id is None or not isinstance(support, ObjectNode) or not (boards := boards_of(support)):
+        return None
+    bottom_m = float(snapshot.position(object_id, support_id)[2]) - snapshot.object(object_id).size_m[2] / 2
+    return board_at(boards, bottom_m)
+
+
+def off_end(snapshot: Snapshot, object_id: str, opening_m: float) -> Anchor:
+    """Where the hand goes to take a thing: at its middle; below a board, near an end, as far beside it as fingers that
+    are ``opening_m`` apart allow, so that the hand passes the end.
+    """
+    support_id = snapshot.support_of(object_id) if object_id in snapshot else None
+    board = board_under(snapshot, object_id) if support_id is not None else None
+    if board is None or support_id is None or not board.is_covered:
+        return Anchor(object_id)
+    support, node = snapshot.object(support_id), snapshot.object(object_id)
+    long, _ = axes(support)
+    point = [float(value) for value in snapshot.position(object_id, support_id)]
+    short_by_m = ASIDE_M - (support.size_m[long] / 2 - abs(point[long]))
+    spare_m = (opening_m - max(node.size_m[:2])) / 2 - FINGER_AIR_M
+    point[long] -= copysign(max(min(short_by_m, spare_m), 0.0), point[long])
+    return Anchor(support_id, (point[0], point[1], point[2]))
+
+
+def is_among_boards(snapshot: Snapshot, frame: str, point: Points) -> bool:
+    """Whether a point (3,) is between the boards of something, or just before them."""
+    for node in snapshot.of_type(ObjectNode):
+        boards = boards_of(node)
+        if not boards or snapshot.room_of(node.id) != snapshot.current_room:
+            continue
+        x_m, y_m, z_m = snapshot.transform(node.id, frame).apply(point)
+        beside = max(abs(x_m) - node.size_m[0] / 2, abs(y_m) - node.size_m[1] / 2)
+        if beside < HAND_MARGIN_M and z_m < boards[-1].height_m:
+            return True
+    return False

@@ -7,15 +7,17 @@ from dataclasses import dataclass
 from majordomo.planner.crew import Crew
 from majordomo.planner.explainer import explain, failure_sentence, success_sentence
 from majordomo.planner.ledger import Ledger
+from majordomo.planner.naming import name_of, whereabouts
 from majordomo.planner.plan import Step
 from majordomo.planner.tasks import TaskStatus
+from majordomo.scene_graph.nodes import ROBOT_ID, ObjectNode
 from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.skills.failures import Failure
 
 
 @dataclass(frozen=True, kw_only=True)
 class Ending:
-    """How a task ended, and the sentence that says so."""
+    """How a task ended, and the sentence that says so; or that it is to be planned anew, in silence."""
 
     status: TaskStatus
     explanation: str
@@ -31,6 +33,12 @@ class Chronicle:
         """A step begins."""
         self._crew.emit(stamp_s, "step", task=self._task_id, step=str(step))
 
+    def observed(self, step: Step, snapshot: Snapshot, stamp_s: float, *, searching: bool) -> None:
+        """What was seen says that a step is done; ``searching``: that a place was looked at in vain."""
+        seen = "looked there, and did not find it" if searching else observation(step, snapshot, stamp_s)
+        fields = {"step": str(step), "seen": seen, "nodes": list(step.args), "revision": snapshot.revision}
+        self._crew.emit(stamp_s, "observed", task=self._task_id, **fields)
+
     def step_done(self, step: Step, snapshot: Snapshot, stamp_s: float) -> None:
         """A step is confirmed, and with it perhaps a goal."""
         self._crew.queue.amend(self._task_id, verified=self._ledger.report(snapshot))
@@ -45,7 +53,7 @@ class Chronicle:
         self._crew.emit(stamp_s, "failure", task=self._task_id, **fields)
 
     def replan(self, plan: str, why: str, stamp_s: float) -> None:
-        """A new plan is in force."""
+        """A new plan comes into force."""
         self._crew.emit(stamp_s, "replan", task=self._task_id, why=why, plan=plan)
 
     def success(self, snapshot: Snapshot, stamp_s: float) -> Ending:
@@ -59,3 +67,16 @@ class Chronicle:
         self._crew.queue.amend(self._task_id, verified=self._ledger.report(snapshot))
         explanation = failure_sentence(self._ledger.remaining(), reason, snapshot)
         return Ending(status=TaskStatus.FAILED, explanation=explanation)
+
+
+def observation(step: Step, snapshot: Snapshot, stamp_s: float) -> str:
+    """What the graph says after a step about what that step was to change, and how old it is."""
+    thing = step.args[0] if step.args else ROBOT_ID
+    node = snapshot.get(thing)
+    if step.skill == "GOTO" and node is not None:
+        return f"the robot is at {name_of(thing, snapshot)}"
+    if isinstance(node, ObjectNode):
+        age_s = max(0.0, stamp_s - node.last_seen_s)
+        return f"{name_of(thing, snapshot)} is {whereabouts(thing, snapshot)}, seen {age_s:.1f} s ago"
+    room = snapshot.room_of(ROBOT_ID)
+    return f"the robot is in {name_of(room, snapshot) if room is not None else 'a place that it does not know'}"

@@ -42,7 +42,7 @@ class Crew:
     """The parts that carry out a task together.
 
     ``look_at`` makes actions that approach a node and look at it. ``sensor_ages`` gives the seconds since each sensor's
-    newest data.
+    newest data. ``recognizable``: labels of what can be carried and perception has a name for.
     """
 
     memory: WorkingMemory
@@ -55,6 +55,7 @@ class Crew:
     sensor_ages: Callable[[], Mapping[str, float]] = no_ages
     on_event: OnEvent = ignore_event
     settings: MissionSettings = MissionSettings()
+    recognizable: frozenset[str] = frozenset()
 
     def emit(self, stamp_s: float, event: str, **fields: Any) -> None:
         """Tell the event log."""

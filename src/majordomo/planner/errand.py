@@ -14,10 +14,10 @@ from majordomo.planner.job import Job, Watch, actions_or_refusal
 from majordomo.planner.ledger import Ledger
 from majordomo.planner.lookout import Lookout
 from majordomo.planner.naming import humanize
-from majordomo.planner.plan import Impossible, Plan, Step
+from majordomo.planner.plan import Impossible, Plan, Reread, Step
 from majordomo.planner.progress import Progress
 from majordomo.planner.recovery import Recoveries
-from majordomo.planner.replanner import Hunt, Replanner
+from majordomo.planner.replanner import Hunt, PlanMaker
 from majordomo.planner.taken_for import TakenFor
 from majordomo.planner.tasks import TaskStatus
 from majordomo.planner.whereabouts import capital
@@ -56,7 +56,7 @@ class Errand:
     """
 
     def __init__(
-        self, task_id: str, goals: Sequence[Goal], plan: Plan, replanner: Replanner, crew: Crew, stamp_s: float
+        self, task_id: str, goals: Sequence[Goal], plan: Plan, replanner: PlanMaker, crew: Crew, stamp_s: float
     ) -> None:
         self._task_id, self._crew, self._replanner = task_id, crew, replanner
         self._ledger = Ledger(goals, stamp_s)
@@ -86,6 +86,9 @@ class Errand:
         mistake = self._taken_for.mistake(snapshot)
         if mistake is not None:
             return self._admit(mistake, snapshot)
+        refuted = self._taken_for.refuted(snapshot)
+        if refuted is not None:
+            return self._think_again(refuted, snapshot)
         ending = self._handlers[self._phase](context, snapshot)
         self._progress.follow(self._job)
         return ending
@@ -184,6 +187,7 @@ class Errand:
     def _step_done(self, step: Step, snapshot: Snapshot) -> None:
         self._ledger.note(snapshot)
         self._progress.follow(self._job)
+        self._chronicle.observed(step, snapshot, self._stamp_s, searching=self._hunt is not None)
         self._progress.succeed(snapshot)
         self._chronicle.step_done(step, snapshot, self._stamp_s)
         self._enter(Phase.READY)
@@ -196,6 +200,9 @@ class Errand:
             mistake = self._taken_for.mistake(snapshot, at_last=True)
             if mistake is not None:
                 return self._admit(mistake, snapshot)
+            refuted = self._taken_for.refuted(snapshot, at_last=True)
+            if refuted is not None:
+                return self._think_again(refuted, snapshot)
             return self._chronicle.success(snapshot, self._stamp_s)
         if self._phase_s < self._crew.settings.confirm_s:
             return None
@@ -249,9 +256,11 @@ class Errand:
         plan = self._replanner.plan(self._ledger.remaining(), snapshot, self._stamp_s)
         if isinstance(plan, Impossible):
             return self._despair(plan, snapshot)
+        if isinstance(plan, Reread):
+            return Ending(status=TaskStatus.PLANNING, explanation="")
         self._replans += 1
-        self._progress.adopt(plan, snapshot, replans=self._replans)
         self._chronicle.replan(str(plan), why, self._stamp_s)
+        self._progress.adopt(plan, snapshot, replans=self._replans)
         self._enter(Phase.READY)
         return None
 
@@ -261,6 +270,15 @@ class Errand:
         self._progress.fail()
         self._chronicle.failure(mistake, self._progress.step or VERIFY, snapshot, self._stamp_s, hopeless=True)
         return self._chronicle.surrender(mistake.message, snapshot)
+
+    def _think_again(self, refuted: Failure, snapshot: Snapshot) -> Ending:
+        """A guess was wrong: the request is understood anew, unless the wrong thing was touched already."""
+        if self._ledger.touched:
+            return self._admit(refuted, snapshot)
+        self.close()
+        self._progress.fail()
+        self._chronicle.failure(refuted, self._progress.step or VERIFY, snapshot, self._stamp_s, hopeless=False)
+        return Ending(status=TaskStatus.PLANNING, explanation="")
 
     def _despair(self, why: Impossible, snapshot: Snapshot) -> Ending:
         """There is no plan any more. What was looked for in vain is the last failure, not the last place on the way."""

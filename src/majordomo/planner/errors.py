@@ -37,7 +37,8 @@ class BadModelKey(PlannerError):
     """A language model's provider wants a key, and there is none that it could take."""
 
     def __init__(self, provider: str, problem: str) -> None:
-        super().__init__(f"{provider} wants a key, and {problem}: put it into MAJORDOMO_LLM_KEY in the environment")
+        places = "MAJORDOMO_LLM_KEY in the environment, or into a file that MAJORDOMO_LLM_KEY_FILE names"
+        super().__init__(f"{provider} wants a key, and {problem}: put it into {places}")
         self.provider, self.problem = provider, problem
 
 
@@ -56,3 +57,22 @@ class OperationNotAllowed(PlannerError):
         choices = ", ".join(allowed) or "none, it has ended"
         super().__init__(f"{task_id} is {status}: cannot {operation} it; allowed: {choices}")
         self.task_id, self.status, self.operation, self.allowed = task_id, status, operation, allowed
+
+
+class QueueFull(PlannerError):
+    """So many tasks are open that no more are taken."""
+
+    def __init__(self, most: int) -> None:
+        super().__init__(f"{most} tasks are open already; wait until some have ended, or cancel some")
+        self.most = most
+
+
+class PlanChanged(PlannerError):
+    """A plan was approved that is no longer the task's; ``revision`` is that of the graph its plan is made on."""
+
+    def __init__(self, task_id: str, seen: int, revision: int) -> None:
+        super().__init__(
+            f"the plan of {task_id} was made anew on revision {revision} of the graph, and you approve the one of "
+            f"revision {seen}: look at the new one first"
+        )
+        self.task_id, self.seen, self.revision = task_id, seen, revision

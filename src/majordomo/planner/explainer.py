@@ -36,6 +36,8 @@ def plan_sentence(plan: Plan, snapshot: Snapshot) -> str:
     """What the robot is going to do: "I will go to the table, pick up the blue bottle and go to the desk"."""
     if plan.seeking is not None:
         places = listed([name_of(step.args[0], snapshot) for step in plan.steps])
+        if plan.seeking not in snapshot:
+            return f"I have not seen “{plan.seeking}” yet; I will look for it at {places}."
         return f"I do not know where {name_of(plan.seeking, snapshot)} is now; I will look at {places}."
     if not plan.steps:
         return "Nothing needs to be done; I will only check."
@@ -78,6 +80,14 @@ def exhausted_reason(object_id: str, looked: Sequence[str], skipped: Sequence[st
     if skipped:
         reason += f"; I could not get to {listed([name_of(place, snapshot) for place in skipped])}"
     return reason
+
+
+def scouted_sentence(looked: Sequence[str], skipped: Sequence[str], snapshot: Snapshot) -> str:
+    """Where a thing was looked for that had never been seen, in vain; ``""`` if nowhere."""
+    places = [name_of(place, snapshot) for place in looked if place in snapshot]
+    missed = [name_of(place, snapshot) for place in skipped if place in snapshot]
+    sentence = f"I looked at {listed(places)}, and did not find it." if places else ""
+    return f"{sentence} I could not get to {listed(missed)}.".strip() if missed else sentence
 
 
 def give_up_reason(failure: Failure, times: int) -> str:

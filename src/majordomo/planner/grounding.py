@@ -19,7 +19,7 @@ from majordomo.planner.narrowing import Narrowing
 from majordomo.planner.phrasing import alternatives, describe, phrase_text, which_question
 from majordomo.planner.plan import Exchange
 from majordomo.planner.together import moved_together, two_of
-from majordomo.planner.vocabulary import is_plural, normal, words_for
+from majordomo.planner.vocabulary import is_plural, normal, singular, words_for
 from majordomo.scene_graph.nodes import ROBOT_ID, ObjectNode, PersonNode, RoomNode
 from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.skills.state import PlanState
@@ -30,13 +30,15 @@ class NoReferent:
     """A reference names nothing; ``reason`` says so, with what there is instead.
 
     ``unknown``: no word is known. ``misplaced``: a room was looked for in a place, as in *the kitchen on the desk*.
-    ``asks``: the reason is a question, and an answer would settle it.
+    ``asks``: the reason is a question, and an answer would settle it. ``sought``: the kind of thing that was never
+    seen; somewhere there may be one.
     """
 
     reason: str
     unknown: bool = False
     misplaced: bool = False
     asks: bool = False
+    sought: str = ""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -240,7 +242,9 @@ class Grounding:
         if chosen:
             return chosen
         if not found:
-            return self.nothing(phrase, context)
+            lacking = self.nothing(phrase, context)
+            may_be = carried and not phrase.person and not lacking.misplaced
+            return replace(lacking, sought=singular(phrase.head)) if may_be else lacking
         if phrase.rank is not None and phrase.superlative is None:
             return self._ranked(phrase, found, context)
         if phrase == NounPhrase(words=("one",)) and context.noun:
@@ -277,7 +281,8 @@ class Grounding:
         if len(found) > 1:
             spoken = tuple(i for i in found if i in context.fresh)
             focused = tuple(i for i in found if context.focus is not None and self.state.room_of(i) == context.focus)
-            for preferred in (spoken, focused):
+            there = tuple(i for i in found if i not in self.state.missing)
+            for preferred in (spoken, focused, there):
                 if len(preferred) == 1:
                     return preferred
         return found if len(found) == 1 else self._ambiguous(text, found, context, "Which one do you mean")

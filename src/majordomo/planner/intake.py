@@ -13,8 +13,9 @@ from majordomo.planner.goals import Goal
 from majordomo.planner.lessons import teach
 from majordomo.planner.plan import Dialogue, Exchange, Impossible, Interpretation, Kind, Plan, Source
 from majordomo.planner.queue import TaskQueue
-from majordomo.planner.replanner import Replanner, Verifier
-from majordomo.planner.tasks import Approval, PlanReport, StepReport, Task, TaskStatus
+from majordomo.planner.replanner import PlanMaker, Replanner, Verifier
+from majordomo.planner.scouting import Scout, kinds_called
+from majordomo.planner.tasks import Approval, PlanReport, Task, TaskStatus
 from majordomo.scene_graph.memory import WorkingMemory
 from majordomo.scene_graph.snapshot import Snapshot
 
@@ -41,7 +42,7 @@ class Ready:
     task: Task
     goals: tuple[Goal, ...]
     plan: Plan
-    replanner: Replanner
+    replanner: PlanMaker
     intent: str
 
 
@@ -56,6 +57,7 @@ class Intake:
         on_event: told what was understood, planned, and how tasks end here.
         interpret_s: deadline for understanding a request, in wall time.
         paper: there is no robot, and every plan is only shown.
+        recognizable: labels of what is looked for when it was never seen; of anything else the request is turned down.
     """
 
     def __init__(
@@ -68,10 +70,13 @@ class Intake:
         on_event: OnEvent = ignore_event,
         interpret_s: float = 60.0,
         paper: bool = False,
+        recognizable: frozenset[str] = frozenset(),
     ) -> None:
         self._memory, self._queue = memory, queue
         self._interpreter, self._verifier = interpreter, verifier
         self._on_event, self._interpret_s, self._paper = on_event, interpret_s, paper
+        self._recognizable = recognizable
+        self._scouts: dict[str, Scout] = {}
         self._mentioned: tuple[str, ...] = ()
         self._last: tuple[str, ...] = ()
         self._origins: dict[str, str] = {}
@@ -79,9 +84,10 @@ class Intake:
     async def take(self, task: Task, stamp_s: float, *, busy: bool = False) -> Ready | None:
         """Plan for a task in status ``planning``; ``None`` when it is not to run now.
 
-        ``busy``: another task has the robot. Then what words can settle is settled, and a plan goes back to the queue.
+        ``busy``: another task has the robot, or it cannot go yet. Then what words can settle is settled, and a plan
+        goes back to the queue.
         """
-        if task.approved and task.plan is not None:
+        if task.approved and task.plan is not None and not busy:
             return self._plan(task, task.plan.goals, Source(task.plan.source), stamp_s)
         snapshot = self._memory.building()
         dialogue = Dialogue(
@@ -90,6 +96,7 @@ class Intake:
             earlier=self._earlier(task),
             origins=self._origins,
             last=self._last,
+            task=task.id,
         )
         try:
             async with asyncio.timeout(self._interpret_s):
@@ -100,8 +107,9 @@ class Intake:
         task = self._queue.task(task.id)
         if task.status is not TaskStatus.PLANNING:
             return None
-        if busy and meaning.kind is Kind.PLAN and not task.dry_run:
-            self._queue.move(task.id, TaskStatus.QUEUED, stamp_s=stamp_s, kind=meaning.kind.value)
+        scouting = meaning.kind is Kind.REFUSE and self._scout(task, meaning.sought, stamp_s) is not None
+        if busy and (meaning.kind is Kind.PLAN or scouting) and not task.dry_run:
+            self._queue.move(task.id, TaskStatus.QUEUED, stamp_s=stamp_s, kind=Kind.PLAN.value)
             return None
         return self._follow(task, meaning, stamp_s)
 
@@ -113,17 +121,19 @@ class Intake:
         return task
 
     def _follow(self, task: Task, meaning: Interpretation, stamp_s: float) -> Ready | None:
-        said = {"kind": meaning.kind.value, "reply": meaning.reply}
+        untaught = bool(meaning.lessons) and task.dry_run
+        reply = f"Tried only, nothing was learned. {meaning.reply}" if untaught else meaning.reply
+        said = {"kind": meaning.kind.value, "reply": reply}
         goals = [str(goal) for goal in meaning.goals]
         self._remember(meaning)
-        for lesson in meaning.lessons:
+        for lesson in () if untaught else meaning.lessons:
             teach(self._memory, lesson.node, label=lesson.label, name=lesson.name, stamp_s=stamp_s)
         self._emit(stamp_s, "understood", task=task.id, source=meaning.source.value, **said, goals=goals)
         match meaning.kind:
             case Kind.ANSWER:
-                self.end(task, TaskStatus.SUCCEEDED, meaning.reply, stamp_s, **said)
+                self.end(task, TaskStatus.SUCCEEDED, reply, stamp_s, **said)
             case Kind.REFUSE:
-                self.end(task, TaskStatus.REFUSED, meaning.reply, stamp_s, **said)
+                return self._scouted(task, meaning, stamp_s)
             case Kind.CLARIFY:
                 asked = {"candidates": meaning.candidates, "dialogue": (*task.dialogue, (meaning.reply, ""))}
                 self._queue.move(task.id, TaskStatus.AWAITING_ANSWER, stamp_s=stamp_s, **said, **asked)
@@ -131,15 +141,41 @@ class Intake:
                 return self._plan(self._queue.amend(task.id, **said), meaning.goals, meaning.source, stamp_s)
         return None
 
+    def _scouted(self, task: Task, meaning: Interpretation, stamp_s: float) -> Ready | None:
+        """Look for what was never seen, if the robot would know it when it saw it; else, or in vain, turn it down."""
+        scout = self._scout(task, meaning.sought, stamp_s)
+        snapshot = self._memory.building()
+        plan = scout.tour(snapshot) if scout is not None else None
+        if scout is None or plan is None:
+            reply = f"{meaning.reply} {scout.told(snapshot)}".strip() if scout is not None else meaning.reply
+            self._scouts.pop(task.id, None)
+            self.end(task, TaskStatus.REFUSED, reply, stamp_s, kind=meaning.kind.value, reply=reply)
+            return None
+        intent = plan_sentence(plan, snapshot)
+        times = replace(task.times, planned_s=stamp_s)
+        task = self._queue.amend(task.id, kind=Kind.PLAN.value, reply=intent, plan=PlanReport.of(plan, ()), times=times)
+        self._emit(stamp_s, "planned", task=task.id, plan=str(plan), revision=plan.revision)
+        return Ready(task=task, goals=(), plan=plan, replanner=scout, intent=intent)
+
+    def _scout(self, task: Task, kind: str, stamp_s: float) -> Scout | None:
+        """Who looks for a kind of thing for a task. Nobody does where a person is to see every plan before."""
+        if task.id in self._scouts:
+            return self._scouts[task.id]
+        idle = self._paper or task.dry_run or task.approval is Approval.ASK
+        if idle or not kind or not kinds_called(kind) & self._recognizable:
+            return None
+        self._scouts = {task.id: Scout(kind, self._verifier, stamp_s)}
+        return self._scouts[task.id]
+
     def _plan(self, task: Task, goals: tuple[Goal, ...], source: Source, stamp_s: float) -> Ready | None:
         """Plan for the goals; then refuse, show the plan, ask for approval, or let the task run."""
         snapshot = self._memory.building()
         replanner = Replanner(self._verifier, source)
-        plan = replanner.plan(goals, snapshot, stamp_s)
+        plan = replanner.first_plan(goals, snapshot, stamp_s)
         if isinstance(plan, Impossible):
             self.end(task, TaskStatus.REFUSED, plan.reason, stamp_s, reply=plan.reason)
             return None
-        report = _report(plan, goals)
+        report = PlanReport.of(plan, goals)
         self._origins |= _origins(plan, snapshot)
         same = task.plan is not None and _outline(task.plan) == _outline(report)
         task = self._queue.amend(task.id, plan=report, times=replace(task.times, planned_s=stamp_s))
@@ -181,11 +217,6 @@ def _origins(plan: Plan, snapshot: Snapshot) -> dict[str, str]:
     picked = [step.args[0] for step in plan.steps if step.skill == "PICK"]
     places = {i: snapshot.support_of(i) or snapshot.room_of(i) for i in picked if i in snapshot}
     return {i: place for i, place in places.items() if place is not None}
-
-
-def _report(plan: Plan, goals: tuple[Goal, ...]) -> PlanReport:
-    steps = tuple(StepReport(skill=step.skill, args=step.args) for step in plan.steps)
-    return PlanReport(source=plan.source.value, revision=plan.revision, goals=goals, steps=steps)
 
 
 def _outline(plan: PlanReport) -> tuple[str, ...]:

@@ -308,8 +308,14 @@ def _context(dialogue: Dialogue, choices: Choices, snapshot: Snapshot) -> Contex
 def _stuck(stuck: Stuck, steps: Sequence[ParsedStep]) -> Reading:
     trouble = stuck.trouble
     if isinstance(trouble, NoReferent):
-        trouble = replace(trouble, reason=_whole(trouble.reason, stuck.step, steps))
+        reason = _whole(trouble.reason, stuck.step, steps)
+        trouble = replace(trouble, reason=reason, sought=trouble.sought if _is_deed(stuck.step) else "")
     return _troubled(trouble)
+
+
+def _is_deed(step: ParsedStep) -> bool:
+    """Whether something is to be done, and not only to be told."""
+    return isinstance(step, Understood) and not any(isinstance(reading, Ask) for reading in step.readings)
 
 
 def _troubled(trouble: Trouble) -> Reading:
@@ -317,7 +323,9 @@ def _troubled(trouble: Trouble) -> Reading:
     if isinstance(trouble, Ambiguous):
         found = Interpretation(kind=Kind.CLARIFY, reply=trouble.question, candidates=trouble.candidates)
         return Reading(interpretation=found, asked=trouble.phrase)
-    return _reading(Kind.CLARIFY if trouble.asks else Kind.REFUSE, trouble.reason, wholly=not trouble.unknown)
+    kind = Kind.CLARIFY if trouble.asks else Kind.REFUSE
+    found = Interpretation(kind=kind, reply=trouble.reason, sought=trouble.sought if kind is Kind.REFUSE else "")
+    return Reading(interpretation=found, wholly=not trouble.unknown)
 
 
 def _did_you_mean(found: Interpretation, snapshot: Snapshot) -> str:

@@ -36,6 +36,11 @@ class Ledger:
             for arg in step.args:
                 self._handled_s[arg] = stamp_s
 
+    @property
+    def touched(self) -> bool:
+        """Whether anything was handled yet."""
+        return bool(self._handled_s)
+
     def note(self, snapshot: Snapshot) -> None:
         """Pass over the goals that are confirmed now, in order, up to the first that is not."""
         while self._reached < len(self.goals) and self.confirms(self.goals[self._reached], snapshot):

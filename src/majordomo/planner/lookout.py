@@ -6,7 +6,7 @@ from majordomo.planner.crew import Crew
 from majordomo.planner.job import Job, Watch
 from majordomo.planner.plan import Step
 from majordomo.planner.progress import Progress
-from majordomo.planner.replanner import Replanner
+from majordomo.planner.replanner import PlanMaker
 from majordomo.planner.situation import Situation
 from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.skills.action import RobotContext
@@ -16,7 +16,7 @@ from majordomo.skills.failures import Evidence, Failure, FailureCode
 class Lookout:
     """Asks the Controller before a step begins and at every tick of its job."""
 
-    def __init__(self, crew: Crew, progress: Progress, replanner: Replanner) -> None:
+    def __init__(self, crew: Crew, progress: Progress, replanner: PlanMaker) -> None:
         self._crew, self._progress, self._replanner = crew, progress, replanner
         self._before: Snapshot | None = None
 

@@ -64,7 +64,9 @@ class ModelRounds:
             request = ModelRequest(
                 messages=tuple(messages), schema=schema(scene.identifiers), schema_name="robot_request"
             )
-            answer = await self._ask(request, left_s, number)
+            answer = await self._ask(
+                request, left_s, {"task": dialogue.task, "model": self._model.name, "round": number}
+            )
             outcome = self._checked(answer, snapshot, scene.identifiers) if isinstance(answer, ModelReply) else answer
             if isinstance(outcome, Interpretation):
                 return outcome
@@ -91,17 +93,11 @@ class ModelRounds:
         rules = render("task_planner", skills=skill_lines(self._verifier.skills))
         return [Message(role=Role.SYSTEM, text=rules), Message(role=Role.USER, text=request)]
 
-    async def _ask(self, request: ModelRequest, deadline_s: float, number: int) -> ModelReply | ModelFailure:
+    async def _ask(self, request: ModelRequest, deadline_s: float, about: dict[str, Any]) -> ModelReply | ModelFailure:
         prompt = [{"role": message.role.value, "text": message.text} for message in request.messages]
-        self._journal({"event": "model_prompt", "model": self._model.name, "round": number, "messages": prompt})
+        self._journal({"event": "model_prompt", **about, "messages": prompt})
         answer = await self._model.complete(request, deadline_s)
-        entry: dict[str, Any] = {
-            "event": "model_answer",
-            "model": self._model.name,
-            "round": number,
-            "attempts": answer.attempts,
-            "text": answer.text,
-        }
+        entry: dict[str, Any] = {"event": "model_answer", **about, "attempts": answer.attempts, "text": answer.text}
         if isinstance(answer, ModelReply):
             entry |= {"prompt_tokens": answer.prompt_tokens, "completion_tokens": answer.completion_tokens}
         else:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from majordomo.planner.executor import OnEvent, ignore_event
 from majordomo.planner.intake import Intake, Interpreter
 from majordomo.planner.queue import TaskQueue
 from majordomo.planner.replanner import Verifier
@@ -21,11 +22,12 @@ class PaperMission:
         interpreter: Interpreter,
         verifier: Verifier,
         *,
+        on_event: OnEvent = ignore_event,
         period_s: float = 0.1,
     ) -> None:
         self.period_s = period_s
         self._queue = queue
-        self._intake = Intake(memory, queue, interpreter, verifier, paper=True)
+        self._intake = Intake(memory, queue, interpreter, verifier, on_event=on_event, paper=True)
 
     async def step(self, stamp_s: float) -> None:
         """Plan for the next task, if there is one."""

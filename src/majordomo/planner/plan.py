@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
 
+from majordomo.planner.forecast import NO_CHANGES, Forecast
 from majordomo.planner.goals import Goal
 from majordomo.skills.failures import FailureCode
 
@@ -33,8 +34,9 @@ class Source(StrEnum):
 class Plan:
     """Steps that achieve ``goals`` when carried out from graph revision ``revision``.
 
-    ``expected_s``, ``expected_m``: estimated time and way. ``seeking``: the object a search plan looks for; its steps
-    visit places, most likely first, and the rest of them is dropped as soon as the object is seen.
+    ``expected_s``, ``expected_m``: estimated time and way. ``changes``: to the graph, at its end. ``seeking``: the
+    object a search plan looks for; its steps visit places, most likely first, and the rest of them is dropped as soon
+    as the object is seen.
     """
 
     source: Source
@@ -43,6 +45,7 @@ class Plan:
     steps: tuple[Step, ...]
     expected_s: float = 0.0
     expected_m: float = 0.0
+    changes: Forecast = NO_CHANGES
     seeking: str | None = None
 
     def __str__(self) -> str:
@@ -59,6 +62,11 @@ class Impossible:
     reason: str
     nodes: tuple[str, ...] = ()
     lost: str | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Reread:
+    """No plan yet: the request is to be understood again, since what it speaks of may have been seen by now."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -152,7 +160,8 @@ class Interpretation:
     ``kind`` plan: ``goals`` are set and checked. answer: ``reply`` holds the answer, ``query`` the question. clarify:
     ``reply`` is the question to ask, ``candidates`` the identifiers to choose from, if that is the question.
     refuse: ``reply`` says why. ``lessons``: for the graph.
-    ``mentioned``: identifiers that were spoken of, for later pronouns, the newest first.
+    ``mentioned``: identifiers that were spoken of, for later pronouns, the newest first. ``sought``: the kind of thing
+    that was never seen, if that is why nothing can be done.
     """
 
     kind: Kind
@@ -163,6 +172,7 @@ class Interpretation:
     query: Query | None = None
     mentioned: tuple[str, ...] = ()
     lessons: tuple[Lesson, ...] = ()
+    sought: str = ""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -172,7 +182,8 @@ class Dialogue:
     ``answers``: the robot's questions about this very request and what was answered, oldest first. ``mentioned``:
     identifiers spoken of in earlier requests, the newest first. ``speaker``: the person who asks, if known.
     ``earlier``: what was asked before, the newest first. ``origins``: where things were before they were last moved.
-    ``last``: identifiers that the turn before spoke of, which *them* may mean.
+    ``last``: identifiers that the turn before spoke of, which *them* may mean. ``task``: whose request it is, for
+    journals.
     """
 
     answers: tuple[tuple[str, str], ...] = ()
@@ -181,3 +192,4 @@ class Dialogue:
     earlier: tuple[Exchange, ...] = ()
     origins: Mapping[str, str] = field(default_factory=dict)
     last: tuple[str, ...] = ()
+    task: str = ""

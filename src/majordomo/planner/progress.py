@@ -102,8 +102,7 @@ class Progress:
 
     def report(self) -> PlanReport:
         """The plan as the API shows it."""
-        steps = tuple(self._reports)
-        return PlanReport(source=self.plan.source.value, revision=self.plan.revision, goals=self._goals, steps=steps)
+        return PlanReport.of(self.plan, self._goals, tuple(self._reports))
 
     def _mark(self, status: StepStatus) -> None:
         self._reports[self._index] = replace(self._reports[self._index], status=status)

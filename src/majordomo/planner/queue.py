@@ -7,13 +7,16 @@ from dataclasses import replace
 from types import MappingProxyType
 from typing import Any
 
-from majordomo.planner.errors import OperationNotAllowed, TaskNotFound
+from majordomo.planner.errors import OperationNotAllowed, PlanChanged, QueueFull, TaskNotFound
 from majordomo.planner.plan import Kind
 from majordomo.planner.tasks import Approval, Task, TaskStatus, TaskTimes
 
 TaskListener = Callable[[Task], None]
 KEEP = 500
 """Of ended tasks, the newest that are remembered."""
+MOST_OPEN = 500
+"""Tasks that may wait at a time."""
+TURNED_DOWN = "You turned the plan down; nothing was done."
 
 OPERATIONS: Mapping[str, tuple[frozenset[TaskStatus], TaskStatus]] = MappingProxyType(
     {
@@ -56,6 +59,13 @@ class TaskQueue:
         return None
 
     @property
+    def waiting(self) -> tuple[Task, ...]:
+        """The task that has the robot, and those that wait for it, in the order in which they will have it."""
+        current = self.current
+        others = (t for t in self._tasks.values() if t.status in (TaskStatus.PLANNING, TaskStatus.QUEUED))
+        return () if current is None else (current, *(task for task in others if task.id != current.id))
+
+    @property
     def unread(self) -> Task | None:
         """The first task in the queue that nobody has tried to understand yet, or whose question was answered."""
         queued = (task for task in self._tasks.values() if task.status is TaskStatus.QUEUED)
@@ -77,14 +87,37 @@ class TaskQueue:
             raise TaskNotFound(task_id, tuple(self._tasks)[-10:]) from None
 
     def submit(
-        self, request: str, *, stamp_s: float, approval: Approval = Approval.AUTO, dry_run: bool = False
+        self,
+        request: str,
+        *,
+        stamp_s: float,
+        approval: Approval = Approval.AUTO,
+        dry_run: bool = False,
+        key: str | None = None,
+        urgent: bool = False,
     ) -> Task:
-        """Append a request; identifiers count up from ``task_1``."""
+        """Append a request; identifiers count up from ``task_1``. ``urgent``: take it however many are open.
+
+        Raises:
+            QueueFull: too many tasks are open.
+        """
+        if not urgent and sum(not task.status.ended for task in self._tasks.values()) >= MOST_OPEN:
+            raise QueueFull(MOST_OPEN)
         self._count += 1
-        times = TaskTimes(received_s=stamp_s)
-        task = Task(id=f"task_{self._count}", request=request, times=times, approval=approval, dry_run=dry_run)
+        task = Task(
+            id=f"task_{self._count}",
+            request=request,
+            times=TaskTimes(received_s=stamp_s),
+            approval=approval,
+            dry_run=dry_run,
+            key=key,
+        )
         self._forget_oldest()
-        return self._publish(task)
+        try:
+            return self._publish(task)
+        except BaseException:
+            self._tasks.pop(task.id, None)  # who asked is told that it was not taken, so nobody may carry it out
+            raise
 
     def move(self, task_id: str, status: TaskStatus, *, stamp_s: float, **changes: Any) -> Task:
         """Put a task into another status, if that is legal."""
@@ -94,13 +127,23 @@ class TaskQueue:
         """Change a task's record, not its status."""
         return self._publish(replace(self.task(task_id), **changes))
 
-    def approve(self, task_id: str, *, stamp_s: float) -> Task:
-        """Let a planned task run; its plan is checked again when its turn comes."""
+    def approve(self, task_id: str, *, stamp_s: float, revision: int | None = None) -> Task:
+        """Let a planned task run; its plan is checked again when its turn comes.
+
+        ``revision``: that of the plan which the person has seen.
+
+        Raises:
+            PlanChanged: the task's plan is another by now.
+        """
+        task = self.task(task_id)
+        waits = task.status is TaskStatus.AWAITING_APPROVAL and task.plan is not None
+        if waits and task.plan is not None and revision not in (None, task.plan.revision):
+            raise PlanChanged(task_id, revision or 0, task.plan.revision)
         return self._operate("approve", task_id, stamp_s, approved=True)
 
     def reject(self, task_id: str, *, stamp_s: float) -> Task:
         """Turn a plan down; the task ends."""
-        return self._operate("reject", task_id, stamp_s, explanation="You turned the plan down; nothing was done.")
+        return self._operate("reject", task_id, stamp_s, explanation=TURNED_DOWN)
 
     def answer(self, task_id: str, text: str, *, stamp_s: float) -> Task:
         """Answer the robot's question; the task is planned again with the answer."""

@@ -8,7 +8,7 @@ from typing import Protocol
 
 from majordomo.planner.explainer import exhausted_reason
 from majordomo.planner.goals import Goal
-from majordomo.planner.plan import Flaw, Impossible, Plan, Source
+from majordomo.planner.plan import Flaw, Impossible, Plan, Reread, Source
 from majordomo.planner.situation import is_missing
 from majordomo.scene_graph.nodes import ObjectNode, ObjectState
 from majordomo.scene_graph.snapshot import Snapshot
@@ -31,21 +31,56 @@ class Verifier(Protocol):
         """Places to look for an object, most likely first."""
         ...
 
+    def scouting_plan(
+        self, kind: str, snapshot: Snapshot, since_s: float, already_looked: Sequence[str]
+    ) -> Plan | None:
+        """Places to look for a thing of a kind of which none was ever seen."""
+        ...
+
 
 @dataclass(kw_only=True)
 class Hunt:
-    """The search for one object: since when, where the robot has looked, and where it could not get to."""
+    """The search for one object: since when, where the robot has looked, and where it could not get to.
+
+    ``by_looks``: what looks like it and turned up later may be it, under another identifier.
+    """
 
     object_id: str
     since_s: float
+    by_looks: bool = True
     looked: list[str] = field(default_factory=list)
     skipped: list[str] = field(default_factory=list)
 
     def found(self, snapshot: Snapshot) -> bool:
         """Whether the object has been seen since the search began."""
         node = snapshot.get(self.object_id)
-        present = isinstance(node, ObjectNode) and node.state is not ObjectState.MISSING
-        return present and isinstance(node, ObjectNode) and node.last_seen_s > self.since_s
+        if not isinstance(node, ObjectNode):
+            return False
+        seen = node.state is not ObjectState.MISSING and node.last_seen_s > self.since_s
+        return seen or self.turned_up(snapshot)
+
+    def turned_up(self, snapshot: Snapshot) -> bool:
+        """Whether something that looks like it was first seen after it was last seen itself."""
+        lost = snapshot.get(self.object_id)
+        if not (self.by_looks and isinstance(lost, ObjectNode) and lost.state is ObjectState.MISSING):
+            return False
+        return any(_is_like(node, lost) for node in snapshot.of_type(ObjectNode))
+
+
+class PlanMaker(Protocol):
+    """What an errand asks for plans, until one is done or none is left."""
+
+    def hunt(self, object_id: str) -> Hunt | None:
+        """The search for an object, if one has begun."""
+        ...
+
+    def plan(self, goals: Sequence[Goal], snapshot: Snapshot, stamp_s: float) -> Plan | Impossible | Reread:
+        """The next plan to the goals."""
+        ...
+
+    def flaws(self, plan: Plan, snapshot: Snapshot) -> Sequence[Flaw]:
+        """What keeps the rest of a plan from being carried out."""
+        ...
 
 
 class Replanner:
@@ -59,11 +94,26 @@ class Replanner:
         """The search for an object, if one has begun."""
         return self._hunts.get(object_id)
 
-    def plan(self, goals: Sequence[Goal], snapshot: Snapshot, stamp_s: float) -> Plan | Impossible:
-        """A plan to the goals, or a plan to look for the first object that is missing."""
-        missing = next((node_id for node_id in _needed(goals) if is_missing(node_id, snapshot)), None)
-        if missing is not None:
-            return self._search(missing, snapshot, stamp_s)
+    def first_plan(self, goals: Sequence[Goal], snapshot: Snapshot, stamp_s: float) -> Plan | Impossible:
+        """The plan to begin with: where the words mean what is missing, that is looked for, whatever looks like it."""
+        missing = _missing(goals, snapshot)
+        if missing is None:
+            return self._direct(goals, snapshot)
+        hunt = self._begun(missing, stamp_s)
+        hunt.by_looks = not hunt.turned_up(snapshot)
+        return self._search(hunt, snapshot)
+
+    def plan(self, goals: Sequence[Goal], snapshot: Snapshot, stamp_s: float) -> Plan | Impossible | Reread:
+        """A plan to the goals, or a plan to look for the first object that is missing; what looks like that and turned
+        up later has the request understood anew.
+        """
+        missing = _missing(goals, snapshot)
+        if missing is None:
+            return self._direct(goals, snapshot)
+        hunt = self._begun(missing, stamp_s)
+        return Reread() if hunt.turned_up(snapshot) else self._search(hunt, snapshot)
+
+    def _direct(self, goals: Sequence[Goal], snapshot: Snapshot) -> Plan | Impossible:
         self._hunts.clear()
         plan = self._verifier.plan_for(goals, snapshot)
         return replace(plan, source=self._source) if isinstance(plan, Plan) else plan
@@ -72,14 +122,28 @@ class Replanner:
         """What keeps the rest of a plan from being carried out."""
         return self._verifier.check_plan(plan, snapshot) if plan.revision != snapshot.revision else ()
 
-    def _search(self, object_id: str, snapshot: Snapshot, stamp_s: float) -> Plan | Impossible:
-        hunt = self._hunts.setdefault(object_id, Hunt(object_id=object_id, since_s=stamp_s))
-        been = (*hunt.looked, *hunt.skipped)
+    def _begun(self, object_id: str, stamp_s: float) -> Hunt:
+        return self._hunts.setdefault(object_id, Hunt(object_id=object_id, since_s=stamp_s))
+
+    def _search(self, hunt: Hunt, snapshot: Snapshot) -> Plan | Impossible:
+        object_id, been = hunt.object_id, (*hunt.looked, *hunt.skipped)
         plan = self._verifier.search_plan(object_id, snapshot, hunt.since_s, been)
         if isinstance(plan, Plan) and plan.steps:
             return plan
         reason = exhausted_reason(object_id, hunt.looked, hunt.skipped, snapshot)
         return Impossible(reason=reason, nodes=(object_id,), lost=object_id)
+
+
+def _missing(goals: Sequence[Goal], snapshot: Snapshot) -> str | None:
+    """The first node that goals need and that is not where it was."""
+    return next((node_id for node_id in _needed(goals) if is_missing(node_id, snapshot)), None)
+
+
+def _is_like(node: ObjectNode, lost: ObjectNode) -> bool:
+    """Whether a thing has kind and color of a lost one, and was first seen after that was last seen."""
+    alike = (node.label, node.color, node.graspable) == (lost.label, lost.color, lost.graspable)
+    later = node.first_seen_s > lost.last_seen_s
+    return node.id != lost.id and node.state is ObjectState.PRESENT and alike and later
 
 
 def _needed(goals: Sequence[Goal]) -> list[str]:

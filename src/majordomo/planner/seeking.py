@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from dataclasses import replace
 from math import inf
 
 from majordomo.planner.goals import goal
+from majordomo.planner.likely_rooms import room_weights
 from majordomo.planner.naming import name_of
 from majordomo.planner.plan import Impossible, Plan, Source, Step
 from majordomo.scene_graph.identifiers import natural_key
-from majordomo.scene_graph.nodes import ObjectNode, RoomNode
+from majordomo.scene_graph.nodes import UNKNOWN_LABEL, ObjectNode, ObjectState, RoomNode
 from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.skills.state import PlanState, Thing
 
@@ -24,53 +26,85 @@ def seeking_plan(
 ) -> Plan | Impossible:
     """A tour of the places where ``object_id`` may be.
 
-    Rooms nearest to where it was last known come first; in a room, surfaces that were never inspected, then the others,
-    each time the nearest one, and at last the room as a whole. Left out is what was looked at since ``since_s`` or is
+    The next room is the one that is likeliest to hold it for the time that it takes to get there and to look through
+    it; in a room, surfaces that were never inspected come first, then the others, each time the nearest one, and at
+    last the room as a whole. Left out is what was looked at since ``since_s`` or is
     in ``already_looked``, and what cannot be reached.
     """
     last_room = snapshot.room_of(object_id) or state.robot_room
     rooms = (room.id for room in snapshot.of_type(RoomNode))
     surfaces = (node.id for node in snapshot.of_type(ObjectNode) if node.support)
-    places = (state.world.things[place] for place in (*rooms, *surfaces) if place in state.world.things)
-    open_places = [
-        thing
-        for thing in places
-        if thing.id != object_id and thing.id not in already_looked and _may_hold(thing, snapshot, since_s)
-    ]
-    reachable = [thing for thing in open_places if _distance_m(state, state.robot_at, thing.id) < inf]
+    reachable = _reachable((*rooms, *surfaces), {object_id, *already_looked}, snapshot, state, since_s)
     if not reachable:
         name = name_of(object_id, snapshot)
         return Impossible(reason=f"I have looked everywhere I can get to and did not find {name}.", nodes=(object_id,))
-    tour, length_m = _tour(reachable, last_room, snapshot, state)
+    node = snapshot.get(object_id)
+    called = (node.label, *node.categories) if isinstance(node, ObjectNode) else ()
+    plan = _plan(reachable, room_weights(called, last_room, snapshot), snapshot, state)
+    return replace(plan, goals=(goal("found", object_id),), seeking=object_id)
+
+
+def scouting_plan(
+    kind: str, snapshot: Snapshot, state: PlanState, since_s: float, already_looked: Collection[str]
+) -> Plan | None:
+    """A tour of the places where a thing of a ``kind`` may be of which none was ever seen; None when none is left.
+
+    As for a thing that is lost, but that it was nowhere before; and small things that have no name yet are
+    looked at from near, since one of them may be it.
+    """
+    rooms = (room.id for room in snapshot.of_type(RoomNode))
+    things = (node.id for node in snapshot.of_type(ObjectNode) if node.support or _is_nameless(node))
+    reachable = _reachable((*rooms, *things), set(already_looked), snapshot, state, since_s)
+    if not reachable:
+        return None
+    return replace(_plan(reachable, room_weights((kind,), None, snapshot), snapshot, state), seeking=kind)
+
+
+def _reachable(
+    places: Iterable[str], without: set[str], snapshot: Snapshot, state: PlanState, since_s: float
+) -> list[Thing]:
+    things = [state.world.things[place] for place in places if place in state.world.things and place not in without]
+    there = [thing for thing in things if _may_hold(thing, snapshot, since_s)]
+    return [thing for thing in there if _distance_m(state, state.robot_at, thing.id) < inf]
+
+
+def _plan(places: list[Thing], weights: Mapping[str, float], snapshot: Snapshot, state: PlanState) -> Plan:
+    tour, length_m = _tour(places, weights, snapshot, state)
     return Plan(
         source=Source.SEARCH,
         revision=snapshot.revision,
-        goals=(goal("found", object_id),),
+        goals=(),
         steps=tuple(Step(skill="GOTO", args=(place,)) for place in tour),
         expected_s=length_m / SPEED_MPS + LOOK_S * len(tour),
         expected_m=length_m,
-        seeking=object_id,
     )
+
+
+def _is_nameless(node: ObjectNode) -> bool:
+    return node.graspable and node.label == UNKNOWN_LABEL and node.state is ObjectState.PRESENT
 
 
 def _may_hold(thing: Thing, snapshot: Snapshot, since_s: float) -> bool:
     if thing.kind == "room":
         return True
     node = snapshot.get(thing.id)
+    if isinstance(node, ObjectNode) and _is_nameless(node):
+        return True
     if not isinstance(node, ObjectNode) or not thing.support or thing.graspable:
         return False
     return node.inspected_s is None or node.inspected_s < since_s
 
 
-def _tour(places: list[Thing], last_room: str | None, snapshot: Snapshot, state: PlanState) -> tuple[list[str], float]:
-    rooms = sorted(
-        {thing.room or thing.id for thing in places},
-        key=lambda room: (_distance_m(state, last_room or room, room), natural_key(room)),
-    )
+def _tour(
+    places: list[Thing], weights: Mapping[str, float], snapshot: Snapshot, state: PlanState
+) -> tuple[list[str], float]:
+    """The places in the order in which to look at them, and the length of the way."""
     tour: list[str] = []
     here, length_m = state.robot_at, 0.0
-    for room in rooms:
-        left = [thing for thing in places if (thing.room or thing.id) == room]
+    rooms = _by_room(places)
+    while rooms:
+        room = min(rooms, key=lambda room: (-_worth(room, rooms[room], weights, here, state), natural_key(room)))
+        left = rooms.pop(room)
         while left:
             best = min(left, key=lambda thing: (*_rank(thing, snapshot), _distance_m(state, here, thing.id), thing.id))
             length_m += _distance_m(state, here, best.id)
@@ -78,6 +112,19 @@ def _tour(places: list[Thing], last_room: str | None, snapshot: Snapshot, state:
             tour.append(best.id)
             left.remove(best)
     return tour, length_m
+
+
+def _by_room(places: Iterable[Thing]) -> dict[str, list[Thing]]:
+    rooms: dict[str, list[Thing]] = {}
+    for thing in places:
+        rooms.setdefault(thing.room or thing.id, []).append(thing)
+    return rooms
+
+
+def _worth(room: str, places: Sequence[Thing], weights: Mapping[str, float], here: str, state: PlanState) -> float:
+    """Likelihood per second: looking in that order finds a thing in the least time on the average."""
+    way_m = min(_distance_m(state, here, thing.id) for thing in places)
+    return weights.get(room, 1.0) / (way_m / SPEED_MPS + LOOK_S * len(places))
 
 
 def _rank(thing: Thing, snapshot: Snapshot) -> tuple[bool, bool]:

@@ -6,7 +6,7 @@ import re
 from collections.abc import Sequence
 
 from majordomo.planner.goals import PLACING, Goal
-from majordomo.planner.nameless import likely_label
+from majordomo.planner.nameless import LIKELY, likely_label
 from majordomo.planner.phrasing import article
 from majordomo.planner.vocabulary import normal, singular, words_for
 from majordomo.scene_graph.nodes import UNKNOWN_LABEL, ObjectNode
@@ -38,6 +38,7 @@ class TakenFor:
             for label in (likely_label(node) or normal(node.label),)
             if spoken & {part for name in _names(label) for part in name.split()}
         }
+        self._guessed = frozenset(i for i in self._labels if likely_label(snapshot.object(i)) is not None)
 
     def mistake(self, snapshot: Snapshot, *, at_last: bool = False) -> Failure | None:
         """The first thing that surely is of another kind than the request called it; ``at_last``, when everything is to
@@ -60,6 +61,24 @@ class TakenFor:
                 )
                 gone = FailureCode.SUPPORT_GONE if object_id in self._places else FailureCode.OBJECT_GONE
                 return Failure(code=gone if sure else FailureCode.NOT_CONFIRMED, message=message, evidence=evidence)
+        return None
+
+    def refuted(self, snapshot: Snapshot, *, at_last: bool = False) -> Failure | None:
+        """The first thing that has no name, any more or still, and surely is not what it was taken for. ``at_last``,
+        one that never had a name has to be that most probably.
+        """
+        for object_id, called in self._labels.items():
+            node = snapshot.get(object_id)
+            if not isinstance(node, ObjectNode) or normal(node.label) != UNKNOWN_LABEL:
+                continue
+            chance = {normal(label): p for label, p in node.label_distribution}.get(called, 0.0)
+            if chance < (LIKELY if at_last and object_id in self._guessed else RULED_OUT):
+                evidence = Evidence(
+                    nodes=(object_id,), revision=snapshot.revision, observation=f"{called}: {chance:.2f}"
+                )
+                message = f"Seen from near, what might have been {article(called)} is something I have no name for."
+                gone = FailureCode.SUPPORT_GONE if object_id in self._places else FailureCode.OBJECT_GONE
+                return Failure(code=gone, message=message, evidence=evidence)
         return None
 
 

@@ -69,7 +69,7 @@ class TaskPlanner:
             return _without_model(reading.interpretation, outcome)
         if outcome.kind is Kind.ANSWER:
             return self._answered(outcome, reading, snapshot, dialogue)
-        return outcome
+        return replace(outcome, sought=reading.interpretation.sought) if outcome.kind is Kind.REFUSE else outcome
 
     def read(self, text: str, snapshot: Snapshot, dialogue: Dialogue) -> Reading:
         """The grammar's reading of the request and the answers given so far."""

@@ -9,7 +9,9 @@ from types import MappingProxyType
 from typing import Any
 
 from majordomo.planner.errors import IllegalTransition
+from majordomo.planner.forecast import NO_CHANGES, Forecast
 from majordomo.planner.goals import Goal
+from majordomo.planner.plan import Plan
 from majordomo.skills.failures import Evidence
 
 NO_EVIDENCE = Evidence()
@@ -53,7 +55,7 @@ TRANSITIONS: Mapping[TaskStatus, frozenset[TaskStatus]] = MappingProxyType(
         TaskStatus.AWAITING_ANSWER: frozenset({TaskStatus.QUEUED, TaskStatus.CANCELLED}),
         TaskStatus.AWAITING_APPROVAL: frozenset({TaskStatus.QUEUED, TaskStatus.CANCELLED}),
         TaskStatus.RUNNING: frozenset(
-            {TaskStatus.PAUSED, TaskStatus.SUCCEEDED, TaskStatus.FAILED, TaskStatus.CANCELLED}
+            {TaskStatus.PLANNING, TaskStatus.PAUSED, TaskStatus.SUCCEEDED, TaskStatus.FAILED, TaskStatus.CANCELLED}
         ),
         TaskStatus.PAUSED: frozenset({TaskStatus.RUNNING, TaskStatus.CANCELLED}),
         TaskStatus.SUCCEEDED: frozenset(),
@@ -107,12 +109,33 @@ class StepReport:
 
 @dataclass(frozen=True, kw_only=True)
 class PlanReport:
-    """The plan in force: where it came from, the graph revision it was made on, its goals and steps."""
+    """The plan in force: where it came from, the graph revision it was made on, its goals and steps.
+
+    ``expected_s``, ``expected_m``: estimated time, and way. ``changes``: to the graph, at its end.
+    """
 
     source: str
     revision: int
     goals: tuple[Goal, ...]
     steps: tuple[StepReport, ...]
+    expected_s: float = 0.0
+    expected_m: float = 0.0
+    changes: Forecast = NO_CHANGES
+
+    @classmethod
+    def of(cls, plan: Plan, goals: tuple[Goal, ...], steps: tuple[StepReport, ...] | None = None) -> PlanReport:
+        """The record of ``plan``, made for ``goals``; none of its steps has begun unless ``steps`` say otherwise."""
+        if steps is None:
+            steps = tuple(StepReport(skill=step.skill, args=step.args) for step in plan.steps)
+        return cls(
+            source=plan.source.value,
+            revision=plan.revision,
+            goals=goals,
+            steps=steps,
+            expected_s=plan.expected_s,
+            expected_m=plan.expected_m,
+            changes=plan.changes,
+        )
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -154,7 +177,8 @@ class Task:
     """One request and everything that became of it.
 
     ``dialogue``: what the robot asked and what was answered, as (question, answer) pairs, the last answer ``""`` while
-    open. ``candidates``: identifiers to choose from while an answer is awaited.
+    open. ``candidates``: identifiers to choose from while an answer is awaited. ``key``: what the client called the
+    request, so that it can send it again without asking for it twice.
     """
 
     id: str
@@ -173,6 +197,7 @@ class Task:
     failures: tuple[FailureReport, ...] = ()
     verified: tuple[VerifiedGoal, ...] = ()
     explanation: str = ""
+    key: str | None = None
 
     def to(self, status: TaskStatus, *, stamp_s: float, **changes: Any) -> Task:
         """This task in another status, with its times kept.
@@ -193,6 +218,7 @@ class Task:
     def document(self) -> dict[str, Any]:
         """The task as the API shows it (design, section 9)."""
         fields = asdict(self)
+        del fields["key"]
         fields["plan"] = _plan_document(self.plan) if self.plan is not None else None
         fields["verified"] = [{**_goal_document(v.goal), "confirmed": v.confirmed} for v in self.verified]
         fields["dialogue"] = [{"question": question, "answer": answer} for question, answer in self.dialogue]
@@ -202,7 +228,18 @@ class Task:
 def _plan_document(plan: PlanReport) -> dict[str, Any]:
     steps = [asdict(step) | {"seconds": round(step.seconds, 3)} for step in plan.steps]
     goals = [_goal_document(goal) for goal in plan.goals]
-    return {"source": plan.source, "revision": plan.revision, "goals": goals, "steps": steps}
+    return {
+        "source": plan.source,
+        "revision": plan.revision,
+        "goals": goals,
+        "steps": steps,
+        "expected_s": round(plan.expected_s, 1),
+        "expected_m": round(plan.expected_m, 2),
+        "changes": {
+            "added": [_goal_document(fact) for fact in plan.changes.added],
+            "removed": [_goal_document(fact) for fact in plan.changes.removed],
+        },
+    }
 
 
 def _goal_document(goal: Goal) -> dict[str, Any]:

@@ -11,12 +11,13 @@ from math import inf
 
 from majordomo.planner.arranging import Leg, orders
 from majordomo.planner.flaws import goal_flaws
+from majordomo.planner.forecast import forecast
 from majordomo.planner.goals import Goal, holds, lasting
 from majordomo.planner.naming import goal_phrase, humanize
 from majordomo.planner.operators import GOTO
 from majordomo.planner.plan import Flaw, Impossible, Plan, Source, Step
 from majordomo.planner.search import Exhausted, Found, Search, one_by_one
-from majordomo.planner.seeking import seeking_plan
+from majordomo.planner.seeking import scouting_plan, seeking_plan
 from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.skills.skill import Skill
 from majordomo.skills.state import PlanState
@@ -57,13 +58,15 @@ class Verifier:
         found = self._searched(goals, state)
         if isinstance(found, Exhausted):
             return _impossible(goals, found, snapshot, state)
+        length_m, end = self._carried_out(found.steps, state)
         plan = Plan(
             source=source,
             revision=snapshot.revision,
             goals=tuple(goals),
             steps=found.steps,
             expected_s=found.cost_s,
-            expected_m=self._length_m(found.steps, state),
+            expected_m=length_m,
+            changes=forecast(state, end, [arg for step in found.steps for arg in step.args]),
         )
         unproven = self.check_plan(plan, snapshot)
         return Impossible(reason=unproven[0].message, nodes=unproven[0].nodes) if unproven else plan
@@ -128,19 +131,26 @@ class Verifier:
             return Impossible(reason=f"{object_id} is not in the scene graph.")
         return seeking_plan(object_id, snapshot, self.state(snapshot), since_s, already_looked)
 
+    def scouting_plan(
+        self, kind: str, snapshot: Snapshot, since_s: float, already_looked: Collection[str] = ()
+    ) -> Plan | None:
+        """Places to look for a thing of a ``kind`` of which none was ever seen; None when no place is left."""
+        return scouting_plan(kind, snapshot, self.state(snapshot), since_s, already_looked)
+
     def state(self, snapshot: Snapshot) -> PlanState:
         """The facts of ``snapshot``; those of the last one asked for are kept."""
         if self._read is None or self._read[0] is not snapshot:
             self._read = (snapshot, PlanState.from_snapshot(snapshot))
         return self._read[1]
 
-    def _length_m(self, steps: Sequence[Step], state: PlanState) -> float:
+    def _carried_out(self, steps: Sequence[Step], state: PlanState) -> tuple[float, PlanState]:
+        """How far the robot goes on a sound plan, in meters, and the state at its end."""
         length_m = 0.0
         for step in steps:
             after = self._skills[step.skill].effects(state, step.args)
             length_m += state.distance_m(state.robot_at, after.robot_at) or 0.0
             state = after
-        return length_m
+        return length_m, state
 
 
 def _impossible(goals: Sequence[Goal], exhausted: Exhausted, snapshot: Snapshot, state: PlanState) -> Impossible:

@@ -157,6 +157,19 @@ def test_a_request_is_planned_carried_out_and_confirmed():
     assert task.times.received_s <= task.times.planned_s <= task.times.started_s < task.times.ended_s
 
 
+def test_what_confirms_each_step_is_told_before_the_step_counts_as_done():
+    show = Show()
+    show.finish()
+    told = [event for event in show.events if event["event"] in ("observed", "step_done")]
+    assert [event["event"] for event in told] == ["observed", "step_done"] * 4
+    assert [event["step"] for event in told[::2]] == [event["step"] for event in told[1::2]]
+    seen = [event["seen"] for event in told[::2]]
+    assert seen[0].startswith("the robot is at ")
+    assert seen[1].startswith("the blue bottle is in my gripper, seen ")
+    assert seen[3].startswith("the blue bottle is on the desk in the office, seen ")
+    assert all(event["revision"] > 0 for event in told[::2])
+
+
 def test_after_the_task_its_intention_is_withdrawn_and_exploration_goes_on():
     show = Show(Script(ticks=30))
     look = HasIntentionEdge(
@@ -712,3 +725,52 @@ def test_two_runs_of_the_same_mission_log_the_same_events():
         logs.append(show.events)
     assert logs[0] == logs[1]
     assert {"understood", "planned", "step", "failure", "replan", "ended"} <= {event["event"] for event in logs[0]}
+
+
+class ByName:
+    """Means the bottle that is there rather than one that is missing."""
+
+    async def interpret(self, text, snapshot, dialogue):
+        del text, dialogue
+        bottles = [node for node in snapshot.of_type(ObjectNode) if node.label == "bottle"]
+        there = [node.id for node in bottles if node.state is ObjectState.PRESENT] or [node.id for node in bottles]
+        return Interpretation(kind=Kind.PLAN, goals=(goal("on", there[-1], "desk_1"),))
+
+
+def turn_up(show, *, color="blue", first_seen_s=None):
+    """Another bottle is seen on the shelf."""
+    snapshot = show.memory.snapshot()
+    seen_s = show.stamp_s if first_seen_s is None else first_seen_s
+    other = replace(snapshot.object("bottle_1"), id="bottle_2", color=color, first_seen_s=seen_s, last_seen_s=seen_s)
+    other = replace(other, state=ObjectState.PRESENT)
+    shelf = replace(snapshot.parent("shelf_1"), target="bottle_2")
+    on_it = RelationEdge(source="bottle_2", target="shelf_1", predicate="on", probability=0.95)
+    edits = [PutNode(other), PutEdge(shelf), PutEdge(InEdge(source="bottle_2", target="room_1")), PutEdge(on_it)]
+    show.stage.places["bottle_2"] = "shelf_1"
+    show.memory.commit(edits, agent="objects", stamp_s=show.stamp_s)
+
+
+@pytest.mark.parametrize(("color", "status"), [("blue", TaskStatus.SUCCEEDED), ("red", TaskStatus.FAILED)])
+def test_what_looks_like_a_lost_thing_and_turned_up_later_is_taken_for_it(color, status):
+    show = Show()
+    show.mission = Mission(show.crew, ByName())
+    show.ask()
+    show.until_step("GOTO")
+    show.stage.places["bottle_1"] = None
+    show.run_until(lambda: show.task.plan.source == "search" and show.stage.robot_at == "desk_1")
+    turn_up(show, color=color)
+    show.run_until(lambda: show.task.status.ended, limit=20_000)
+    assert show.task.status is status
+    assert (show.stage.places["bottle_2"] == "desk_1") is (status is TaskStatus.SUCCEEDED)
+
+
+def test_who_means_the_very_thing_that_is_lost_has_it_looked_for_whatever_looks_like_it():
+    show = Show()
+    show.stage.places["bottle_1"] = "desk_1"
+    lost = replace(show.memory.snapshot().object("bottle_1"), state=ObjectState.MISSING)
+    show.memory.commit([PutNode(lost)], agent="objects", stamp_s=0.0)
+    turn_up(show, first_seen_s=1.0)
+    show.ask("take it")
+    show.run_until(lambda: show.task.status.ended, limit=20_000)
+    assert show.task.status is TaskStatus.SUCCEEDED
+    assert show.stage.places["bottle_1"] == GRIPPER

@@ -126,7 +126,7 @@ def outcome_of(seed):
         return meaning.kind.value
     proposed = [tuple(goal(each["predicate"], *each["args"]) for each in said[-1]["goals"])]
     assert [meaning.goals] == proposed
-    plan = Replanner(verifier).plan(meaning.goals, snapshot, snapshot.stamp_s)
+    plan = Replanner(verifier).first_plan(meaning.goals, snapshot, snapshot.stamp_s)
     if isinstance(plan, Impossible):
         assert plan.reason.strip()
         return "impossible"

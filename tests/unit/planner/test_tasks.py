@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import json
-from dataclasses import FrozenInstanceError
+from dataclasses import FrozenInstanceError, replace
 from itertools import pairwise
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from majordomo.planner.errors import IllegalTransition, OperationNotAllowed, TaskNotFound
+from majordomo.planner.errors import IllegalTransition, OperationNotAllowed, PlanChanged, QueueFull, TaskNotFound
 from majordomo.planner.goals import goal
-from majordomo.planner.queue import OPERATIONS, TaskQueue
+from majordomo.planner.queue import MOST_OPEN, OPERATIONS, TaskQueue
 from majordomo.planner.tasks import (
     TRANSITIONS,
     ActionReport,
@@ -118,6 +118,51 @@ def test_tasks_run_in_order_of_arrival_and_those_that_wait_for_a_person_step_asi
     answered = queue.answer(first.id, "the blue one", stamp_s=1.0)
     assert answered.dialogue == (("which?", "the blue one"),)
     assert queue.current == answered
+
+
+def test_an_approval_is_of_the_plan_that_was_looked_at_or_of_none():
+    plan = PlanReport(source="grammar", revision=7, goals=(goal("robot_at", "room_1"),), steps=())
+    waiting = replace(a_task(TaskStatus.AWAITING_APPROVAL), plan=plan)
+    for stale in (6, 8, 0, -1):
+        queue = TaskQueue([waiting])
+        with pytest.raises(PlanChanged) as error:
+            queue.approve("task_1", stamp_s=2.0, revision=stale)
+        assert (error.value.revision, queue.task("task_1")) == (7, waiting)
+    for seen in (7, None):
+        approved = TaskQueue([waiting]).approve("task_1", stamp_s=2.0, revision=seen)
+        assert (approved.status, approved.approved) == (TaskStatus.QUEUED, True)
+    with pytest.raises(OperationNotAllowed):
+        queue_with(TaskStatus.RUNNING).approve("task_1", stamp_s=2.0, revision=7)
+
+
+def test_the_queue_is_told_in_the_order_in_which_tasks_get_the_robot():
+    queue = TaskQueue()
+    for _ in range(5):
+        queue.submit("go", stamp_s=1.0)
+    queue.cancel("task_2", stamp_s=1.0)
+    for status in (TaskStatus.PLANNING, TaskStatus.RUNNING):
+        queue.move("task_3", status, stamp_s=2.0)
+    assert [task.id for task in queue.waiting] == ["task_3", "task_1", "task_4", "task_5"]
+    queue.cancel("task_3", stamp_s=3.0)
+    order = []
+    while (current := queue.current) is not None:
+        assert queue.waiting[0] is current
+        order.append(current.id)
+        queue.cancel(current.id, stamp_s=4.0)
+    assert order == ["task_1", "task_4", "task_5"]
+    assert queue.waiting == ()
+
+
+def test_only_so_many_tasks_wait_at_a_time_but_what_is_urgent_is_taken():
+    queue = TaskQueue()
+    for _ in range(MOST_OPEN):
+        queue.submit("go", stamp_s=1.0)
+    with pytest.raises(QueueFull):
+        queue.submit("go", stamp_s=1.0)
+    assert queue.submit("stop", stamp_s=1.0, urgent=True).id == f"task_{MOST_OPEN + 1}"
+    for task_id in ("task_1", f"task_{MOST_OPEN + 1}"):
+        queue.cancel(task_id, stamp_s=2.0)
+    assert queue.submit("go", stamp_s=3.0).status is TaskStatus.QUEUED
 
 
 def test_listeners_get_every_record_and_records_do_not_change():

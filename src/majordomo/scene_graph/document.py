@@ -119,6 +119,7 @@ class ObjectRecord(_NodeRecord):
     support: bool | None = None
     inspected_s: float | None = None
     observations: Annotated[int, Field(ge=0)] = 0
+    surfaces_m: tuple[Length, ...] = ()
 
 
 class PersonRecord(_NodeRecord):

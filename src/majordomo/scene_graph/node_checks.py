@@ -36,7 +36,7 @@ _LENGTHS: dict[type[Node], tuple[str, ...]] = {
     RoomNode: ("height_m",),
     WallNode: ("length_m",),
     DoorNode: ("width_m", "height_m"),
-    ObjectNode: ("size_m",),
+    ObjectNode: ("size_m", "surfaces_m"),
 }
 _FIELD_NAMES: dict[type[Node], tuple[str, ...]] = {
     cls: tuple(field.name for field in fields(cls) if field.name not in {"id", "label"})

@@ -159,4 +159,5 @@ def _object(record: ObjectRecord, places: Places, stamp_s: float) -> ObjectNode:
         support=supports,
         inspected_s=record.inspected_s,
         observations=record.observations,
+        surfaces_m=tuple(sorted(record.surfaces_m)),
     )

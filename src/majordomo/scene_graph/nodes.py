@@ -155,7 +155,8 @@ class ObjectNode:
 
     Its origin is the center of its extent, its axes are those of its parent unless measured. ``size_m`` is the extent
     along its own x, y, z. ``label_distribution`` holds (label, probability), most likely first. ``existence``
-    is the probability that it still is where it is said to be.
+    is the probability that it still is where it is said to be. ``surfaces_m``: heights above its own bottom on which
+    things can stand, such as the boards of a shelf, as measured, lowest first; empty where none was measured.
     """
 
     id: str
@@ -174,6 +175,7 @@ class ObjectNode:
     support: bool = False
     inspected_s: float | None = None
     observations: int = 0
+    surfaces_m: tuple[float, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -247,6 +247,7 @@ def _object_details(node: ObjectNode) -> Record:
         "support": node.support,
         "inspected_s": node.inspected_s,
         "observations": node.observations,
+        "surfaces_m": list(node.surfaces_m),
     }
 
 

@@ -8,10 +8,9 @@ from itertools import combinations, groupby, pairwise
 from math import dist, inf
 from typing import NamedTuple
 
-import igraph
-
 from majordomo.scene_graph.doors import PhysicalDoor, physical_doors
 from majordomo.scene_graph.errors import FramesNotConnected, UnknownRoom
+from majordomo.scene_graph.graph_library import igraph
 from majordomo.scene_graph.nodes import DoorState, RegionNode, RoomNode
 from majordomo.scene_graph.poses import layout
 from majordomo.scene_graph.snapshot import Snapshot

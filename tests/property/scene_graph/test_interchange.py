@@ -35,7 +35,9 @@ def houses(draw):
     for i in range(draw(st.integers(0, 3))):
         object_id, room = f"cup_{i}", draw(st.sampled_from(rooms))
         size = draw(st.tuples(*[st.floats(0.0, 2.0)] * 3))
-        nodes.append(ObjectNode(id=object_id, label="cup", existence=draw(probabilities), size_m=size))
+        surfaces = tuple(sorted(draw(st.lists(st.floats(0.0, 2.0), max_size=3))))
+        cup = ObjectNode(id=object_id, label="cup", existence=draw(probabilities), size_m=size, surfaces_m=surfaces)
+        nodes.append(cup)
         covariance = np.diag([*np.square(draw(deviations)), 0.0, 0.0, 0.0])
         edges.append(RtEdge(source=room, target=object_id, T_source_target=draw(poses), covariance=covariance))
         edges.append(InEdge(source=object_id, target=room))

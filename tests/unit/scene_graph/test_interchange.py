@@ -241,3 +241,15 @@ def test_what_is_no_json_is_refused():
         from_json({"nodes": [object()]})
     with pytest.raises(SceneFormatError, match="nodes: Field required"):
         from_json({})
+
+
+def test_the_boards_of_a_shelf_are_told_and_read_and_may_be_left_out():
+    document = kitchen()
+    assert from_json(document).object("table_1").surfaces_m == ()
+    document["nodes"][1]["surfaces_m"] = [0.6, 0.3]
+    told = to_json(from_json(document))
+    assert by_id(told)["table_1"]["surfaces_m"] == [0.3, 0.6]
+    assert from_json(told).object("table_1").surfaces_m == (0.3, 0.6)
+    document["nodes"][1]["surfaces_m"] = [-0.1]
+    with pytest.raises(SceneFormatError, match="surfaces_m"):
+        from_json(document)

@@ -1,5 +1,6 @@
 """What a building is after the robot was switched off and on again."""
 
+import json
 from dataclasses import replace
 
 import pytest
@@ -9,7 +10,7 @@ from majordomo.scene_graph.edits import PutEdge, PutNode, RemoveNode
 from majordomo.scene_graph.invariants import check
 from majordomo.scene_graph.long_term.keeping import rooms_to_keep, take_up
 from majordomo.scene_graph.long_term.long_term_store import LongTermStore
-from majordomo.scene_graph.long_term.room_files import StoredBuilding
+from majordomo.scene_graph.long_term.room_files import RoomFiles, StoredBuilding
 from majordomo.scene_graph.memory import WorkingMemory
 from majordomo.scene_graph.nodes import CrossingStatus, ObjectState, RoomNode, RoomStatus
 
@@ -51,6 +52,7 @@ def test_what_the_hand_held_is_missing_where_the_robot_was(memory):
         tx.put(replace(old, source="robot"))
     again, _ = restarted(memory.snapshot())
     assert again.object("bottle_2").state is ObjectState.MISSING
+    assert again.object("bottle_2").existence < 0.2
     assert again.room_of("bottle_2") == "room_1"
     assert again.position("bottle_2", "room_1") == pytest.approx(memory.snapshot().position("bottle_2", "room_1"))
 
@@ -112,3 +114,41 @@ def test_writing_leaves_the_memory_as_it_is(memory):
     before = memory.snapshot()
     rooms_to_keep(before)
     assert memory.snapshot() is before
+
+
+def test_ages_are_right_when_the_process_ended_between_a_room_and_the_building(house, tmp_path):
+    """Killed at its first writing, a robot whose clock began at 2000 s leaves rooms beside an older building file."""
+    seen_s = house.node("bottle_2").last_seen_s
+    rooms = rooms_to_keep(house)
+    RoomFiles(tmp_path, begun_s=1000.0).write(rooms, shared=(), stamp_s=900.0, saved_s=1900.0)
+    older = (tmp_path / "building.json").read_bytes()
+    RoomFiles(tmp_path, begun_s=2000.0).write(rooms, shared=(), stamp_s=seen_s + 5.0, saved_s=2000.0 + seen_s + 5.0)
+    (tmp_path / "building.json").write_bytes(older)
+    stored = RoomFiles(tmp_path).read()
+    assert set(stored.strays) == {parts.room_id for parts in rooms}
+    taken = take_up(stored, now_s=0.0, elapsed_s=2300.0 - stored.saved_s)
+    ages_s = {node.id: -node.last_seen_s for parts in taken.rooms for node in parts.nodes if node.id == "bottle_2"}
+    assert ages_s == {"bottle_2": pytest.approx(300.0 - seen_s)}
+
+
+def test_a_lost_building_file_makes_nothing_seen_in_the_future(house, tmp_path):
+    RoomFiles(tmp_path, begun_s=1000.0).write(rooms_to_keep(house), shared=(), stamp_s=900.0, saved_s=1900.0)
+    (tmp_path / "building.json").write_text("{")
+    taken = take_up(RoomFiles(tmp_path).read(), now_s=0.0, elapsed_s=0.0)
+    assert max(node.last_seen_s for parts in taken.rooms for node in parts.nodes if hasattr(node, "last_seen_s")) < 0.0
+
+
+def test_files_of_the_version_before_are_read_and_written_anew(house, tmp_path):
+    RoomFiles(tmp_path).write(rooms_to_keep(house), shared=(), stamp_s=12.0, saved_s=34.0)
+    for path in [tmp_path / "building.json", *(tmp_path / "rooms").iterdir()]:
+        document = json.loads(path.read_text())
+        news = ("held", "begun_s", *(("stamp_s", "saved_s") if path.parent.name == "rooms" else ()))
+        older = {name: value for name, value in document.items() if name not in news}
+        path.write_text(json.dumps(older | {"version": 1}))
+    files = RoomFiles(tmp_path, begun_s=5.0)
+    stored = files.read()
+    assert (stored.broken, stored.strays, stored.held) == ((), {}, None)
+    assert (stored.rooms, stored.stamp_s, stored.saved_s) == (rooms_to_keep(house), 12.0, 34.0)
+    files.write(stored.rooms, shared=(), stamp_s=1.0, saved_s=6.0, held="cup_1")
+    assert {json.loads(path.read_text())["version"] for path in tmp_path.rglob("*.json")} == {2}
+    assert RoomFiles(tmp_path).read().held == "cup_1"

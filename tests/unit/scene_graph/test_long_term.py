@@ -193,7 +193,7 @@ def write(folder, house):
     ("damage", "reason"),
     [
         (lambda text: text[: len(text) // 2], "delimiter|Unterminated|Expecting"),
-        (lambda text: text.replace('"version":1', '"version":99'), "version: 99 instead of 1"),
+        (lambda text: text.replace('"version":2', '"version":99'), "version: 99, and this program reads"),
         (lambda text: text.replace('"width_m"', '"wide"'), r"nodes\[\d+\].wide: no such field"),
         (lambda text: text.replace('"quat_wxyz":[1.0', '"quat_wxyz":["?"'), r"edges\[\d+\]"),
         (lambda _: "[]", "not an object"),
@@ -211,6 +211,9 @@ def test_a_broken_file_is_set_aside_and_the_rest_is_read(tmp_path, house, damage
     assert not path.exists()
     assert "set aside" in caplog.text
     assert re.search(reason, problem)
+    (tmp_path / "rooms" / "room_1.json").write_text("{")
+    assert RoomFiles(tmp_path).read().broken[0][0].name == "room_1.json.2.broken"
+    assert aside.exists()
 
 
 def test_a_file_is_only_written_when_its_room_has_changed(tmp_path, house):

@@ -40,6 +40,10 @@ from majordomo.scene_graph.nodes import (
 from majordomo.scene_graph.se3 import SE3
 from majordomo.scene_graph.snapshot import Snapshot
 
+LOST_EXISTENCE = 0.12
+"""Probability that a thing is where the hand had it, once the robot has been off: as for one that slipped away. It is
+recognized elsewhere the sooner.
+"""
 _ENDED = frozenset({IntentionStatus.DONE, IntentionStatus.FAILED})
 
 
@@ -68,15 +72,25 @@ def rooms_to_keep(building: Snapshot) -> tuple[RoomParts, ...]:
 def take_up(stored: StoredBuilding, *, now_s: float, elapsed_s: float) -> TakenUp:
     """The stored building at robot time ``now_s``, ``elapsed_s`` seconds after it was written."""
     shift_s = now_s - stored.stamp_s - elapsed_s
+    shifts_s = {
+        room: now_s - written.stamp_s - max(0.0, elapsed_s - (written.saved_s - stored.saved_s))
+        for room, written in stored.strays.items()
+    }
     shared = tuple(_shifted(node, shift_s) for node in stored.shared)
     rooms, dropped = _without_doubles(stored.rooms)
     while True:
-        whole = tuple(_shifted_room(parts, shift_s) for parts in _connected(rooms, shared))
+        connected = _connected(rooms, shared)
+        whole = tuple(_shifted_room(parts, shifts_s.get(parts.room_id, shift_s)) for parts in connected)
         flaws = _flaws(whole, shared)
         if not flaws:
             return TakenUp(rooms=whole, shared=shared, dropped=tuple(dropped))
         dropped += flaws.items()
         rooms = [parts for parts in rooms if parts.room_id not in flaws]
+
+
+def held_in(building: Snapshot) -> str | None:
+    """What the robot has in its hand."""
+    return building.robot.holding if building.robot is not None else None
 
 
 def _with_empty_hand(building: Snapshot) -> Snapshot:
@@ -87,7 +101,10 @@ def _with_empty_hand(building: Snapshot) -> Snapshot:
     place = RtEdge(source=room, target=held.id, T_source_target=building.transform(room, held.id))
     old = [edge.key for edge in (*building.edges_to(held.id), *building.edges_from(held.id))]
     return building.evolve(
-        put_nodes={held.id: replace(held, state=ObjectState.MISSING), robot.id: replace(robot, holding=None)},
+        put_nodes={
+            held.id: replace(held, state=ObjectState.MISSING, existence=min(held.existence, LOST_EXISTENCE)),
+            robot.id: replace(robot, holding=None),
+        },
         put_edges={edge.key: edge for edge in (place, InEdge(source=held.id, target=room))},
         removed_edges=old,
         revision=building.revision,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import base64
 import contextlib
 import itertools
 import json
@@ -20,7 +21,12 @@ from majordomo.app.settings import Settings
 GRAPH = Path(__file__).parents[2] / "data" / "flat_graph.json"
 TOKEN = Token("a-token-only-for-tests")
 LIMIT_S = 20.0
-KEYS = {"Enter": 13, "Escape": 27, "Tab": 9}
+KEYS = {"Enter": 13, "Escape": 27, "Tab": 9, "ArrowUp": 38, "ArrowDown": 40}
+
+
+def pytest_addoption(parser):
+    parser.addoption("--pictures", type=Path, help="Folder of the documentation, to renew its pictures of the page.")
+    parser.addoption("--explored", type=Path, help="Data folder of a service that has explored the flat.")
 
 
 @pytest.fixture
@@ -36,6 +42,8 @@ class Page:
         self._numbers = itertools.count(1000)
         self._answers: dict[int, asyncio.Future] = {}
         self.complaints: list[str] = []
+        self.trace: list[dict] = []
+        self.traced = asyncio.Event()
         self._reading = asyncio.create_task(self._read())
 
     async def close(self) -> None:
@@ -43,30 +51,33 @@ class Page:
         with contextlib.suppress(asyncio.CancelledError):
             await self._reading
 
-    async def call(self, method: str, **parameters):
+    async def call(self, method: str, *, limit_s: float = LIMIT_S, **parameters):
         number = next(self._numbers)
         self._answers[number] = asyncio.get_running_loop().create_future()
         message = {"id": number, "sessionId": self._session, "method": method, "params": parameters}
         await self._socket.send(json.dumps(message))
-        async with asyncio.timeout(LIMIT_S):
+        async with asyncio.timeout(limit_s):
             return await self._answers[number]
 
-    async def js(self, expression: str):
+    async def js(self, expression: str, limit_s: float = LIMIT_S):
         """The value of a JavaScript expression."""
         options = {"returnByValue": True, "awaitPromise": True}
-        result = await self.call("Runtime.evaluate", expression=expression, **options)
+        result = await self.call("Runtime.evaluate", limit_s=limit_s, expression=expression, **options)
         assert "exceptionDetails" not in result, result["exceptionDetails"]
         return result["result"].get("value")
 
-    async def until(self, condition: str):
+    async def until(self, condition: str, limit_s: float = LIMIT_S):
         """Wait until a JavaScript condition holds; its value."""
         watched = f"""new Promise((resolve) => {{
             const value = () => {{ try {{ return {condition}; }} catch (error) {{ return null; }} }};
-            const look = () => {{ const found = value(); found ? resolve(found) : setTimeout(look, 30); }};
-            setTimeout(() => resolve(null), {1000 * LIMIT_S - 1000});
+            const look = () => {{
+                const found = value();
+                found ? resolve(found instanceof Node || found) : setTimeout(look, 30);
+            }};
+            setTimeout(() => resolve(null), {1000 * limit_s - 1000});
             look();
         }})"""
-        value = await self.js(watched)
+        value = await self.js(watched, limit_s)
         assert value, f"it did not happen: {condition}\n{await self.js('document.body.innerText')}"
         return value
 
@@ -75,6 +86,11 @@ class Page:
         await self.call("Emulation.setDeviceMetricsOverride", **metrics)
         scheme = {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}
         await self.call("Emulation.setEmulatedMedia", features=[scheme])
+
+    async def picture(self) -> bytes:
+        """What is in view, as PNG."""
+        shot = await self.call("Page.captureScreenshot", format="png")
+        return base64.b64decode(shot["data"])
 
     async def open(self, address: str) -> None:
         await self.call("Page.navigate", url=address)
@@ -110,6 +126,10 @@ class Page:
     def _listen(self, method: str | None, parameters) -> None:
         """Keep what the page complains about."""
         match method:
+            case "Tracing.dataCollected":
+                self.trace += parameters["value"]
+            case "Tracing.tracingComplete":
+                self.traced.set()
             case "Runtime.exceptionThrown":
                 self.complaints.append(parameters["exceptionDetails"].get("exception", {}).get("description", "?"))
             case "Runtime.consoleAPICalled" if parameters["type"] in {"error", "warning", "assert"}:

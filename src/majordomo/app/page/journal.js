@@ -7,9 +7,10 @@ const DISCOVERED = new Set(["room", "door", "object", "person"]);
 const TOLD = new Set(["awaiting_answer", "awaiting_approval", "paused", "succeeded", "failed", "cancelled", "refused"]);
 
 export class Journal {
-  #list; #tasks = new Map();
+  #list; #announce; #tasks = new Map();
 
-  constructor(list) { this.#list = list; }
+  // `announce(text)` says aloud what a person waits for: questions, outcomes, what went wrong.
+  constructor(list, announce) { [this.#list, this.#announce] = [list, announce]; }
 
   say(message, stamp_s) {
     const [item, time] = [document.createElement("li"), document.createElement("time")];
@@ -36,9 +37,14 @@ export class Journal {
     const before = this.#tasks.get(task.id);
     const done = (plan) => plan?.steps.filter((part) => part.status === "succeeded").length ?? 0;
     if (!before) this.say(`asked: ${task.request}`, stamp_s);
-    for (const failure of task.failures.slice(before?.failures.length ?? 0)) this.say(failure.message, stamp_s);
+    for (const failure of task.failures.slice(before?.failures.length ?? 0)) this.#tell(failure.message, stamp_s);
     if (task.plan && done(task.plan) > done(before?.plan)) this.say(`done: ${step(task.plan.steps[done(task.plan) - 1], nodes)}`, stamp_s);
-    if (before && before.status !== task.status && (TOLD.has(task.status) || before.status === "paused")) this.say(`${task.status.replaceAll("_", " ")}: ${task.request}`, stamp_s);
+    if (before && before.status !== task.status && (TOLD.has(task.status) || before.status === "paused")) {
+      this.#tell(`${task.status.replaceAll("_", " ")}: ${task.request}`, stamp_s);
+      if (TOLD.has(task.status)) this.#announce([...new Set([task.reply, task.explanation])].filter(Boolean).join(" "));
+    }
     this.remember(task);
   }
+
+  #tell(message, stamp_s) { this.say(message, stamp_s); this.#announce(message); }
 }

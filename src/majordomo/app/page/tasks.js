@@ -1,104 +1,69 @@
-// Requests and what became of them: reply, plan as a timeline, failures with explanation, and what a person may do next.
+// The list of requests, newest first. Whatever happens to a task, focus, typing and what was unfolded stay.
 
-import { action, choices, goal, step } from "./words.js";
+import { morph } from "./morph.js";
+import { plansInTrace, taskItem } from "./task_view.js";
 
-const MARKS = { running: "▸", succeeded: "✓", failed: "✕", skipped: "–", interrupted: "–" };
-const ENDED = new Set(["succeeded", "failed", "cancelled", "refused"]);
-const OPERATIONS = { awaiting_approval: ["approve", "reject"], running: ["pause", "cancel"], paused: ["resume", "cancel"] };
+const SHOWN = 30;
 
-function el(name, className, ...content) {
-  const node = document.createElement(name);
-  if (className) node.className = className;
-  node.append(...content.filter((part) => part !== null && part !== ""));
-  return node;
-}
-
-// Shows tasks in a list, newest first, and touches only the items that changed, so that focus and typing stay.
 export class TaskList {
-  #list; #act; #items = new Map();
+  #list; #scene; #do; #items = new Map(); #tasks = new Map(); #past = new Map();
 
-  // `act(task id, operation, body)` carries out what a person chose.
-  constructor(list, act) { this.#list = list; this.#act = act; }
-
-  clear() { this.#items.clear(); this.#list.replaceChildren(); }
-
-  show(task, { nodes, edges }) {
-    const item = this.#item(task, nodes, edges);
-    const old = this.#items.get(task.id);
-    if (old) old.replaceWith(item);
-    else this.#list.prepend(item);
-    this.#items.set(task.id, item);
-    while (this.#list.children.length > 30) this.#forgetOldest();
+  // `scene`: { nodes, edges }. `act(task id, operation, body)` carries out what a person chose, `trace(task id)` promises the
+  // entries of its trace. The events "select-node" and "show-trace" ask those who can to show a node or the decisions about a task.
+  constructor(list, scene, { act, trace }) {
+    [this.#list, this.#scene, this.#do] = [list, scene, { act, trace }];
+    list.addEventListener("click", (event) => this.#click(event.target.closest("button")));
+    list.addEventListener("submit", (event) => { event.preventDefault(); this.#submit(event.target); });
+    list.addEventListener("toggle", ({ target }) => { if (target.matches(".earlier") && target.open) this.#remember(target.closest(".task").dataset.task); }, { capture: true });
   }
 
-  #forgetOldest() {
-    const oldest = this.#list.lastChild;
-    oldest.remove();
-    this.#items.delete(oldest.dataset.task);
+  // All tasks there are, oldest first; what is shown of others goes.
+  replace(tasks) {
+    const ids = new Set(tasks.map(({ id }) => id));
+    for (const id of [...this.#items.keys()]) if (!ids.has(id)) this.#forget(id);
+    for (const task of tasks.slice(-SHOWN)) this.show(task, task === tasks.at(-1));
   }
 
-  #item(task, nodes, edges) {
-    const item = el("li", `task ${task.status}`,
-      el("div", "heading", el("span", "words", task.request), el("span", "badge", statusWords(task))));
-    item.dataset.task = task.id;
-    for (const { question, answer } of task.dialogue) {
-      if (answer) item.append(el("p", "said", question, " ", el("b", "", answer)));
+  show(task, isOpen = true) {
+    const isNew = !this.#tasks.has(task.id);
+    const hasOtherPast = (this.#tasks.get(task.id)?.replans ?? 0) !== task.replans && this.#past.has(task.id);
+    this.#tasks.set(task.id, task);
+    const item = taskItem(task, this.#scene, { past: this.#past.get(task.id) ?? null, isOpen });
+    if (isNew) {
+      this.#items.set(task.id, item);
+      this.#list.prepend(item);
+      if (this.#list.children.length > SHOWN) this.#forget(this.#list.lastElementChild.dataset.task);
+    } else {
+      morph(this.#items.get(task.id), item);
+      if (hasOtherPast) this.#remember(task.id);
     }
-    if (task.reply && task.reply !== task.explanation) item.append(el("p", "reply", task.reply));
-    if (task.failures.length) item.append(el("ol", "failures", ...task.failures.map(failureItem)));
-    if (task.plan) item.append(el("ol", "steps", ...task.plan.steps.map((part) => stepItem(ENDED.has(task.status) && part.status === "running" ? { ...part, status: "interrupted" } : part, nodes))));
-    if (task.explanation && task.status !== "running") item.append(el("p", "reply", task.explanation));
-    if (ENDED.has(task.status) && task.verified.length) item.append(el("ul", "verified", ...task.verified.map((part) => verifiedItem(part, nodes))));
-    if (task.status === "awaiting_answer") item.append(this.#question(task, nodes, edges));
-    if (!ENDED.has(task.status)) item.append(this.#controls(task));
-    return item;
   }
 
-  #question(task, nodes, edges) {
-    const box = el("div", "question");
-    const answer = (text) => this.#act(task.id, "answer", { answer: text });
-    const buttons = choices(task.candidates, nodes, edges).map(({ id, text }) => button(text, () => answer(id)));
-    const input = el("input");
-    input.setAttribute("aria-label", "Answer");
-    input.placeholder = buttons.length ? "or in your own words" : "your answer";
-    const form = el("form", "row", input, button("Answer"));
-    form.addEventListener("submit", (event) => { event.preventDefault(); if (input.value.trim()) answer(input.value.trim()); });
-    box.append(...(buttons.length ? [el("div", "candidates", ...buttons)] : []), form);
-    return box;
+  #forget(id) {
+    this.#items.get(id).remove();
+    for (const kept of [this.#items, this.#tasks, this.#past]) kept.delete(id);
   }
 
-  #controls(task) {
-    const names = OPERATIONS[task.status] ?? ["cancel"];
-    return el("div", "controls", ...names.map((name) => button(name[0].toUpperCase() + name.slice(1), () => this.#act(task.id, name), name)));
+  // Asks for the plans that were given up, and shows them.
+  async #remember(id) {
+    const entries = await this.#do.trace(id);
+    if (!entries || !this.#tasks.has(id)) return;
+    this.#past.set(id, plansInTrace(entries));
+    this.show(this.#tasks.get(id));
   }
-}
 
-function statusWords({ status, plan, times }) {
-  if (status === "succeeded" && plan && times.started_s === null) return "planned only";
-  return { awaiting_answer: "question", awaiting_approval: "may I?" }[status] ?? status;
-}
+  #click(button) {
+    if (!button) return;
+    const { task, revision } = button.closest(".task").dataset, { act, answer, node } = button.dataset;
+    const say = (name, detail) => button.dispatchEvent(new CustomEvent(name, { bubbles: true, detail }));
+    if (node) say("select-node", node);
+    if ("trace" in button.dataset) say("show-trace", task);
+    if (answer) this.#do.act(task, "answer", { answer });
+    if (act) this.#do.act(task, act, act === "approve" ? { revision: Number(revision) } : undefined);
+  }
 
-function button(text, onClick, className = "") {
-  const node = el("button", className, text);
-  if (onClick) { node.type = "button"; node.onclick = onClick; }
-  return node;
-}
-
-function stepItem(part, nodes) {
-  const active = part.status === "running" && part.actions.find(({ status }) => status === "running");
-  const item = el("li", part.status, el("span", "mark", MARKS[part.status] ?? ""), el("span", "what", step(part, nodes)),
-    el("span", "seconds", part.seconds ? `${Math.round(part.seconds)} s` : ""));
-  if (active) item.append(el("span", "action", action(active.name, nodes)));
-  item.title = `${part.skill}(${part.args.join(", ")})`;
-  return item;
-}
-
-function failureItem(failure) {
-  const item = el("li", "", el("span", "", failure.message), " ", el("span", "suggestion", failure.suggestion));
-  item.title = failure.code.replaceAll("_", " ");
-  return item;
-}
-
-function verifiedItem(part, nodes) {
-  return el("li", part.confirmed ? "confirmed" : "", part.confirmed ? "seen: " : "not seen: ", goal(part, nodes));
+  #submit(form) {
+    const answer = form.querySelector("input").value.trim();
+    if (answer) this.#do.act(form.closest(".task").dataset.task, "answer", { answer });
+  }
 }

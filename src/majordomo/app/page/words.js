@@ -23,7 +23,8 @@ export function place(node, nodes, edges) {
   const support = [...edges.values()].filter(holds).sort((a, b) => b.probability - a.probability)[0];
   const room = nodes.get(node.room) ? `in ${definite(node.room, nodes)}` : "";
   if (node.state === "held") return "in my hand";
-  return [support ? `${support.label} ${definite(support.target, nodes)}` : "", room].filter(Boolean).join(" ");
+  const spot = support ? `${support.label} ${definite(support.target, nodes)}` : "";
+  return [spot, spot.endsWith(room) ? "" : room].filter(Boolean).join(" ");
 }
 
 export function step({ skill, args }, nodes) {
@@ -48,6 +49,7 @@ export function goal({ predicate, args }, nodes) {
     case "robot_at": return `I am at ${first}`;
     case "holding": return `I hold ${first}`;
     case "given": return `${second} has ${first}`;
+    case "open": return `${first} is open`;
     default: return `${first} is ${spaced(predicate)} ${second}`;
   }
 }
@@ -58,5 +60,17 @@ export function choices(ids, nodes, edges) {
   return ids.map((id, i) => ({ id, text: texts.filter((text) => text === texts[i]).length > 1 ? `${texts[i]} (${id})` : texts[i] }));
 }
 
-// "1:05" of a robot time in seconds.
-export const clock = (stamp_s) => `${Math.floor(stamp_s / 60)}:${String(Math.floor(stamp_s % 60)).padStart(2, "0")}`;
+// "bottle_1" out of "PICK(bottle_1)", as the trace writes steps.
+export function parsedStep(text) {
+  const [, skill, args] = text.match(/^(\w+)\((.*)\)$/) ?? [null, text, ""];
+  return { skill, args: args ? args.split(", ") : [] };
+}
+
+// "about 40 s", "about 2 min" of an expected time.
+export const roughly = (seconds) => (seconds < 90 ? `about ${Math.max(5, 5 * Math.round(seconds / 5))} s` : `about ${Math.round(seconds / 60)} min`);
+
+// "1:05" of a robot time in seconds; "−1:05" was before the service started.
+export function clock(stamp_s) {
+  const seconds = Math.floor(Math.abs(stamp_s));
+  return `${stamp_s < 0 ? "−" : ""}${Math.floor(seconds / 60)}:${String(seconds % 60).padStart(2, "0")}`;
+}

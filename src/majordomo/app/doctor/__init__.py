@@ -1,0 +1,1 @@
+"""``majordomo doctor``: checks what Majordomo needs on this machine and says what to do about what is missing."""

@@ -175,6 +175,24 @@ def evaluate_rates(
     raise typer.Exit(0 if good else 1)
 
 
+@evaluations.command("clients")
+def evaluate_clients(
+    house: House = "flat",
+    seconds: Annotated[float, typer.Option(min=5.0, max=600.0, help="Wall seconds of each measurement.")] = 60.0,
+    readers: Annotated[int, typer.Option(min=1, help="Clients of the event stream that read.")] = 180,
+    mute: Annotated[int, typer.Option(min=0, help="Clients that never read.")] = 20,
+    model: Network = SHIPPED,
+    json_file: JsonFile = None,
+) -> None:
+    """Measure in real time whether clients of the event stream cost anything, and whether those that read miss any."""
+    from majordomo.app.evaluations.clients import evaluate
+
+    good = evaluate(
+        house=house, seconds=seconds, readers=readers, mute=mute, model=model, json_file=json_file, console=console
+    )
+    raise typer.Exit(0 if good else 1)
+
+
 @evaluations.command("tracking")
 def evaluate_tracking(
     repetitions: Annotated[int, typer.Option(min=1, help="Runs with measurements of their own.")] = 1000,
@@ -277,22 +295,15 @@ def evaluate_missions(
     jobs: Jobs = 2,
 ) -> None:
     """Let the robot explore houses and carry out requests there while people interfere; compare with the truth."""
-    from majordomo.app.evaluations.missions.disturbances import DISTURBANCES
     from majordomo.app.evaluations.missions.evaluation import OWN_HOUSES, evaluate
     from majordomo.app.evaluations.missions.mission_file import MissionFileError
 
-    names = tuple(DISTURBANCES) if disturb == ["all"] else tuple(disturb or ())
-    unknown = sorted(set(names) - set(DISTURBANCES))
-    if unknown:
-        raise typer.BadParameter(
-            f"no {', '.join(unknown)}; there are {', '.join(DISTURBANCES)}", param_hint="--disturb"
-        )
     try:
         good = evaluate(
             houses=house or OWN_HOUSES,
             commands=commands,
             requests=requests,
-            disturb=names,
+            disturb=_disturbances(disturb),
             seeds=range(seeds),
             model=model,
             jobs=jobs,
@@ -302,6 +313,34 @@ def evaluate_missions(
         )
     except MissionFileError as error:
         raise typer.BadParameter(str(error), param_hint="--commands") from error
+    raise typer.Exit(0 if good else 1)
+
+
+@evaluations.command("endurance")
+def evaluate_endurance(
+    house: House = "flat",
+    hours: Annotated[float, typer.Option(min=0.01, help="Simulated hours.")] = 3.0,
+    requests: Annotated[int, typer.Option(min=1, help="How many between two accounts of the graph.")] = 10,
+    disturb: Annotated[
+        list[str] | None, typer.Option(help="What happens meanwhile, as for missions; repeat it.")
+    ] = None,
+    seed: Annotated[int, typer.Option(min=0, help="Of noise and requests.")] = 0,
+    model: Network = SHIPPED,
+    json_file: JsonFile = None,
+) -> None:
+    """Give requests for hours in one service; whether memory stays flat and the graph right."""
+    from majordomo.app.evaluations.missions.endurance import evaluate
+
+    good = evaluate(
+        house=house,
+        hours=hours,
+        requests=requests,
+        disturb=_disturbances(disturb),
+        seed=seed,
+        model=model,
+        json_file=json_file,
+        console=console,
+    )
     raise typer.Exit(0 if good else 1)
 
 
@@ -325,14 +364,26 @@ def evaluate_planning(
 ) -> None:
     """Put requests to the planner on stored graphs of 24 to 5,000 nodes, and compare what comes of them."""
     from majordomo.app.evaluations.planning.evaluation import evaluate
+    from majordomo.app.model_choice import key_in
 
-    settings = Settings(
-        llm=llm, llm_url=os.environ.get("MAJORDOMO_LLM_URL"), llm_key=os.environ.get("MAJORDOMO_LLM_KEY")
-    )
+    settings = Settings(llm=llm, llm_url=os.environ.get("MAJORDOMO_LLM_URL"), llm_key=key_in(os.environ))
     good = evaluate(
         files=commands or (), settings=settings, rates=corrupt or (), seed=seed, json_file=json_file, console=console
     )
     raise typer.Exit(0 if good else 1)
+
+
+def _disturbances(names: list[str] | None) -> tuple[str, ...]:
+    """Names of disturbances, *all* among them; a wrong one is refused."""
+    from majordomo.app.evaluations.missions.disturbances import DISTURBANCES
+
+    asked = tuple(DISTURBANCES) if names == ["all"] else tuple(names or ())
+    unknown = sorted(set(asked) - set(DISTURBANCES))
+    if unknown:
+        raise typer.BadParameter(
+            f"no {', '.join(unknown)}; there are {', '.join(DISTURBANCES)}", param_hint="--disturb"
+        )
+    return asked
 
 
 def _stocked(houses: int, house: list[str] | None) -> list[str]:

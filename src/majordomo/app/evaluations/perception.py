@@ -20,7 +20,7 @@ from rich.console import Console
 from rich.table import Table
 
 from majordomo.app.evaluations.belief_scores import BANDS_M, NEAR_M, score_house, summarize
-from majordomo.app.evaluations.exploration import pass_time, service_in_lockstep, until_explored
+from majordomo.app.evaluations.exploration import meter, pass_time, service_in_lockstep, until_explored
 from majordomo.app.evaluations.inventory import graph_contents, true_things
 from majordomo.app.evaluations.mapping import house_of as mapped_house_of
 from majordomo.app.evaluations.onlooker import Onlooker
@@ -108,6 +108,7 @@ async def _run(name: str, house: House, model: Path) -> dict[str, Any]:
 
     async with service_in_lockstep(house, 0, camera=True, model=model, witnesses=onlookers) as runtime:
         started = time.monotonic()
+        meter(runtime)
         explored = await until_explored(runtime, house)
         tell(f"{name}: {'explored' if explored else 'given up'} after {runtime.now_s:.0f} simulated seconds")
         await pass_time(runtime, _SETTLE_S)

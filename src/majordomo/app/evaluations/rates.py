@@ -15,7 +15,8 @@ import secrets
 import sys
 import tempfile
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import AbstractAsyncContextManager, nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -160,7 +161,13 @@ class Player:
         return RobotStack(robot, settings, queue, model, log, network=network, memory=memory)
 
 
-async def measured(source: Source, runtime: Runtime, seconds: float) -> dict[str, Any]:
+Audience = Callable[[int, str], AbstractAsyncContextManager[None]]
+"""Who listens, at a port with a token, while something is measured."""
+
+
+async def measured(
+    source: Source, runtime: Runtime, seconds: float, audience: Audience | None = None
+) -> dict[str, Any]:
     """Run a service, let it settle, and measure for so many wall seconds while its API is asked."""
     token = Token(secrets.token_urlsafe(24))
     async with api_probe() as probe:
@@ -169,9 +176,11 @@ async def measured(source: Source, runtime: Runtime, seconds: float) -> dict[str
                 while not runtime.ready:
                     await runtime.wait_for_change()
                 await asyncio.sleep(_SETTLE_S)
-                before, started = Counts.of(runtime), time.monotonic()
-                answers = await probe.ask(listener.getsockname()[1], token.value, seconds)
-                counts, took_s = Counts.of(runtime).since(before), time.monotonic() - started
+                place = (listener.getsockname()[1], token.value)
+                async with audience(*place) if audience is not None else nullcontext():
+                    before, started = Counts.of(runtime), time.monotonic()
+                    answers = await probe.ask(*place, seconds)
+                    counts, took_s = Counts.of(runtime).since(before), time.monotonic() - started
                 figures = summary(source, took_s, counts, runtime.turns(), answers, speed=runtime.settings.speed or 1.0)
                 things = len(runtime.memory.building().of_type(ObjectNode))
                 return {**figures, "network": runtime.status_document()["network"], "things": things}

@@ -19,7 +19,7 @@ from matplotlib.figure import Figure
 from rich.console import Console
 from rich.table import Table
 
-from majordomo.app.evaluations.exploration import LIMIT_S, service_in_lockstep, until_explored
+from majordomo.app.evaluations.exploration import LIMIT_S, meter, service_in_lockstep, until_explored
 from majordomo.app.evaluations.known_building import known_building
 from majordomo.app.evaluations.plots import save
 from majordomo.app.evaluations.pool import run_all
@@ -70,11 +70,12 @@ async def _run(name: str, *, camera: bool) -> dict[str, Any]:
     house = load_house(name)
     made: list[_Meter] = []
 
-    def meter(runtime: Runtime) -> list[_Meter]:
+    def meters(runtime: Runtime) -> list[_Meter]:
         made.append(_Meter(runtime))
         return made
 
-    async with service_in_lockstep(house, 0, camera=camera, witnesses=meter) as runtime:
+    async with service_in_lockstep(house, 0, camera=camera, witnesses=meters) as runtime:
+        meter(runtime)
         explored = await until_explored(runtime, house)
         samples = made[0].samples
         seconds = max(runtime.now_s, 1e-9)

@@ -25,7 +25,7 @@ from majordomo.app.evaluations.pool import run_all
 from majordomo.app.evaluations.recognition import share
 from majordomo.app.evaluations.tables import shown
 
-OWN_HOUSES = ("flat", "office", "stocked:20", "stocked:21", "stocked:22", "stocked:23")
+OWN_HOUSES = ("flat", "office", *(f"stocked:{number}" for number in range(20, 26)))
 LEAST = {"success_undisturbed": 0.90, "success_disturbed": 0.80, "right_reason": 0.95, "picks": 0.95, "places": 0.97}
 MOST = {"phantoms": 0, "collisions": 0, "way_over_shortest": 1.25}
 Row = Mapping[str, Any]
@@ -95,7 +95,7 @@ def summarize(rows: Sequence[Row]) -> dict[str, Any]:
     calm = [row for row in rows if not row["disturbance"] and row["possible"]]
     upset = [row for row in rows if row["disturbance"] and row["made"]]
     possible = [row for row in upset if row["possible"]]
-    impossible = [row for row in rows if not row["possible"] and (row["made"] or not row["disturbance"])]
+    impossible = [row for row in upset if not row["possible"]]
     picks, places = (_first_goes(rows, skill) for skill in ("PICK", "PLACE"))
     ways = [row["driven_m"] / row["shortest_m"] for row in calm if _done(row) and (row["shortest_m"] or 0.0) > 1.0]
     return {
@@ -108,6 +108,7 @@ def summarize(rows: Sequence[Row]) -> dict[str, Any]:
         "attempts": {"PICK": len(picks), "PLACE": len(places)},
         "disturbed": len(upset),
         "impossible": len(impossible),
+        "out_of_reach": sum(not row["disturbance"] and not row["possible"] for row in rows),
         "not_made": sum(bool(row["disturbance"]) and not row["made"] for row in rows),
         "phantoms": sum(row["verdict"] == Verdict.PHANTOM for row in rows),
         "wrong_answers": sum(row["verdict"] == Verdict.WRONG_ANSWER for row in rows),

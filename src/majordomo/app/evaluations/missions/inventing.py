@@ -17,6 +17,8 @@ from majordomo.app.evaluations.missions.mission import Mission
 from majordomo.app.evaluations.missions.outcome import HAND, Outcome, Placed, RobotIn
 from majordomo.simulation.catalog import GRIPPER_M, category_named
 from majordomo.simulation.house import Furniture, House, Object, Room, room_at
+from majordomo.skills.grasping import HOVER_M
+from majordomo.skills.ports import ArmGeometry, BodyLimits
 
 LOWEST_M, HIGHEST_M = 0.15, 1.05
 """Tops within these heights are where things are asked for to be put."""
@@ -262,19 +264,31 @@ def _spots(house: House, rooms: dict[str, Room]) -> list[_Spot]:
 
 def _carries(item: Furniture) -> bool:
     kind = category_named(item.category, item.size, static=True)
-    top_m = kind.levels[0] * (item.size or kind.size_m)[2]
-    return kind.support and not kind.container and LOWEST_M <= top_m <= HIGHEST_M
+    return kind.support and not kind.container and LOWEST_M <= _top_m(item) <= HIGHEST_M
+
+
+def _top_m(item: Furniture) -> float:
+    """Height of its first level."""
+    kind = category_named(item.category, item.size, static=True)
+    return kind.levels[0] * (item.size or kind.size_m)[2]
+
+
+def _can_be_taken(size_m: tuple[float, float, float], bottom_m: float) -> bool:
+    """Whether it fits between the fingers: its narrow side where the hand gets over it, both where it comes level."""
+    over_m = BodyLimits().lift_m[1] - ArmGeometry().hand_length_m - HOVER_M
+    narrow_m, wide_m = sorted(size_m[:2])
+    return (narrow_m if bottom_m + size_m[2] <= over_m else wide_m) <= GRIPPER_M
 
 
 def _items(house: House, spots: Sequence[_Spot]) -> list[_Item]:
     """Things of a size for the hand, on furniture within reach, that people have words for that fit nothing else."""
     everything = list(_all_objects(house))
-    carriers = {item.id for item in house.furniture if _carries(item)}
+    tops_m = {item.id: _top_m(item) for item in house.furniture if _carries(item)}
     found = []
     for item, entry in zip(everything, (entry for entry in house.objects if _room_of(house, entry)), strict=True):
         size = entry.size or category_named(entry.category, entry.size).size_m
         words = _words(item, everything, spots)
-        if item.on in carriers and min(size[:2]) <= GRIPPER_M and words is not None:
+        if item.on in tops_m and _can_be_taken(size, tops_m[item.on]) and words is not None:
             found.append(replace(item, words=words))
     return found
 

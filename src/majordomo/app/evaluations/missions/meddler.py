@@ -11,7 +11,7 @@ from numpy.random import Generator
 from majordomo.app.evaluations.missions.disturbances import DISTURBANCES, Disturbance, Event, Moment
 from majordomo.app.evaluations.missions.mission import Mission
 from majordomo.app.evaluations.missions.outcome import HAND, Scene
-from majordomo.app.evaluations.missions.ways import Ways
+from majordomo.app.evaluations.missions.ways import PASSABLE_M, Ways
 from majordomo.app.runtime import Runtime
 from majordomo.planner.tasks import Task
 from majordomo.simulation.errors import DisturbError
@@ -96,7 +96,7 @@ def _still_possible(disturbance: Disturbance, moment: Moment, done: Sequence[Eve
         return not disturbance.ends_it
     shut = {str(event["id"]) for event in done if event["do"] == "close_door"}
     shut |= {str(event["object"]["id"]).removeprefix("crate_") for event in done if event["do"] == "add"}
-    left = Ways(moment.scene, shut=shut)
+    left = Ways(moment.scene, shut=shut, radius_m=PASSABLE_M)
     stops = [moment.where(name) for name in (moment.thing, moment.place) if name is not None and name != HAND]
     return math.isfinite(left.length_m(moment.scene.robot_at, *[stop for stop in stops if stop is not None]))
 

@@ -20,7 +20,7 @@ from majordomo.app.evaluations.missions.meddler import Meddler
 from majordomo.app.evaluations.missions.mission import Mission
 from majordomo.app.evaluations.missions.outcome import HAND, Scene, stirred
 from majordomo.app.evaluations.missions.resident import Resident
-from majordomo.app.evaluations.missions.ways import Point, Ways
+from majordomo.app.evaluations.missions.ways import PASSABLE_M, Point, Ways
 from majordomo.app.evaluations.pool import tell
 from majordomo.app.runtime import Runtime
 from majordomo.planner.tasks import Task, TaskStatus
@@ -66,6 +66,16 @@ async def play_all(
             "wall_seconds": round(time.monotonic() - began, 1),
             "failed_turns": sum(turns.restarts for turns in runtime.turns()),
         }
+
+
+async def play_mission(runtime: Runtime, house: House, mission: Mission, rng: Generator) -> dict[str, Any]:
+    """One mission in a service that is running, and what came of it."""
+    return await _Play(runtime, house, mission, rng).play()
+
+
+async def scene_of(runtime: Runtime, house: House) -> Scene:
+    """The truth as it is now."""
+    return Scene(house=house, truth=await runtime.require_robot().truth())
 
 
 class Verdict(StrEnum):
@@ -129,7 +139,8 @@ class _Play:
         before = await self._scene()
         ways = Ways(before, spared=self._mission.things)
         shortest_m = self._shortest_m(before, ways)
-        within_reach = self._is_within_reach(before, ways)
+        passable = Ways(before, spared=self._mission.things, radius_m=PASSABLE_M)
+        within_reach = self._is_within_reach(before, passable)
         task = self._runtime.submit(self._mission.request)
         await self._film(before, self._mission.request)
         task = await self._watch(task)
@@ -219,7 +230,8 @@ class _Play:
         question = all(outcome.words and not outcome.states for outcome in outcomes)
         possible = self._meddler.possible and within_reach
         reasons = self._meddler.reasons if within_reach else OUT_OF_REACH
-        right_reason = bool(task.failures) and task.failures[-1].code in reasons
+        unknown = not within_reach and task.status is TaskStatus.REFUSED
+        right_reason = unknown or (bool(task.failures) and task.failures[-1].code in reasons)
         if met:
             verdict = Verdict.DONE
         elif reported:
@@ -256,7 +268,7 @@ class _Play:
         return length_m if math.isfinite(length_m) else None
 
     async def _scene(self) -> Scene:
-        return Scene(house=self._house, truth=await self._runtime.require_robot().truth())
+        return await scene_of(self._runtime, self._house)
 
 
 def _whereabouts(scene: Scene, thing: str) -> str:

@@ -19,6 +19,8 @@ from majordomo.simulation.house import OUTSIDE, Door, Furniture, House, room_at
 
 CELL_M = 0.05
 ROBOT_RADIUS_M = 0.25
+PASSABLE_M = 0.32
+"""What a body of that radius can be asked to pass, given how well it sees: 7 cm to each side."""
 REACH_M = 0.8
 """How near the robot's middle has to come to a thing."""
 Point = tuple[float, float]
@@ -26,13 +28,21 @@ Point = tuple[float, float]
 
 class Ways:
     """Free floor of the house as it is, on a grid; furniture stands where the house says, doors are as the truth says,
-    but for those that are ``shut``, and what lies on the floor is in the way, but for the ``spared``.
+    but for those that are ``shut``, and what lies on the floor is in the way, but for the ``spared``. ``radius_m``: how
+    far the robot's middle keeps off all of it.
 
     Attributes:
         clearance_m: (H, W) distance of each cell from walls and furniture.
     """
 
-    def __init__(self, scene: Scene, *, shut: Collection[str] = (), spared: Collection[str] = ()) -> None:
+    def __init__(
+        self,
+        scene: Scene,
+        *,
+        shut: Collection[str] = (),
+        spared: Collection[str] = (),
+        radius_m: float = ROBOT_RADIUS_M,
+    ) -> None:
         house = scene.house
         self._house = house
         corners = np.array([corner for room in house.rooms for corner in room.polygon])
@@ -54,7 +64,7 @@ class Ways:
             if record["id"] not in spared and record["id"] != scene.holding and not (record["on"] or record["in"]):
                 free &= ~self._covered(record)
         self.clearance_m: NDArray[np.float64] = np.asarray(distance_transform_edt(free)) * CELL_M
-        self._number, self._graph = _grid_graph(self.clearance_m > ROBOT_RADIUS_M)
+        self._number, self._graph = _grid_graph(self.clearance_m > radius_m)
 
     def length_m(self, *stops: Point) -> float:
         """The shortest way that comes within reach of each stop in turn, the first being where it begins; infinite

@@ -17,7 +17,7 @@ from majordomo.app.server import bind, page_address, serving
 from majordomo.app.settings import Settings
 
 GRAPH = Path(__file__).parents[2] / "data" / "flat_graph.json"
-TOKEN = Token("a-token-only-for-tests")
+TOKEN, VIEWER = Token("a-token-only-for-tests"), Token("a-viewers-token-for-tests")
 AUTHORIZED = {"Authorization": f"Bearer {TOKEN.value}"}
 SETTLED = {"succeeded", "failed", "cancelled", "refused", "awaiting_answer", "awaiting_approval"}
 
@@ -59,7 +59,7 @@ def in_process():
     @contextlib.asynccontextmanager
     async def run(settings: Settings):
         runtime = Runtime(settings)
-        app = make_service(runtime, TOKEN)
+        app = make_service(runtime, TOKEN, VIEWER)
         transport = httpx.ASGITransport(app=app, raise_app_exceptions=False)
         async with (
             app.router.lifespan_context(app),
@@ -83,7 +83,7 @@ async def served(settings):
     with bind(settings) as listener:
         address = page_address(listener, TOKEN).partition("/?")[0]
         async with (
-            serving(runtime, listener, TOKEN),
+            serving(runtime, listener, TOKEN, viewer=VIEWER),
             httpx.AsyncClient(base_url=address, headers=AUTHORIZED) as client,
         ):
             yield Service(client=client, runtime=runtime, address=address)
@@ -98,3 +98,8 @@ def scene():
 @pytest.fixture
 def token():
     return TOKEN.value
+
+
+@pytest.fixture
+def viewer_token():
+    return VIEWER.value

@@ -207,3 +207,16 @@ async def test_names_are_escaped_in_the_map_picture(service):
 
 async def test_without_a_robot_there_is_no_camera_picture(service):
     assert await problem(await service.client.get("/v1/camera.jpg")) == (404, "no_camera")
+
+
+async def test_a_node_tells_what_became_of_it(service, viewer_token):
+    await service.client.patch("/v1/scene/nodes/cup_1", json={"name": "my mug"})
+    await service.runtime.wait_for_change()
+    headers = {"Authorization": f"Bearer {viewer_token}"}
+    past = (await service.client.get("/v1/scene/nodes/cup_1/history", headers=headers)).json()
+    assert past["node"] == "cup_1"
+    assert [(entry["kind"], entry["after"]) for entry in past["entries"][1:]] == [("name", "my mug")]
+    assert past["entries"][0]["kind"] == "known"
+    wall = (await service.client.get("/v1/scene/nodes/wall_1_0/history")).json()
+    assert wall["entries"] == []
+    assert await problem(await service.client.get("/v1/scene/nodes/attic/history")) == (404, "node_not_found")

@@ -12,9 +12,10 @@ import sys
 import httpx
 import pytest
 
+from majordomo.app.errors import RefusedToBind
 from majordomo.app.http.security import Token
 from majordomo.app.runtime import Runtime
-from majordomo.app.server import RefusedToBind, bind, check_exposure, page_address, serving
+from majordomo.app.server import bind, check_exposure, page_address, serving
 from majordomo.app.settings import Settings
 from majordomo.scene_graph.errors import SceneFormatError
 

@@ -32,16 +32,51 @@ async def test_health_needs_no_token(service):
         assert (response.status_code, response.json()) == (200, {"status": word})
 
 
-async def test_metrics_are_prometheus_text(service):
-    await service.ask("where is the red apple?")
+async def scraped(service):
+    """Samples by name: labels, as sorted pairs, to value."""
     response = await service.client.get("/metrics")
     assert response.headers["content-type"].startswith("text/plain")
-    families = {family.name: family for family in text_string_to_metric_families(response.text)}
-    nodes = {sample.labels["type"]: sample.value for sample in families["majordomo_graph_nodes"].samples}
-    assert (nodes["room"], nodes["door"], nodes["person"]) == (3, 3, 1)
-    tasks = {sample.labels["status"]: sample.value for sample in families["majordomo_tasks"].samples}
-    assert tasks == {"succeeded": 1}
-    assert "majordomo_agent_restarts" in families
+    samples: dict[str, dict] = {}
+    for family in text_string_to_metric_families(response.text):
+        assert family.documentation or family.name.startswith("process_")
+        for sample in family.samples:
+            samples.setdefault(sample.name, {})[tuple(sorted(sample.labels.items()))] = sample.value
+    return samples
+
+
+async def test_metrics_tell_how_graph_agents_and_queue_stand(service):
+    await service.ask("where is the red apple?")
+    await service.ask("bring the cup to the bench")
+    samples = await scraped(service)
+    nodes = samples["majordomo_graph_nodes"]
+    assert (nodes[("type", "room"),], nodes[("type", "door"),], nodes[("type", "person"),]) == (3, 3, 1)
+    snapshot = service.runtime.memory.snapshot()
+    assert sum(samples["majordomo_graph_edges"].values()) == len(snapshot.edges)
+    assert samples["majordomo_graph_loaded"][("what", "nodes"),] == len(snapshot.nodes)
+    assert samples["majordomo_graph_revision"][()] == snapshot.revision
+    assert samples["majordomo_tasks"] == {(("status", "succeeded"),): 1, (("status", "awaiting_answer"),): 1}
+    assert samples["majordomo_queue_waiting"][()] == 0
+    assert samples["majordomo_agent_restarts"][("agent", "mission"),] == 0
+    assert (samples["majordomo_ready"][()], samples["majordomo_stopped"][()]) == (1, 0)
+    assert samples["process_resident_memory_bytes"][()] > 1e6
+
+
+async def test_metrics_count_what_became_of_tasks_plans_calls_and_stops(service):
+    await service.ask("where is the red apple?")
+    await service.ask("bring the blue bottle to the desk")
+    await service.ask("fold the laundry")
+    await service.client.get("/v1/tasks/task_99")
+    await service.client.get("/v1/status", headers={"Authorization": ""})
+    await service.client.post("/v1/stop")
+    samples = await scraped(service)
+    assert samples["majordomo_tasks_ended_total"] == {(("status", "succeeded"),): 2, (("status", "refused"),): 1}
+    assert samples["majordomo_plans_total"] == {(("source", "grammar"),): 1}
+    assert samples["majordomo_stops_total"][()] == 1
+    calls = samples["majordomo_http_requests_total"]
+    assert calls[("method", "POST"), ("route", "/v1/tasks"), ("status", "202")] == 3
+    assert calls[("method", "GET"), ("route", "/v1/tasks/{task_id}"), ("status", "404")] == 1
+    assert calls[("method", "GET"), ("route", "none"), ("status", "401")] == 1
+    assert samples["majordomo_http_seconds_count"][("route", "/v1/tasks"),] == 3
 
 
 async def test_the_simulators_truth_is_not_offered_unless_asked_for(service):

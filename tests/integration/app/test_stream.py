@@ -5,9 +5,14 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import json
+from dataclasses import dataclass
 
 import pytest
 import websockets
+
+from majordomo.app.http.security import Token
+from majordomo.app.runtime import Runtime
+from majordomo.app.server import bind, page_address, serving
 
 pytestmark = pytest.mark.anyio
 
@@ -199,3 +204,82 @@ async def test_a_client_that_hangs_up_in_the_middle_of_a_request_starts_nothing(
     assert await reader.read() == b""
     await served.ask("where is the red apple?")
     assert (await served.client.get("/v1/tasks")).json()["total"] == 1
+
+
+async def test_a_viewer_sees_the_stream_and_cannot_act_through_it(served, viewer_token):
+    async with stream(served, viewer_token) as socket:
+        assert (await receive(socket))["type"] == "snapshot"
+        for message in ({"type": "stop"}, {"type": "request", "text": "go to the kitchen"}):
+            await socket.send(json.dumps(message))
+            problem = await receive(socket, lambda received: received["type"] == "problem")
+            assert problem["code"] == "forbidden"
+    assert not (await served.client.get("/v1/status")).json()["stopped"]
+    assert (await served.client.get("/v1/tasks")).json()["total"] == 0
+
+
+async def test_who_floods_the_stream_is_told_to_wait_can_still_stop_and_is_closed_at_last(served, token):
+    async with stream(served, token) as socket:
+        for _ in range(120):
+            await socket.send("{}")
+        await receive(socket, lambda message: message.get("code") == "rate_limited")
+        await socket.send('{"type": "stop"}')
+        await receive(socket, lambda message: message["type"] == "robot" and message["data"]["stopped"])
+        with contextlib.suppress(websockets.ConnectionClosed):
+            for _ in range(2000):
+                await socket.send("{}")
+        while socket.close_code is None:
+            with contextlib.suppress(websockets.ConnectionClosed):
+                await receive(socket)
+        assert socket.close_code == 1008
+
+
+async def test_a_message_that_is_too_long_closes_the_stream(served, token):
+    async with stream(served, token) as socket:
+        await socket.send("x" * 70_000)
+        while socket.close_code is None:
+            with contextlib.suppress(websockets.ConnectionClosed):
+                await receive(socket)
+        assert socket.close_code == 1009
+
+
+async def test_a_number_too_long_to_read_is_refused_and_the_stream_goes_on(served, token):
+    async with stream(served, token) as socket:
+        await socket.send('{"type": ' + "1" * 10_000 + "}")
+        assert (await receive(socket, lambda message: message["type"] == "problem"))["code"] == "invalid_json"
+
+
+@pytest.fixture
+async def small(settings, token):
+    """A service with room for two clients."""
+    runtime = Runtime(settings.model_copy(update={"streams": 2}))
+    with bind(settings) as listener:
+        address = page_address(listener, Token(token)).partition("/?")[0]
+        async with serving(runtime, listener, Token(token)):
+            yield Small(address=address, runtime=runtime)
+
+
+async def test_more_clients_than_there_is_room_for_are_turned_away_until_one_leaves(small, token):
+    async with stream(small, token) as one, stream(small, token) as other:
+        assert [(await receive(socket))["type"] for socket in (one, other)] == ["snapshot"] * 2
+        async with stream(small, token) as third:
+            assert await closed(third) == 1013
+    while small.runtime.stream.listeners:
+        await small.runtime.wait_for_change()
+    async with stream(small, token) as again:
+        assert (await receive(again))["type"] == "snapshot"
+
+
+async def test_who_does_not_say_who_he_is_is_not_waited_for_when_many_do_not(small, token):
+    async with stream(small, None), stream(small, None):
+        async with stream(small, None) as one_more:
+            assert await closed(one_more) == 4401
+        async with stream(small, token) as known:
+            assert (await receive(known))["type"] == "snapshot"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Small:
+    """A service with little room."""
+
+    address: str
+    runtime: Runtime

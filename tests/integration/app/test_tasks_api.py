@@ -218,3 +218,70 @@ async def test_stop_is_latched_until_it_is_released(service):
     assert (await service.client.get("/v1/status")).json()["stopped"] is True
     assert (await service.client.post("/v1/resume")).json() == {"stopped": False}
     assert (await service.client.get("/v1/status")).json()["stopped"] is False
+
+
+async def test_a_dry_run_tells_what_it_would_take_and_change_and_changes_nothing(service):
+    revision = service.runtime.memory.snapshot().revision
+    task = await service.ask("bring the blue bottle to the desk", dry_run=True)
+    assert (task["status"], task["dry_run"]) == ("succeeded", True)
+    plan = task["plan"]
+    way = (await service.client.get("/v1/scene/path", params={"from": "bottle_1", "to": "desk_1"})).json()
+    assert plan["expected_m"] >= way["length_m"]
+    assert plan["expected_s"] > plan["expected_m"]
+    assert plan["changes"] == {
+        "added": [{"predicate": "on", "args": ["bottle_1", "desk_1"]}, {"predicate": "robot_at", "args": ["room_3"]}],
+        "removed": [
+            {"predicate": "on", "args": ["bottle_1", "table_1"]},
+            {"predicate": "robot_at", "args": ["room_1"]},
+        ],
+    }
+    assert service.runtime.memory.snapshot().revision == revision
+
+
+async def test_the_next_page_is_right_although_tasks_were_added_meanwhile(service):
+    for number in range(5):
+        await service.client.post("/v1/tasks", json={"request": f"where is bottle {number}?"})
+    seen, following = [], "/v1/tasks?limit=2"
+    while following is not None:
+        response = await service.client.get(following)
+        seen += [task["id"] for task in response.json()["tasks"]]
+        following = response.json()["next"]
+        assert (f'<{following}>; rel="next"' == response.headers.get("link")) is (following is not None)
+        await service.client.post("/v1/tasks", json={"request": "where is the cup?"})
+    assert seen == ["task_5", "task_4", "task_3", "task_2", "task_1"]
+
+
+async def test_tasks_are_listed_by_status(service):
+    await service.ask("where is the red apple?")
+    waiting = await service.ask("bring the cup to the bench")
+    listed = (await service.client.get("/v1/tasks", params={"status": "awaiting_answer"})).json()
+    assert ([task["id"] for task in listed["tasks"]], listed["total"]) == ([waiting["id"]], 1)
+    both = (
+        await service.client.get("/v1/tasks", params={"status": ["awaiting_answer", "succeeded"], "limit": 1})
+    ).json()
+    assert (both["total"], len(both["tasks"])) == (2, 1)
+    assert "status=awaiting_answer&status=succeeded" in both["next"]
+    await refused(await service.client.get("/v1/tasks", params={"status": "lost"}), 422, "invalid_request")
+
+
+async def test_a_request_that_is_sent_again_after_it_ended_is_still_the_same(service):
+    headers, body = {"Idempotency-Key": "a b"}, {"request": "where is the red apple?"}
+    first = (await service.client.post("/v1/tasks", json=body, headers=headers)).json()
+    await service.settled(first["id"])
+    again = (await service.client.post("/v1/tasks", json=body, headers=headers)).json()
+    assert (again["id"], again["status"]) == (first["id"], "succeeded")
+    assert "key" not in again
+    for wrong in ("", " ", "x" * 201):
+        response = await service.client.post("/v1/tasks", json=body, headers={"Idempotency-Key": wrong})
+        await refused(response, 422, "invalid_request")
+
+
+async def test_a_queue_that_is_full_takes_no_more_but_stops(service, monkeypatch):
+    monkeypatch.setattr("majordomo.planner.queue.MOST_OPEN", 2)
+    for _ in range(2):
+        await service.ask("bring the cup to the bench")
+    response = await service.client.post("/v1/tasks", json={"request": "go to the kitchen"})
+    await refused(response, 429, "queue_full")
+    assert int(response.headers["retry-after"]) > 0
+    assert (await service.ask("stop"))["status"] == "succeeded"
+    assert (await service.client.get("/v1/status")).json()["stopped"]

@@ -6,10 +6,11 @@ from majordomo.app.runtime import Runtime
 from majordomo.app.settings import ClockMode, Settings
 from majordomo.app.task_journal import INTERRUPTED
 from majordomo.planner.tasks import Approval, TaskStatus
-from majordomo.scene_graph.nodes import RoomNode
+from majordomo.scene_graph.nodes import RoomNode, RoomStatus
 
 pytestmark = pytest.mark.anyio
 LIMIT_S = 120.0
+KEPT = RoomStatus.PERMANENT
 
 
 @pytest.fixture
@@ -50,3 +51,22 @@ async def test_a_restart_keeps_the_tasks_and_says_which_was_cut_off(tmp_path):
         assert again.id == "task_4"
         await until(runtime, lambda: status_of(runtime, again).ended)
         assert "switched off" in runtime.queue.task(again.id).reply
+
+
+async def test_what_a_person_says_is_on_disk_before_the_task_is_said_to_have_succeeded(tmp_path):
+    def look(task):
+        if task.status.ended:
+            told[task.id] = any("library" in file.read_text() for file in tmp_path.rglob("room_*.json"))
+
+    told = {}
+    async with Runtime(settings(tmp_path)).running() as runtime:
+        await until(
+            runtime, lambda: [room.status for room in runtime.memory.building().of_type(RoomNode)][:1] == [KEPT]
+        )
+        runtime.queue.listen(look)
+        asked = runtime.submit("where are you?")
+        await until(runtime, lambda: status_of(runtime, asked).ended)
+        taught = runtime.submit("this is the library")
+        await until(runtime, lambda: status_of(runtime, taught).ended)
+        assert status_of(runtime, taught) is TaskStatus.SUCCEEDED
+    assert told == {asked.id: False, taught.id: True}

@@ -9,6 +9,9 @@ from pydantic import (
     BaseModel,
     ConfigDict,
     Field,
+    StrictBool,
+    StrictFloat,
+    StrictInt,
     StringConstraints,
     ValidationInfo,
     WithJsonSchema,
@@ -16,10 +19,27 @@ from pydantic import (
 )
 from pydantic_core import PydanticCustomError
 
+from majordomo.app.http.examples import REQUEST
 from majordomo.app.http.problems import WHOLE_SENTENCE
 from majordomo.planner.tasks import Approval
+from majordomo.scene_graph.nodes import NodeType
+from majordomo.scene_graph.queries import OrderBy
 
 MAX_REQUEST_CHARACTERS = 10_000
+_TYPE = {"type": "string", "enum": list(NodeType)}
+_TYPES = {"anyOf": [_TYPE, {"type": "array", "items": _TYPE}, {"type": "null"}]}
+_TEXT = {"type": "string"}
+_ATTRIBUTES = {
+    "type": "object",
+    "properties": {"color": _TEXT, "name": _TEXT, "category": _TEXT, "categories": _TEXT},
+    "additionalProperties": False,
+}
+_WORD = {
+    "type": ["string", "null"],
+    "minLength": 1,
+    "maxLength": 80,
+    "description": "Printable characters on one line.",
+}
 
 
 def _sayable(text: str, info: ValidationInfo) -> str:
@@ -62,58 +82,68 @@ class Document(BaseModel):
 
 
 class TaskRequest(Document):
-    """``POST /v1/tasks``."""
+    """What is wanted, in plain words. `ask`: show the plan and wait for approval. `dry_run`: plan, and move nothing."""
 
-    request: RequestText = Field(examples=["bring the blue bottle from the kitchen to the desk in the office"])
+    request: RequestText = Field(examples=[REQUEST])
     approval: Approval = Approval.AUTO
-    dry_run: bool = False
+    dry_run: StrictBool = False
+
+
+class SeenPlan(Document):
+    """What is approved: the plan made on this `revision` of the graph; without it, whatever plan the task has."""
+
+    revision: StrictInt | None = Field(default=None, examples=[412])
 
 
 class Answer(Document):
-    """``POST /v1/tasks/{id}/answer``."""
+    """The answer to the robot's question: words, or one of the candidates' identifiers."""
 
-    answer: RequestText
+    answer: RequestText = Field(examples=["cup_2"])
 
 
 class Nearness(Document):
-    """Within ``radius_m`` of a node, or of a point of the map frame."""
+    """Within `radius_m` of a node, or of a point of the map; one of the two is named."""
+
+    model_config = ConfigDict(json_schema_extra={"anyOf": [{"required": ["node"]}, {"required": ["point_m"]}]})
 
     node: str | None = None
-    point_m: tuple[float, float] | None = None
-    radius_m: float = Field(gt=0)
+    point_m: tuple[StrictFloat, StrictFloat] | None = None
+    radius_m: float = Field(gt=0, strict=True)
 
 
 class Relation(Document):
-    """Related by ``predicate`` to ``target``."""
+    """Related by `predicate` to `target`; what is left out may be anything."""
 
     predicate: str | None = None
     target: str | None = None
 
 
 class SceneQuery(Document):
-    """``POST /v1/scene/query``."""
+    """Conditions that a node must all meet, their order, and the page of them that is wanted."""
 
-    type: str | list[str] | None = None
+    type: Annotated[str | list[str] | None, WithJsonSchema(_TYPES)] = None
     label: str | None = None
-    attributes: dict[str, str] = Field(default_factory=dict)
-    room: str | None = None
-    region: str | None = None
+    attributes: Annotated[dict[str, str], WithJsonSchema(_ATTRIBUTES)] = Field(default_factory=dict)
+    room: str | None = Field(default=None, description="Identifier, or a label that several rooms may have.")
+    region: str | None = Field(default=None, description="Identifier or label.")
     relation: Relation | None = None
     near: Nearness | None = None
-    state: str | None = None
-    max_age_s: float | None = Field(default=None, gt=0)
-    order_by: str = "id"
-    descending: bool = False
-    limit: int = Field(default=100, ge=1, le=1000)
-    offset: int = Field(default=0, ge=0)
+    state: str | None = Field(default=None, description="Such as `present`, `held`, `missing`, `open`, `closed`.")
+    max_age_s: float | None = Field(default=None, gt=0, strict=True, description="Seen at most so many seconds ago.")
+    order_by: Annotated[str, WithJsonSchema({"type": "string", "enum": list(OrderBy)})] = "id"
+    descending: StrictBool = False
+    limit: int = Field(default=100, ge=1, le=1000, strict=True)
+    offset: int = Field(default=0, ge=0, strict=True)
 
 
 class NodePatch(Document):
-    """``PATCH /v1/scene/nodes/{id}``: what a person teaches."""
+    """What a person teaches: at least one of the three."""
 
-    label: TaughtWord | None = None
-    name: TaughtWord | None = None
-    region: TaughtWord | None = None
+    model_config = ConfigDict(json_schema_extra={"anyOf": [{"required": [one]} for one in ("label", "name", "region")]})
+
+    label: Annotated[TaughtWord | None, WithJsonSchema(_WORD)] = Field(default=None, examples=["office"])
+    name: Annotated[TaughtWord | None, WithJsonSchema(_WORD)] = None
+    region: Annotated[TaughtWord | None, WithJsonSchema(_WORD)] = None
 
     @model_validator(mode="after")
     def _says_something(self) -> Self:
@@ -123,7 +153,7 @@ class NodePatch(Document):
 
 
 class Disturbance(BaseModel):
-    """``POST /v1/simulation/disturb``: one event of design section 4; the simulator checks the rest."""
+    """One event of a house file without its time: what happens, and to what. The simulator checks the rest."""
 
     model_config = ConfigDict(extra="allow")
 

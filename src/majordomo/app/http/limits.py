@@ -61,12 +61,13 @@ class BodyLimit:
 class HostGuard:
     """Middleware that refuses requests addressed to, or coming from a page of, another host (DNS rebinding, CSRF).
 
-    A service that listens on all addresses answers under each of them; names would let rebinding in.
+    A service that listens on all addresses answers under each of them; names would let rebinding in. A page is its own
+    when it comes from the host and port that the request goes to; others are in ``origins`` (``https://robot.lan``).
     """
 
-    def __init__(self, app: ASGIApp, *, hosts: frozenset[str]) -> None:
+    def __init__(self, app: ASGIApp, *, hosts: frozenset[str], origins: frozenset[str] = frozenset()) -> None:
         self._app = app
-        self._hosts = hosts
+        self._hosts, self._origins = hosts, origins
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         if scope["type"] not in {"http", "websocket"} or self._admits(scope):
@@ -81,13 +82,11 @@ class HostGuard:
 
     def _admits(self, scope: Scope) -> bool:
         headers = {name.decode("latin-1").lower(): value.decode("latin-1") for name, value in scope["headers"]}
-        host = _host_name(headers.get("host", ""))
-        if not self._is_own(host):
+        authority = headers.get("host", "").lower()
+        if not self._is_own(_host_name(authority)):
             return False
-        if "origin" not in headers:
-            return True
-        origin = _host_name(headers["origin"].partition("://")[2])
-        return origin == host or (is_loopback(origin) and is_loopback(host))
+        origin = headers.get("origin", "").lower()
+        return not origin or origin in self._origins or _same_place(origin.partition("://")[2], authority)
 
     def _is_own(self, host: str) -> bool:
         return is_loopback(host) or host in self._hosts or (bool(self._hosts & WILDCARDS) and is_address(host))
@@ -96,7 +95,14 @@ class HostGuard:
 def _host_name(authority: str) -> str:
     if authority.startswith("["):
         return authority.partition("]")[0] + "]"
-    return authority.partition(":")[0].lower()
+    return authority.partition(":")[0]
+
+
+def _same_place(origin: str, authority: str) -> bool:
+    """Whether a page's host and port are those of a request; this machine has several names."""
+    ours, theirs = _host_name(authority), _host_name(origin)
+    same_host = ours == theirs or (is_loopback(ours) and is_loopback(theirs))
+    return same_host and origin.removeprefix(theirs) == authority.removeprefix(ours)
 
 
 def _announced_bytes(scope: Scope) -> int:

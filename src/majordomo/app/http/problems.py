@@ -61,9 +61,10 @@ def install_problem_handlers(app: FastAPI) -> None:
 
     @app.exception_handler(HTTPException)
     async def _http(_: Request, error: HTTPException) -> JSONResponse:
-        codes = {400: "invalid_request", 404: "not_found", 405: "method_not_allowed"}
-        code = codes.get(error.status_code, "http_error")
-        return problem_response(Problem(error.status_code, code, str(error.detail), headers=error.headers))
+        status = 422 if error.status_code == 400 else error.status_code  # a body that is not even text
+        codes = {404: "not_found", 405: "method_not_allowed", 422: "invalid_request"}
+        code = codes.get(status, "http_error")
+        return problem_response(Problem(status, code, str(error.detail), headers=error.headers))
 
     @app.exception_handler(Exception)
     async def _unexpected(request: Request, error: Exception) -> JSONResponse:

@@ -1,4 +1,4 @@
-"""Who may call: a bearer token made at first start, and requests only under names that mean this machine."""
+"""Who may call, and as what: bearer tokens made at first start, one that opens all and one that opens reading."""
 
 from __future__ import annotations
 
@@ -6,11 +6,21 @@ import hmac
 import ipaddress
 import os
 import secrets
+from dataclasses import dataclass
+from enum import StrEnum
 from pathlib import Path
 
 from starlette.requests import HTTPConnection
 
-from majordomo.app.http.problems import Problem
+OPERATOR_FILE = "token"
+VIEWER_FILE = "viewer-token"
+
+
+class Role(StrEnum):
+    """What a token lets its bearer do: a viewer reads, an operator does everything."""
+
+    VIEWER = "viewer"
+    OPERATOR = "operator"
 
 
 class Token:
@@ -22,11 +32,18 @@ class Token:
         self.value = value
 
     @classmethod
-    def stored_in(cls, folder: Path) -> Token:
-        """The token kept in ``folder``, made at first use; readable by its owner only."""
-        path = folder / "token"
-        if path.is_file() and (value := path.read_text(encoding="ascii").strip()):
-            return cls(value)
+    def stored_in(cls, folder: Path, name: str = OPERATOR_FILE) -> Token:
+        """The token kept in file ``name`` of ``folder``, made at first use; readable by its owner only.
+
+        Raises:
+            OSError: the file holds something else, or cannot be read or written.
+        """
+        path = folder / name
+        if path.is_file() and (value := path.read_bytes().strip()):
+            try:
+                return cls(value.decode("ascii"))
+            except ValueError as error:
+                raise OSError(f"{path} holds no token ({error}): delete it, and a new one is made") from error
         folder.mkdir(parents=True, exist_ok=True)
         token = cls(secrets.token_urlsafe(24))
         descriptor = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o600)
@@ -47,20 +64,18 @@ def offered_token(connection: HTTPConnection) -> str | None:
     return connection.query_params.get("token")
 
 
-class TokenGuard:
-    """Dependency that lets a request through only with the token."""
+@dataclass(frozen=True, kw_only=True)
+class Access:
+    """The tokens of a service; ``viewer`` is ``None`` where only operators are let in."""
 
-    def __init__(self, token: Token) -> None:
-        self._token = token
+    operator: Token
+    viewer: Token | None = None
 
-    def __call__(self, connection: HTTPConnection) -> None:
-        if not self._token.admits(offered_token(connection)):
-            raise Problem(
-                401,
-                "unauthorized",
-                "a valid bearer token is needed; it is in the address printed at start",
-                headers={"WWW-Authenticate": "Bearer"},
-            )
+    def role_of(self, offered: str | None) -> Role | None:
+        """What the bearer of ``offered`` may do, ``None`` for nothing."""
+        if self.operator.admits(offered):
+            return Role.OPERATOR
+        return Role.VIEWER if self.viewer is not None and self.viewer.admits(offered) else None
 
 
 def is_loopback(host: str) -> bool:

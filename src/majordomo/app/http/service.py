@@ -11,19 +11,32 @@ from fastapi import Depends, FastAPI, Request, Response
 from fastapi.responses import FileResponse, JSONResponse
 from fastapi.security import HTTPBearer
 from fastapi.staticfiles import StaticFiles
+from starlette.middleware.cors import CORSMiddleware
 
 from majordomo import __version__
+from majordomo.app.audit import NotKept
+from majordomo.app.errors import RobotUnavailable
+from majordomo.app.http.camera import camera_routes
+from majordomo.app.http.codes import GUARDED, OPEN_TO_ALL, told
+from majordomo.app.http.counting import CallCounter
+from majordomo.app.http.description import ABOUT, TAGS, describe
+from majordomo.app.http.gate import Gate
 from majordomo.app.http.limits import BodyLimit, HostGuard
 from majordomo.app.http.problems import Problem, install_problem_handlers, problem_response
+from majordomo.app.http.rates import Budgets
 from majordomo.app.http.scene import scene_routes
-from majordomo.app.http.security import Token, TokenGuard
+from majordomo.app.http.security import Access, Token
 from majordomo.app.http.simulation import simulation_routes
 from majordomo.app.http.status import health_routes, status_routes
 from majordomo.app.http.stream import stream_routes
 from majordomo.app.http.tasks import task_routes
-from majordomo.app.runtime import RobotUnavailable, Runtime
+from majordomo.app.http.trace import trace_routes
+from majordomo.app.runtime import Runtime
+from majordomo.app.settings import Settings
 
 PAGE_FOLDER = Path(__file__).parent.parent / "page"
+BURST_S = 5.0
+"""How long a caller who was silent may come as often as twice the rate allows."""
 PAGE_HEADERS = {
     "Cache-Control": "no-cache",
     "Content-Security-Policy": "default-src 'self'; img-src 'self' blob:; base-uri 'none'; frame-ancestors 'none'",
@@ -32,8 +45,11 @@ PAGE_HEADERS = {
 }
 
 
-def make_service(runtime: Runtime, token: Token) -> FastAPI:
-    """The application of one runtime; its lifespan starts and stops the runtime."""
+def make_service(runtime: Runtime, token: Token, viewer: Token | None = None) -> FastAPI:
+    """The application of one runtime; its lifespan starts and stops the runtime.
+
+    ``token`` opens everything, ``viewer`` all that only reads.
+    """
 
     @asynccontextmanager
     async def lifespan(_: FastAPI) -> AsyncIterator[None]:
@@ -43,27 +59,54 @@ def make_service(runtime: Runtime, token: Token) -> FastAPI:
     app = FastAPI(
         title="Majordomo",
         version=__version__,
-        description="Ask a robot for something; it plans, acts, checks, explains.",
+        description=ABOUT,
+        openapi_tags=TAGS,
+        docs_url=None,
+        redoc_url=None,
+        generate_unique_id_function=lambda route: route.name,
         lifespan=lifespan,
     )
+    describe(app)
     install_problem_handlers(app)
 
     @app.exception_handler(RobotUnavailable)
     async def _no_robot(_: Request, error: RobotUnavailable) -> JSONResponse:
         return problem_response(Problem(503, "robot_unavailable", str(error)))
 
+    @app.exception_handler(NotKept)
+    async def _not_kept(_: Request, error: NotKept) -> JSONResponse:
+        return problem_response(Problem(503, "journal_unavailable", str(error)))
+
     bearer = HTTPBearer(auto_error=False, description="The token in the address printed at start.")
-    guarded = [Depends(bearer), Depends(TokenGuard(token))]
-    for router in (task_routes(runtime), scene_routes(runtime), status_routes(runtime)):
-        app.include_router(router, dependencies=guarded)
+    guarded: dict[str, Any] = {"dependencies": [Depends(bearer)], "responses": told(*GUARDED)}
+    for routes in (task_routes, trace_routes, scene_routes, camera_routes, status_routes):
+        app.include_router(routes(runtime), **guarded)
     if runtime.settings.simulation_api:
-        app.include_router(simulation_routes(runtime), dependencies=guarded)
-    app.include_router(health_routes(runtime))
-    app.include_router(stream_routes(runtime, token))
+        app.include_router(simulation_routes(runtime), **guarded)
+    access = Access(operator=token, viewer=viewer)
+    app.include_router(health_routes(runtime), responses=told(*OPEN_TO_ALL))
+    app.include_router(stream_routes(runtime, access))
     _serve_page(app)
-    app.add_middleware(BodyLimit, max_bytes=runtime.settings.max_body_bytes)
-    app.add_middleware(HostGuard, hosts=frozenset({runtime.settings.host}))
+    _guard(app, runtime.settings, access)
+    app.add_middleware(CallCounter, tallies=runtime.tallies)
     return app
+
+
+def _guard(app: FastAPI, settings: Settings, access: Access) -> None:
+    """Everything passes, from the last to the first: host and origin, foreign pages' questions, token, size."""
+    origins = frozenset(settings.allow_origins)
+    app.add_middleware(BodyLimit, max_bytes=settings.max_body_bytes)
+    budgets = Budgets(rate_hz=settings.requests_per_s, burst=BURST_S * settings.requests_per_s)
+    app.add_middleware(Gate, access=access, budgets=budgets)
+    if origins:
+        app.add_middleware(
+            CORSMiddleware,
+            allow_origins=sorted(origins),
+            allow_methods=["GET", "POST", "PATCH"],
+            allow_headers=["Authorization", "Content-Type", "Idempotency-Key"],
+            expose_headers=["Location", "Link", "Retry-After"],
+        )
+    app.add_middleware(HostGuard, hosts=frozenset({settings.host}), origins=origins)
 
 
 class _PageFiles(StaticFiles):
@@ -82,3 +125,7 @@ def _serve_page(app: FastAPI) -> None:
     @app.get("/", include_in_schema=False)
     async def page() -> FileResponse:
         return FileResponse(PAGE_FOLDER / "index.html", headers=PAGE_HEADERS)
+
+    @app.get("/docs", include_in_schema=False)
+    async def docs() -> FileResponse:
+        return FileResponse(PAGE_FOLDER / "docs.html", headers=PAGE_HEADERS)

@@ -6,8 +6,11 @@ from typing import Any
 
 from fastapi import APIRouter
 
+from majordomo.app.http.codes import told
+from majordomo.app.http.description import shows
 from majordomo.app.http.documents import Disturbance
 from majordomo.app.http.problems import Problem
+from majordomo.app.http.shown import DoneDocument, TruthDocument
 from majordomo.app.runtime import Runtime
 from majordomo.simulation.client import SimulatedRobot
 from majordomo.simulation.errors import DisturbError
@@ -22,12 +25,23 @@ def simulation_routes(runtime: Runtime) -> APIRouter:
             raise Problem(503, "simulator_unavailable", "the simulator is not running")
         return runtime.robot
 
-    @router.get("/v1/simulation/truth", summary="The simulator's truth, for scoring")
-    async def truth() -> dict[str, Any]:
+    @router.get(
+        "/v1/simulation/truth",
+        summary="The simulator's truth, for scoring",
+        responses=shows(TruthDocument) | told("simulator_unavailable"),
+    )
+    async def truth() -> Any:
+        """In house coordinates. The robot knows nothing of it."""
         return await robot().truth()
 
-    @router.post("/v1/simulation/disturb", summary="Let something happen in the house")
-    async def disturb(body: Disturbance) -> dict[str, Any]:
+    @router.post(
+        "/v1/simulation/disturb",
+        summary="Let something happen in the house",
+        responses=shows(DoneDocument, {"done": True})
+        | told("invalid_disturbance", "invalid_request", "simulator_unavailable"),
+    )
+    async def disturb(body: Disturbance) -> Any:
+        """Carried out at once; the robot has to notice by itself."""
         try:
             await robot().disturb(body.event())
         except DisturbError as error:

@@ -3,22 +3,21 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import json
 import logging
-from typing import Any
+from collections.abc import Iterator
 
 from fastapi import APIRouter, WebSocket, WebSocketDisconnect
-from pydantic import ValidationError
 
 from majordomo.app.events import Listener
-from majordomo.app.http.documents import TaskRequest
-from majordomo.app.http.security import Token, offered_token
+from majordomo.app.http.conversation import Conversation, TooManyMessages
+from majordomo.app.http.security import Access, offered_token
 from majordomo.app.runtime import Runtime
 
 logger = logging.getLogger(__name__)
 
-UNAUTHORIZED = 4401
-MAX_MESSAGE_CHARACTERS = 65_536
+UNAUTHORIZED, TRY_LATER, FLOODED = 4401, 1013, 1008
 AUTHENTICATION_TIMEOUT_S = 5.0
 SEND_TIMEOUT_S = 20.0
 
@@ -26,29 +25,53 @@ _CLIENT_IS_GONE = (WebSocketDisconnect, TimeoutError, RuntimeError)
 """Ends of a conversation that need no word in the log; ``RuntimeError`` is Starlette's for sending after the end."""
 
 
-def stream_routes(runtime: Runtime, token: Token) -> APIRouter:
+def stream_routes(runtime: Runtime, access: Access) -> APIRouter:
     """The event stream. The token comes as header, as query, or in the first message (``{"token": …}``)."""
     router = APIRouter()
+    unknown, clients = Seats(runtime.settings.streams), Seats(runtime.settings.streams)
 
     @router.websocket("/v1/stream")
     async def stream(socket: WebSocket, since: int | None = None) -> None:
         offered = offered_token(socket)
         await socket.accept()
         if offered is None:
-            offered = await _token_of_first_message(socket)
-        if not token.admits(offered):
+            with unknown.taken() as seated:
+                offered = await _token_of_first_message(socket) if seated else None
+        role = access.role_of(offered)
+        if role is None:
             await socket.close(UNAUTHORIZED, "a valid token is needed")
             return
-        with runtime.stream.listen(since) as listener:
-            await _converse(socket, listener, runtime)
+        with clients.taken() as seated:
+            if not seated:
+                await socket.close(TRY_LATER, "as many clients as I can serve are listening already")
+                return
+            with runtime.stream.listen(since) as listener:
+                await _converse(socket, listener, Conversation(runtime, role))
 
     return router
 
 
-async def _converse(socket: WebSocket, listener: Listener, runtime: Runtime) -> None:
+class Seats:
+    """Room for so many at a time."""
+
+    def __init__(self, room: int) -> None:
+        self._left = room
+
+    @contextlib.contextmanager
+    def taken(self) -> Iterator[bool]:
+        """Take a seat as long as the context lasts; false if all are taken."""
+        seated = self._left > 0
+        self._left -= seated
+        try:
+            yield seated
+        finally:
+            self._left += seated
+
+
+async def _converse(socket: WebSocket, listener: Listener, conversation: Conversation) -> None:
     """Send and receive until either ends: the client left, or does not read any more."""
     sending = asyncio.create_task(_send(socket, listener), name="stream send")
-    receiving = asyncio.create_task(_receive(socket, runtime), name="stream receive")
+    receiving = asyncio.create_task(_receive(socket, conversation), name="stream receive")
     try:
         await asyncio.wait({sending, receiving}, return_when=asyncio.FIRST_COMPLETED)
     finally:
@@ -62,13 +85,17 @@ async def _converse(socket: WebSocket, listener: Listener, runtime: Runtime) -> 
 async def _send(socket: WebSocket, listener: Listener) -> None:
     async for event in listener.events():
         async with asyncio.timeout(SEND_TIMEOUT_S):
-            await socket.send_text(json.dumps(event.document(), separators=(",", ":")))
+            await socket.send_text(event.text)
 
 
-async def _receive(socket: WebSocket, runtime: Runtime) -> None:
+async def _receive(socket: WebSocket, conversation: Conversation) -> None:
     while True:
         text = await _receive_text(socket)
-        reply = _refusal("not_text", "send JSON as text") if text is None else _obey(text, runtime)
+        try:
+            reply = conversation.take(text)
+        except TooManyMessages as flood:
+            await socket.close(FLOODED, str(flood))
+            return
         if reply is not None:
             await socket.send_text(json.dumps(reply))
 
@@ -86,37 +113,11 @@ async def _receive_text(socket: WebSocket) -> str | None:
     return text
 
 
-def _obey(text: str, runtime: Runtime) -> dict[str, Any] | None:
-    """Carry out one message; the answer, if one is due."""
-    if len(text) > MAX_MESSAGE_CHARACTERS:
-        return _refusal("message_too_large", f"a message may have at most {MAX_MESSAGE_CHARACTERS} characters")
-    try:
-        message = json.loads(text)
-    except (json.JSONDecodeError, RecursionError) as error:
-        return _refusal("invalid_json", str(error))
-    match message:
-        case {"type": "stop"}:
-            runtime.stop_robot()
-            return None
-        case {"type": "request", "text": str(words)}:
-            try:
-                request = TaskRequest(request=words)
-            except ValidationError as error:
-                return _refusal("invalid_request", error.errors()[0]["msg"])
-            return {"type": "accepted", "task": runtime.submit(request.request).id}
-        case _:
-            return _refusal("unknown_message", 'send {"type": "request", "text": "…"} or {"type": "stop"}')
-
-
 async def _token_of_first_message(socket: WebSocket) -> str | None:
     try:
         async with asyncio.timeout(AUTHENTICATION_TIMEOUT_S):
             message = json.loads(await _receive_text(socket) or "null")
-    except (TimeoutError, WebSocketDisconnect, json.JSONDecodeError, RecursionError):
+    except (TimeoutError, WebSocketDisconnect, ValueError, RecursionError):
         return None
     offered = message.get("token") if isinstance(message, dict) else None
     return offered if isinstance(offered, str) else None
-
-
-def _refusal(code: str, detail: str) -> dict[str, str]:
-    return {"type": "problem", "code": code, "detail": detail}

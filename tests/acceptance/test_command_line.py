@@ -58,6 +58,9 @@ def test_a_faulty_house_is_refused_with_the_field_that_is_wrong(tmp_path, text, 
         ("serve", "--llm", "anthropic:without-a-key"),
         ("serve", "--model", str(NETWORKS / "gray.onnx")),
         ("serve", "--model", "nowhere.onnx"),
+        ("serve", "--robot", "nobodys:robot"),
+        ("serve", "--robot", "rosbridge:nowhere.toml"),
+        ("serve", "--robot", "rosbridge:nowhere.toml", "--clock", "lockstep"),
         ("serve", "--house", ""),
         ("serve", "--host", ""),
         ("serve", "--host", b"\xff"),
@@ -96,18 +99,33 @@ def test_an_answer_from_a_pipe_that_is_no_text_is_refused_and_the_task_waits(gra
     (tmp_path / "answer").write_bytes(b"\xff\xfe\n")
     with (tmp_path / "answer").open() as answer:
         outcome = majordomo("ask", "bring the cup to the bench", "--data", str(graph_service), stdin=answer)
-    assert outcome.returncode == 2
+    assert outcome.returncode == 3
     assert "I cannot read this as text" in outcome.stdout
-    assert "the task waits" in outcome.stderr
+    assert "the task waits" in outcome.stdout
 
 
-def test_the_doctor_finds_this_machine_healthy():
-    outcome = majordomo("doctor")
+def test_a_request_is_asked_and_its_trace_told_with_nothing_but_the_address_and_the_folder(graph_service):
+    url = json.loads((graph_service / "service.json").read_text())["address"]
+    asked = majordomo("ask", "where is the red apple?", "--url", url, "--data", str(graph_service), "--json")
+    assert asked.returncode == 0, asked.stderr
+    task = json.loads(asked.stdout)
+    told = majordomo("trace", task["id"], "--data", str(graph_service), env=os.environ | {"COLUMNS": "160"})
+    assert told.returncode == 0, told.stderr
+    assert [kind in told.stdout for kind in ("received", "understood", "ended")] == [True] * 3
+    entries = json.loads(majordomo("trace", task["id"], "--data", str(graph_service), "--json").stdout)["entries"]
+    assert (entries[0]["what"], entries[-1]["data"]["status"]) == ("where is the red apple?", "succeeded")
+    missing = majordomo("trace", "99", "--data", str(graph_service))
+    assert (missing.returncode, "task_99" in missing.stderr) == (2, True)
+
+
+def test_the_doctor_finds_this_machine_healthy(tmp_path):
+    outcome = majordomo("doctor", "--port", "0", "--data", str(tmp_path), "--json")
     assert outcome.returncode == 0, outcome.stdout
+    assert json.loads(outcome.stdout)["healthy"]
 
 
 def test_the_doctor_says_what_a_network_file_holds_and_what_is_wrong_with_another():
-    good = majordomo("doctor", "--model", str(NETWORKS / "colors.onnx"))
+    good = majordomo("doctor", "--port", "0", "--model", str(NETWORKS / "colors.onnx"))
     assert good.returncode == 0, good.stdout
     assert "3 classes, 2 predicates" in " ".join(good.stdout.split())
     bad = majordomo("doctor", env=os.environ | {"MAJORDOMO_MODEL": str(NETWORKS / "without_boxes.onnx")})

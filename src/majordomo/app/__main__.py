@@ -1,6 +1,6 @@
 """``python -m majordomo.app`` is ``majordomo``."""
 
-from majordomo.app.command_line import main
+if __name__ == "__main__":  # and not again in the simulator's process, which begins by importing this
+    from majordomo.app.command_line import main
 
-if __name__ == "__main__":
     main()

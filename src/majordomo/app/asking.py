@@ -1,140 +1,192 @@
-"""``majordomo ask``: a client of the running service that follows one request to its end."""
+"""``majordomo ask``: submits one request to a running service, tells what becomes of it, and lets people decide."""
 
 from __future__ import annotations
 
 import contextlib
-import json
-from collections.abc import AsyncGenerator
-from dataclasses import dataclass
-from pathlib import Path
-from typing import Any
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from enum import IntEnum
 
-import httpx
-import websockets
 from rich.console import Console
 from rich.text import Text
 
-ENDED = frozenset({"succeeded", "failed", "cancelled", "refused"})
-UNDECIDED = frozenset({"awaiting_answer", "awaiting_approval"})
-MAX_PORT = 65535
+from majordomo.app.telling import Teller
+from majordomo.client import Invalid, Majordomo, NoService, NotAllowedNow, StillWaiting, Task
+from majordomo.client.calls import Approval
+
 NO_TEXT = "I cannot read this as text (UTF-8). Please type it again."
 
 
-class NoService(RuntimeError):
-    """No service was found, or it does not answer."""
+class Ending(IntEnum):
+    """How ``majordomo ask`` ended; the value is its exit code."""
+
+    SUCCEEDED = 0
+    NOT_SUCCEEDED = 1
+    NO_SERVICE = 2
+    WAITS = 3
+    GOES_ON = 4
+    INTERRUPTED = 130
 
 
 @dataclass(frozen=True, kw_only=True)
-class Service:
-    """Where the service is and the token that opens it."""
+class Manners:
+    """How to ask.
 
-    address: str
-    token: str
-
-
-def find_service(url: str | None, token: str | None, data: Path) -> Service:
-    """The service at ``url``, else the one that left its address in the data folder.
-
-    Raises:
-        NoService: saying how to start one.
+    ``approval``: ``ask`` shows the plan first. ``agree``: what to say to plans that are shown, ``None`` to let the
+    person at the keyboard decide. ``answers``: to the robot's questions, in order, before the keyboard is tried.
+    ``keyboard``: whether anybody is there. ``follow``: stay until the task ends, ``timeout_s`` seconds at most.
     """
-    if url is not None:
-        return _service_at(url, token)
-    try:
-        known = json.loads((data / "service.json").read_text(encoding="ascii"))
-        return Service(address=known["address"], token=known["token"])
-    except (OSError, ValueError, LookupError, TypeError):
-        raise NoService(
-            f"no service has left its address in {data}: start one with 'majordomo serve', or, if one runs with "
-            "another data folder, name that folder with --data"
-        ) from None
+
+    approval: Approval = "auto"
+    dry_run: bool = False
+    agree: bool | None = None
+    answers: tuple[str, ...] = ()
+    keyboard: bool = True
+    follow: bool = True
+    timeout_s: float | None = None
 
 
-def _service_at(url: str, token: str | None) -> Service:
-    try:
-        parsed = httpx.URL(url)
-    except httpx.InvalidURL as error:
-        raise NoService(f"the address {url!r} cannot be used: {error}") from None
-    if parsed.port is not None and parsed.port > MAX_PORT:
-        raise NoService(f"the address {url!r} cannot be used: ports end at {MAX_PORT}")
-    offered = token or parsed.params.get("token")
-    if not offered:
-        raise NoService("the address holds no token: pass it with --token")
-    if not offered.isascii():
-        raise NoService("the token holds characters that no token has: copy it from the printed address")
-    return Service(address=str(parsed.copy_with(query=None, path="/")).rstrip("/"), token=offered)
+@dataclass(kw_only=True)
+class Asking:
+    """One request to one service.
 
-
-async def ask_service(service: Service, request: str, console: Console) -> bool:
-    """Submit ``request``, print progress, and answer the robot's questions from the keyboard; whether it succeeded.
-
-    Raises:
-        NoService: the service cannot be reached, or refuses.
+    ``task`` is what became of it, ``None`` until the service has it.
     """
-    if not _is_text(request):
-        raise NoService(NO_TEXT)
-    headers = {"Authorization": f"Bearer {service.token}"}
-    try:
-        async with httpx.AsyncClient(base_url=service.address, headers=headers, timeout=10.0) as client:
-            task = _checked(await client.post("/v1/tasks", json={"request": request}))
-            return await _follow(service, client, task["id"], console)
-    except (httpx.TransportError, OSError, websockets.WebSocketException) as error:
-        raise NoService(f"the service at {service.address} does not answer: {error}") from error
 
+    robot: Majordomo
+    console: Console
+    manners: Manners = Manners()
+    task: Task | None = None
+    _answers: Iterator[str] = field(init=False)
+    _end_s: float | None = field(init=False, default=None)
 
-async def _follow(service: Service, client: httpx.AsyncClient, task_id: str, console: Console) -> bool:
-    """Print what becomes of the task; the stream is closed while a person thinks and opened anew afterwards."""
-    told: list[str] = []
-    while True:
-        async with contextlib.aclosing(_states(service, task_id)) as states:
-            async for task in states:
-                _tell(task, told, console)
-                if task["status"] in ENDED:
-                    return bool(task["status"] == "succeeded")
-                if task["status"] in UNDECIDED:
-                    break
-            else:
-                raise NoService("the service ended the stream")
-        await _decide(task, client, console)
+    def __post_init__(self) -> None:
+        self._answers = iter(self.manners.answers)
 
+    def run(self, request: str) -> Ending:
+        """Ask, and follow the task to its end as far as the manners go.
 
-async def _states(service: Service, task_id: str) -> AsyncGenerator[dict[str, Any]]:
-    """The task as it is, and then each time it changes, until the service ends the stream."""
-    address = f"{service.address.replace('http', 'ws', 1)}/v1/stream"
-    headers = {"Authorization": f"Bearer {service.token}"}
-    async with websockets.connect(address, additional_headers=headers, max_size=None) as socket:
-        async for message in socket:
-            event = json.loads(message)
-            data = event["data"]
-            for task in {"task": [data], "snapshot": data.get("tasks", ())}.get(event["type"], ()):
-                if task["id"] == task_id:
-                    yield task
+        Raises:
+            MajordomoError: the service cannot be reached, or refuses.
+        """
+        if not _is_text(request):
+            raise NoService(NO_TEXT)
+        manners = self.manners
+        self._end_s = None if manners.timeout_s is None else time.monotonic() + manners.timeout_s
+        self.task = self.robot.submit(request, approval=manners.approval, dry_run=manners.dry_run)
+        if not manners.follow:
+            self.console.print(self.task.id, highlight=False)
+            return Ending.SUCCEEDED
+        try:
+            return self._follow(self.task)
+        except KeyboardInterrupt:
+            return self._interrupted(self.task)
+        except StillWaiting as over:
+            self._say(f"{over}; 'majordomo trace {over.task_id}' shows how far it came")
+            return Ending.GOES_ON
 
+    def _follow(self, task: Task) -> Ending:
+        """Tell what becomes of the task; the stream is left while a person thinks, and opened anew afterwards."""
+        teller = Teller(self.console)
+        while True:
+            with contextlib.closing(self.robot.follow(task.id, for_s=self._left_s)) as states:
+                for state in states:
+                    task = self.task = state
+                    teller.tell(task)
+                    if task.undecided:
+                        break
+            if task.ended:
+                return Ending.SUCCEEDED if task.succeeded else Ending.NOT_SUCCEEDED
+            if not task.undecided:
+                raise StillWaiting(task.id, task.status, self.manners.timeout_s or 0.0)
+            if not self._decide(task):
+                return self._left_waiting(task)
 
-async def _decide(task: dict[str, Any], client: httpx.AsyncClient, console: Console) -> None:
-    """Let the person at the keyboard answer or approve, if the task waits for that.
+    @property
+    def _left_s(self) -> float | None:
+        """How long to stay yet, seconds."""
+        return None if self._end_s is None else max(0.0, self._end_s - time.monotonic())
 
-    Raises:
-        NoService: nobody is at the keyboard; the task goes on waiting.
-    """
-    path = f"/v1/tasks/{task['id']}"
-    if task["status"] == "awaiting_answer":
-        while refusal := await _refusal(_typed(console, f"{task['reply']} > "), path, client):
-            console.print(refusal, markup=False, highlight=False)
-    elif task["status"] == "awaiting_approval":
-        agreed = _typed(console, f"{task['explanation']} [y/N] ").strip().lower() in {"y", "yes"}
-        _checked(await client.post(f"{path}/{'approve' if agreed else 'reject'}"))
+    def _decide(self, task: Task) -> bool:
+        """Answer or approve, as the manners or the person at the keyboard say; false when nobody does."""
+        try:
+            return self._answer(task) if task.status == "awaiting_answer" else self._approve(task)
+        except NotAllowedNow as changed:
+            self._say(changed.detail)  # somebody else decided meanwhile, or the plan is another one now
+            return True
 
+    def _answer(self, task: Task) -> bool:
+        while True:
+            prepared = next(self._answers, None)
+            answer = self._typed(f"{task.reply} > ") if prepared is None else prepared
+            if answer is None:
+                return False
+            if prepared is not None:
+                self._say(f"{task.reply} > {prepared}")
+            refusal = self._refusal(task, answer)
+            if refusal is None:
+                return True
+            self._say(refusal)
 
-async def _refusal(answer: str, path: str, client: httpx.AsyncClient) -> str | None:
-    """Give an answer; why it cannot be taken, if it cannot."""
-    if not _is_text(answer):
-        return NO_TEXT
-    response = await client.post(f"{path}/answer", json={"answer": answer})
-    if response.status_code == httpx.codes.UNPROCESSABLE_ENTITY:
-        return str(response.json()["detail"])
-    _checked(response)
-    return None
+    def _refusal(self, task: Task, answer: str) -> str | None:
+        """Give an answer; why it cannot be taken, if it cannot."""
+        if not _is_text(answer):
+            return NO_TEXT
+        try:
+            self.robot.answer(task.id, answer)
+        except Invalid as refusal:
+            return refusal.detail
+        return None
+
+    def _approve(self, task: Task) -> bool:
+        agreed = self.manners.agree
+        if agreed is None:
+            typed = self._typed(f"{task.explanation} [y/N] ")
+            if typed is None:
+                return False
+            agreed = _is_yes(typed)
+        else:
+            self._say(f"{task.explanation} {'yes' if agreed else 'no'}")
+        if agreed:
+            self.robot.approve(task.id, revision=task.plan.revision if task.plan is not None else None)
+        else:
+            self.robot.reject(task.id)
+        return True
+
+    def _left_waiting(self, task: Task) -> Ending:
+        question = task.reply if task.status == "awaiting_answer" else task.explanation
+        self._say(f"nobody is there to answer; the task waits, and the page shows its question: {question}")
+        return Ending.WAITS
+
+    def _interrupted(self, task: Task) -> Ending:
+        """Ctrl-C ends the watching, not the task: say so, and offer to end that too."""
+        task = self.task = self.robot.task(task.id)
+        if task.ended:
+            self._say(f"{task.id} has ended: {task.status}")
+            return Ending.INTERRUPTED
+        self._say(f"\n{task.id} goes on without you; it is {task.status.replace('_', ' ')}.")
+        with contextlib.suppress(KeyboardInterrupt):
+            if _is_yes(self._typed("Cancel it? [y/N] ") or ""):
+                self.task = self.robot.cancel(task.id)
+                self._say(self.task.explanation or "It is cancelled.")
+                return Ending.INTERRUPTED
+        self._say(f"'majordomo trace {task.id}' shows how far it came.")
+        return Ending.INTERRUPTED
+
+    def _typed(self, prompt: str) -> str | None:
+        """What the person at the keyboard types, ``None`` when nobody is there."""
+        if not self.manners.keyboard:
+            return None
+        try:
+            return self.console.input(Text(prompt))
+        except UnicodeDecodeError as error:
+            return error.object.decode(errors="surrogateescape")
+        except EOFError:
+            return None
+
+    def _say(self, text: str) -> None:
+        self.console.print(text, markup=False, highlight=False, soft_wrap=True)
 
 
 def _is_text(typed: str) -> bool:
@@ -146,33 +198,5 @@ def _is_text(typed: str) -> bool:
     return True
 
 
-def _typed(console: Console, prompt: str) -> str:
-    try:
-        return console.input(Text(prompt))
-    except UnicodeDecodeError as error:
-        return error.object.decode(errors="surrogateescape")
-    except EOFError:
-        raise NoService("nobody is there to answer; the task waits, and the page shows its question") from None
-
-
-def _tell(task: dict[str, Any], told: list[str], console: Console) -> None:
-    """Print what has not been printed yet."""
-    lines = [
-        f"{step['status']:>10}  {step['skill']}({', '.join(step['args'])})"
-        for step in (task["plan"] or {}).get("steps", ())
-        if step["status"] != "pending"
-    ]
-    lines += [f"    failed  {failure['message']} {failure['suggestion']}" for failure in task["failures"]]
-    if task["status"] in ENDED:
-        lines.append(f"{task['status']:>10}  {task['explanation'] or task['reply']}")
-    for line in lines:
-        if line not in told:
-            told.append(line)
-            console.print(line, markup=False, highlight=False)
-
-
-def _checked(response: httpx.Response) -> dict[str, Any]:
-    if response.is_error:
-        is_problem = "json" in response.headers.get("content-type", "")
-        raise NoService(response.json()["detail"] if is_problem else f"the service answered {response.status_code}")
-    return dict(response.json())
+def _is_yes(typed: str) -> bool:
+    return typed.strip().lower() in {"y", "yes"}

@@ -1,4 +1,4 @@
-"""The command line: ``majordomo demo | serve | ask | plan | house | evaluate | doctor``."""
+"""The command line: ``majordomo demo | serve | ask | trace | plan | export | replay | mcp | house | …``."""
 
 from __future__ import annotations
 
@@ -7,15 +7,19 @@ import json
 import logging
 import os
 import sys
+from collections.abc import Iterable, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Annotated
 
 import typer
 from rich.console import Console
 
+from majordomo.app.discretion import DiscreetFormatter
 from majordomo.app.evaluations.commands import evaluations
+from majordomo.app.exchange_commands import add_exchange_commands
 from majordomo.app.options import Network
-from majordomo.app.settings import DEFAULT_DATA, ClockMode, Settings
+from majordomo.app.settings import DEFAULT_DATA, ClockMode, Settings, origin
 from majordomo.perception.network.shipped import SHIPPED
 
 application = typer.Typer(
@@ -33,28 +37,41 @@ complaints = Console(stderr=True)
 House = Annotated[str, typer.Option(help="A built-in house's name or a house file.")]
 Seed = Annotated[int, typer.Option(min=0, help="Seed of everything that is random.")]
 Data = Annotated[Path, typer.Option(help="Folder of token, logs and memory.")]
+Url = Annotated[str | None, typer.Option(help="Address of the service; default: the one running here.")]
+ClientToken = Annotated[
+    str | None, typer.Option("--token", envvar="MAJORDOMO_TOKEN", help="Its token; default: that of the data folder.")
+]
 
 
 def main() -> None:
     """Entry point; expected problems end with a sentence and exit code 2, never with a stack trace."""
+    try:
+        application()
+    except KeyboardInterrupt:
+        sys.exit(130)
+    except Exception as error:
+        if not isinstance(error, _expected()):
+            raise
+        complaints.print(f"majordomo: {error}", style="red", markup=False, highlight=False)
+        sys.exit(2)
+
+
+def _expected() -> tuple[type[Exception], ...]:
+    """Errors that say all there is to say. Looked up when one is there: the libraries behind them take a second."""
+    from majordomo.app.errors import RefusedToBind, RobotUnavailable
     from majordomo.app.evaluations.planning.errors import LineError
-    from majordomo.app.runtime import RobotUnavailable
-    from majordomo.app.server import RefusedToBind
+    from majordomo.app.recording.errors import RecordingError
+    from majordomo.app.robots import NoSuchRobot, RobotMisfit
     from majordomo.perception.network.errors import NetworkRefused
     from majordomo.planner.errors import BadModelKey, BadModelSpec
+    from majordomo.rosbridge.errors import RosbridgeError
     from majordomo.scene_graph.errors import SceneFormatError
     from majordomo.simulation.errors import HouseError, SimulatorError
 
-    try:
-        application()
-    except (
+    return (
         RefusedToBind, HouseError, SimulatorError, RobotUnavailable, SceneFormatError, BadModelKey, BadModelSpec,
-        NetworkRefused, LineError, OSError,
-    ) as error:  # fmt: skip
-        complaints.print(f"majordomo: {error}", style="red", markup=False, highlight=False)
-        sys.exit(2)
-    except KeyboardInterrupt:
-        sys.exit(130)
+        NetworkRefused, LineError, RecordingError, NoSuchRobot, RobotMisfit, RosbridgeError, OSError,
+    )  # fmt: skip
 
 
 @application.command()
@@ -82,14 +99,34 @@ def serve(
         bool, typer.Option("--remember/--forget", help="Go on with the building as it was known, or begin anew.")
     ] = True,
     graph: Annotated[Path | None, typer.Option(help="Serve a stored scene graph without a robot.")] = None,
+    robot: Annotated[
+        str | None, typer.Option(help="A real robot instead of the simulated one, such as rosbridge:robot.toml.")
+    ] = None,
+    allow_origin: Annotated[
+        list[str] | None, typer.Option(help="A page of another host that may call: https://robot.lan. May be repeated.")
+    ] = None,
+    requests_per_s: Annotated[
+        float, typer.Option("--requests-per-second", min=1, help="Calls of one caller, in the long run.")
+    ] = 200.0,
+    journal_mb: Annotated[
+        float, typer.Option(min=0.1, help="Megabytes that the traces of all tasks may take; the oldest go first.")
+    ] = 64.0,
+    record: Annotated[
+        Path | None, typer.Option(help="Record sensors and graph to this new MCAP file, for replay and Foxglove.")
+    ] = None,
     verbose: Annotated[bool, typer.Option("--verbose", "-v", help="Log every frame's doings.")] = False,
 ) -> None:
     """Start the service; the first line printed is the page's address."""
-    from majordomo.app.http.security import Token
+    from majordomo.app.http.security import VIEWER_FILE, Token
+    from majordomo.app.model_choice import key_in
     from majordomo.app.runtime import Runtime
     from majordomo.app.server import SWITCH_INTERVAL_S, bind, check_exposure, page_address
     from majordomo.app.server import serve as serve_forever
 
+    if graph is not None and record is not None:
+        raise typer.BadParameter("a stored graph has no sensors to record", param_hint="--record")
+    if graph is not None and robot is not None:
+        raise typer.BadParameter("a stored graph is served without a robot", param_hint="--robot")
     sys.setswitchinterval(SWITCH_INTERVAL_S)
     settings = Settings(
         house=house,
@@ -100,7 +137,7 @@ def serve(
         host=host,
         llm=llm,
         llm_url=os.environ.get("MAJORDOMO_LLM_URL"),
-        llm_key=os.environ.get("MAJORDOMO_LLM_KEY"),
+        llm_key=key_in(os.environ),
         llm_context=llm_context,
         data=data,
         simulation_api=simulation_api,
@@ -108,15 +145,22 @@ def serve(
         camera=camera,
         remember=remember,
         graph=graph,
+        robot=robot,
         model=model,
+        allow_origins=_origins(allow_origin or ()),
+        requests_per_s=requests_per_s,
+        journal_bytes=int(1e6 * journal_mb),
+        record=record,
     )
-    _log_to_stderr(verbose=verbose)
-    runtime = Runtime(settings)
     token = Token.stored_in(settings.data_folder)
+    viewer = Token.stored_in(settings.data_folder, VIEWER_FILE)
+    _log_to_stderr(verbose=verbose, secrets=(token.value, viewer.value, settings.llm_key or ""))
+    runtime = Runtime(settings)
     check_exposure(settings, has_token=True)
     with bind(settings) as listener:
         address = page_address(listener, token)
-        started = asyncio.run(serve_forever(runtime, listener, token, lambda: print(address, flush=True)))
+        announce = partial(print, address, flush=True)
+        started = asyncio.run(serve_forever(runtime, listener, token, announce, viewer=viewer))
     if not started:
         raise typer.Exit(2)
 
@@ -137,20 +181,80 @@ def demo(
 @application.command()
 def ask(
     request: Annotated[str, typer.Argument(help="What you want, in plain words.")],
-    url: Annotated[str | None, typer.Option(help="Address of the service; default: the one running here.")] = None,
-    token: Annotated[str | None, typer.Option(envvar="MAJORDOMO_TOKEN", help="Its token.")] = None,
+    url: Url = None,
+    token: ClientToken = None,
     data: Data = DEFAULT_DATA,
+    dry_run: Annotated[bool, typer.Option("--dry-run", help="Plan only; nothing moves.")] = False,
+    confirm: Annotated[bool, typer.Option("--confirm", help="Show the plan, and ask before anything moves.")] = False,
+    agree: Annotated[
+        bool | None, typer.Option("--yes/--no", help="Approve plans that are shown, or turn them down, unasked.")
+    ] = None,
+    answer: Annotated[
+        list[str] | None, typer.Option(help="Answer to the robot's next question; may be given several times.")
+    ] = None,
+    keyboard: Annotated[
+        bool, typer.Option("--input/--no-input", help="Put questions to the keyboard; without, the task waits.")
+    ] = True,
+    follow: Annotated[
+        bool, typer.Option("--follow/--detach", help="Stay until it ends, or only print its identifier.")
+    ] = True,
+    timeout: Annotated[float | None, typer.Option(min=0.0, help="Stay at most so many seconds.")] = None,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print the task as JSON at the end, and nothing else.")
+    ] = False,
 ) -> None:
-    """Ask the running service for something and follow it to its end."""
-    from majordomo.app.asking import NoService, ask_service, find_service
+    """Ask the running service for something and follow it to its end.
 
+    Exit codes: 0 it succeeded; 1 it failed, was refused or cancelled; 2 there is no service, or it refuses the call;
+    3 the task waits for a person and nobody is there; 4 it goes on after --timeout; 130 Ctrl-C: it goes on unless you
+    cancel it.
+    """
+    from majordomo.app.asking import Asking, Manners
+    from majordomo.client import Majordomo, MajordomoError, find_service
+
+    manners = Manners(
+        approval="ask" if confirm else "auto",
+        dry_run=dry_run,
+        agree=agree,
+        answers=tuple(answer or ()),
+        keyboard=keyboard,
+        follow=follow,
+        timeout_s=timeout,
+    )
     try:
-        service = find_service(url, token, data.expanduser())
-        succeeded = asyncio.run(ask_service(service, request, console))
-    except NoService as error:
+        with Majordomo(find_service(url, token, data)) as robot:
+            asking = Asking(robot=robot, console=complaints if as_json else console, manners=manners)
+            ending = asking.run(request)
+    except MajordomoError as error:
         complaints.print(str(error), style="red", markup=False, highlight=False, soft_wrap=True)
         raise typer.Exit(2) from None
-    raise typer.Exit(0 if succeeded else 1)
+    if as_json and asking.task is not None:
+        print(asking.task.model_dump_json(indent=1))
+    raise typer.Exit(ending)
+
+
+@application.command()
+def trace(
+    task: Annotated[str, typer.Argument(help="Its identifier, such as task_3, or its number.")],
+    url: Url = None,
+    token: ClientToken = None,
+    data: Data = DEFAULT_DATA,
+    prompts: Annotated[bool, typer.Option("--prompts", help="Also every word that a language model was told.")] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
+) -> None:
+    """Show what was decided about a task, when and why; when no service runs, from what the last one left."""
+    from majordomo.app.tracing import NoTrace, find_trace, show_trace
+    from majordomo.client import MajordomoError
+
+    try:
+        found = find_trace(task, url=url, token=token, data=data.expanduser())
+    except (NoTrace, MajordomoError) as error:
+        complaints.print(str(error), style="red", markup=False, highlight=False, soft_wrap=True)
+        raise typer.Exit(2) from None
+    if as_json:
+        print(found.trace.model_dump_json(indent=1))
+    else:
+        show_trace(found, console, prompts=prompts)
 
 
 @application.command("plan")
@@ -189,12 +293,36 @@ def make_house(
 
 
 @application.command()
-def doctor(model: Network = SHIPPED) -> None:
-    """Check what Majordomo needs on this machine, and say what to do about what is missing."""
-    from majordomo.app.doctor import examine
+def doctor(
+    model: Network = SHIPPED,
+    data: Data = DEFAULT_DATA,
+    port: Annotated[int, typer.Option(min=0, max=65535, help="Port that the service shall listen on.")] = 8642,
+    host: Annotated[str, typer.Option(help="Address that it shall listen on.")] = "127.0.0.1",
+    llm: Annotated[str | None, typer.Option(help="Language model to try, PROVIDER:MODEL; default: none.")] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
+) -> None:
+    """Check what Majordomo needs on this machine, and say what to do about what is missing.
 
-    healthy = examine(console, model)
-    raise typer.Exit(0 if healthy else 1)
+    Exit codes: 0 nothing keeps the service from running; 1 something does.
+    """
+    import httpx
+
+    from majordomo.app.doctor.examination import Examined, examine
+    from majordomo.app.doctor.finding import document, healthy, tell
+    from majordomo.app.model_choice import key_in
+
+    url, key = os.environ.get("MAJORDOMO_LLM_URL"), key_in(os.environ)
+    what = Examined(data=data, network=model, host=host, port=port, llm=llm, llm_url=url, llm_key=key)
+    with httpx.Client() as http:
+        findings = examine(what, http)
+    if as_json:
+        print(json.dumps(document(findings), indent=1))
+    else:
+        tell(findings, console)
+    raise typer.Exit(0 if healthy(findings) else 1)
+
+
+add_exchange_commands(application)
 
 
 def _speed(text: str, clock: ClockMode) -> float | None:
@@ -211,11 +339,16 @@ def _speed(text: str, clock: ClockMode) -> float | None:
     return speed
 
 
-def _log_to_stderr(*, verbose: bool) -> None:
-    logging.basicConfig(
-        level=logging.DEBUG if verbose else logging.INFO,
-        format="%(asctime)s %(levelname)-7s %(name)s: %(message)s",
-        stream=sys.stderr,
-    )
+def _origins(named: Sequence[str]) -> tuple[str, ...]:
+    try:
+        return tuple(origin(name) for name in named)
+    except ValueError as error:
+        raise typer.BadParameter(str(error), param_hint="--allow-origin") from None
+
+
+def _log_to_stderr(*, verbose: bool, secrets: Iterable[str] = ()) -> None:
+    handler = logging.StreamHandler(sys.stderr)
+    handler.setFormatter(DiscreetFormatter("%(asctime)s %(levelname)-7s %(name)s: %(message)s", secrets=secrets))
+    logging.basicConfig(level=logging.DEBUG if verbose else logging.INFO, handlers=[handler])
     for chatty in ("httpx", "httpcore", "asyncio", "websockets", "watchfiles"):
         logging.getLogger(chatty).setLevel(logging.WARNING)

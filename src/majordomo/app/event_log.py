@@ -3,15 +3,26 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any, TextIO
 
+Hear = Callable[[float, str, Mapping[str, Any]], None]
+
+
+def hear_nothing(stamp_s: float, kind: str, data: Mapping[str, Any]) -> None:
+    """Listener for those who need none."""
+    del stamp_s, kind, data
+
 
 class EventLog:
-    """Appends events to a file, or to nothing when no path is given. Keys are sorted, floats rounded."""
+    """Appends events to a file, or to nothing when no path is given. Keys are sorted, floats rounded.
 
-    def __init__(self, path: Path | None) -> None:
+    ``hear`` is told every event, file or not.
+    """
+
+    def __init__(self, path: Path | None, *, hear: Hear = hear_nothing) -> None:
+        self._hear = hear
         self._file: TextIO | None = None
         if path is not None:
             path.parent.mkdir(parents=True, exist_ok=True)
@@ -19,6 +30,7 @@ class EventLog:
 
     def write(self, stamp_s: float, kind: str, data: Mapping[str, Any]) -> None:
         """Append one event of ``kind``."""
+        self._hear(stamp_s, kind, data)
         if self._file is None:
             return
         record = {"stamp_s": stamp_s, "kind": kind, **data}

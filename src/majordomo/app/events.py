@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import asyncio
+import json
 from collections import deque
 from collections.abc import AsyncIterator, Callable
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 HISTORY = 2048
@@ -25,6 +27,11 @@ class Event:
     def document(self) -> dict[str, Any]:
         """As sent to clients."""
         return {"seq": self.seq, "type": self.type, "stamp_s": self.stamp_s, "data": self.data}
+
+    @cached_property
+    def text(self) -> str:
+        """The document as JSON, made once for all clients."""
+        return json.dumps(self.document(), separators=(",", ":"))
 
 
 class Listener:
@@ -80,11 +87,17 @@ class EventStream:
         self._listeners: list[Listener] = []
         self._seq = first_seq
         self._stamp_s = 0.0
+        self._newest_snapshot: Event | None = None
 
     @property
     def seq(self) -> int:
         """Number of the newest event."""
         return self._seq
+
+    @property
+    def listeners(self) -> int:
+        """How many clients listen."""
+        return len(self._listeners)
 
     def publish(self, event_type: str, data: Any, stamp_s: float) -> None:
         """Number an event and offer it to every listener."""
@@ -120,4 +133,9 @@ class EventStream:
             self._listeners.remove(listener)
 
     def _snapshot_event(self) -> Event:
-        return Event(seq=self._seq, type="snapshot", stamp_s=self._stamp_s, data=self._snapshot())
+        """The same for all who come between two events, such as everybody after a restart."""
+        newest = self._newest_snapshot
+        if newest is None or newest.seq != self._seq:
+            newest = Event(seq=self._seq, type="snapshot", stamp_s=self._stamp_s, data=self._snapshot())
+            self._newest_snapshot = newest
+        return newest

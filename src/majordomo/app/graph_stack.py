@@ -6,8 +6,11 @@ import time
 from collections.abc import Sequence
 from pathlib import Path
 
+from majordomo.app.camera import CameraWindow, Gaze
+from majordomo.app.event_log import EventLog
 from majordomo.app.scheduler import Agent
 from majordomo.app.stored_graph import load_graph
+from majordomo.planner.executor import OnEvent
 from majordomo.planner.grammar.parser import CommandGrammar
 from majordomo.planner.models.protocol import LanguageModel
 from majordomo.planner.paper import PaperMission
@@ -26,6 +29,7 @@ class GraphStack:
         memory: WorkingMemory,
         queue: TaskQueue,
         model: LanguageModel | None,
+        log: EventLog | None = None,
         *,
         grammar: CommandGrammar | None = None,
     ) -> None:
@@ -34,17 +38,24 @@ class GraphStack:
         self._stopped = False
         skills = load_registry()
         verifier = Verifier(skills)
-        planner = TaskPlanner(grammar or CommandGrammar(), verifier, model)
-        self.agents: Sequence[Agent] = [PaperMission(memory, queue, planner, verifier)]
+        self._log = log or EventLog(None)
+        planner = TaskPlanner(
+            grammar or CommandGrammar(),
+            verifier,
+            model,
+            journal=lambda entry: self._log.write(self.now(), "model", entry),
+        )
+        on_event: OnEvent = lambda event: self._log.write(event["stamp_s"], "mission", event)  # noqa: E731
+        self.agents: Sequence[Agent] = [PaperMission(memory, queue, planner, verifier, on_event=on_event)]
 
     @classmethod
-    def load(cls, path: Path, queue: TaskQueue, model: LanguageModel | None) -> GraphStack:
+    def load(cls, path: Path, queue: TaskQueue, model: LanguageModel | None, log: EventLog | None = None) -> GraphStack:
         """Read the graph from a file.
 
         Raises:
             SceneFormatError: naming the offending field.
         """
-        return cls(WorkingMemory(load_graph(path)), queue, model)
+        return cls(WorkingMemory(load_graph(path)), queue, model, log)
 
     @property
     def path_room(self) -> tuple[tuple[float, float], ...]:
@@ -65,6 +76,16 @@ class GraphStack:
     def camera_on(self) -> bool:
         """There is no camera."""
         return False
+
+    @property
+    def camera(self) -> CameraWindow | None:
+        """There is no camera."""
+        return None
+
+    @property
+    def gaze(self) -> Gaze | None:
+        """There is no camera."""
+        return None
 
     @property
     def exploring(self) -> bool:

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from pathlib import Path
+
 import httpx
 
 from majordomo.app.settings import Settings
@@ -22,3 +25,15 @@ def make_language_model(settings: Settings, http: httpx.AsyncClient) -> Language
     spec = parse_spec(settings.llm, base_url=settings.llm_url)
     model = language_model(spec, http=http, key=settings.llm_key, context_tokens=settings.llm_context)
     return CircuitBreaker(model, place=spec.host)
+
+
+def key_in(environment: Mapping[str, str]) -> str | None:
+    """The model's key: what ``MAJORDOMO_LLM_KEY`` holds, or the file that ``MAJORDOMO_LLM_KEY_FILE`` names.
+
+    Raises:
+        OSError: the file cannot be read.
+    """
+    if key := environment.get("MAJORDOMO_LLM_KEY"):
+        return key
+    file = environment.get("MAJORDOMO_LLM_KEY_FILE")
+    return Path(file).expanduser().read_text(encoding="utf-8", errors="replace").strip() if file else None

@@ -41,7 +41,7 @@ def plan_on(snapshot: Snapshot, request: str) -> Outcome:
     meaning = reading.interpretation
     if meaning.kind is not Kind.PLAN:
         return Outcome(meaning=meaning, plan=None, problem=None)
-    plan = Replanner(verifier).plan(meaning.goals, snapshot, snapshot.stamp_s)
+    plan = Replanner(verifier).first_plan(meaning.goals, snapshot, snapshot.stamp_s)
     problem = export(meaning.goals, verifier.state(snapshot), skills)
     return Outcome(meaning=meaning, plan=plan, problem=problem)
 

@@ -7,6 +7,7 @@ from typing import Any
 
 from majordomo.app.event_log import EventLog
 from majordomo.app.events import EventStream
+from majordomo.app.node_history import NodeHistory
 from majordomo.scene_graph.diff import Delta
 from majordomo.scene_graph.edges import EdgeType
 from majordomo.scene_graph.memory import WorkingMemory
@@ -21,6 +22,7 @@ class Publisher:
     Args:
         scene: the scene document in the map frame.
         robot: the robot's document. ``status``: the status document.
+        history: is told of every scene.
     """
 
     name = "publisher"
@@ -34,12 +36,14 @@ class Publisher:
         scene: Callable[[], Mapping[str, Any]],
         robot: Callable[[], Mapping[str, Any]],
         status: Callable[[], Mapping[str, Any]],
+        history: NodeHistory,
         period_s: float = 0.2,
     ) -> None:
         self.period_s = period_s
         self._stream = stream
         self._log = log
         self._scene, self._robot, self._status = scene, robot, status
+        self._history = history
         self._subscription = memory.subscribe(capacity=4096)
         self._nodes: Documents = {}
         self._edges: Documents = {}
@@ -86,6 +90,9 @@ class Publisher:
                 "removed_edges": removed_edges,
             }
             self._stream.publish("scene", data, stamp_s)
+            written = {node["id"] for node in (*put_nodes, *removed_nodes)}
+            moved = {edge["source"] for edge in (*put_edges, *removed_edges)}
+            self._history.note(nodes, edges, stamp_s, changed=written | moved)
 
     def _write(self, delta: Delta) -> None:
         """One line per transaction; the robot's own pose, which changes all the time, is left out.

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from majordomo.perception.crossing import lose_robot
 from majordomo.scene_graph.identifiers import slug
-from majordomo.scene_graph.long_term.keeping import rooms_to_keep, take_up
+from majordomo.scene_graph.long_term.keeping import held_in, rooms_to_keep, take_up
 from majordomo.scene_graph.long_term.long_term_store import LongTermStore
 from majordomo.scene_graph.long_term.room_files import RoomFiles
 from majordomo.scene_graph.memory import WorkingMemory
@@ -21,25 +21,35 @@ from majordomo.simulation.house import load_house
 logger = logging.getLogger(__name__)
 
 AGENT = "remembering"
+PERSON = "person"
+"""Who teaches, as the graph's edits name their authors."""
+LOOKING_PERIOD_S = 1.0
+"""Robot time between two looks whether something has happened that must not wait for the next writing."""
 
 
-def building_folder(data: Path, house: str) -> Path:
+def building_folder(data: Path, house: str, robot: str | None = None) -> Path:
     """Where the building of a house is kept: by its name, and by its walls, which a map must not outlive.
+
+    That of a real ``robot`` is kept by how the robot is reached: who carries it elsewhere names another data folder.
 
     Raises:
         HouseError: there is no such house.
     """
+    if robot is not None:
+        return data / "buildings" / f"{slug(robot)}-{hashlib.sha256(robot.encode()).hexdigest()[:8]}"
     plan = load_house(house)
     walls = plan.model_dump_json(include={"rooms", "doors"})
     return data / "buildings" / f"{slug(plan.name or 'house')}-{hashlib.sha256(walls.encode()).hexdigest()[:8]}"
 
 
 class Remembering:
-    """Agent that writes the known building to its folder when it has changed.
+    """Agent that writes the known building to its folder now and then; at once what a person taught, and what has
+    come into the hand or left it.
 
     Attributes:
         memory: with everything that the folder held at the start. If that is anything, the robot does not know where
             it is. What cannot be read, or contradicts the rest, is reported and left out.
+        held: what was in the hand when the folder was written. It may still be, or not: the fingers will tell.
     """
 
     name = AGENT
@@ -55,14 +65,19 @@ class Remembering:
             anew: begin with nothing; what the folder holds is replaced once a room stands.
             period_s: robot time between two writings.
         """
-        self.period_s = period_s
-        self._files = RoomFiles(folder)
+        self.period_s = min(period_s, LOOKING_PERIOD_S)
+        self._between_s, self._due_s = period_s, 0.0
+        self._files = RoomFiles(folder, begun_s=wall_time())
         self._wall_time = wall_time
         self._writing = threading.Lock()
+        self.held: str | None = None
         self.memory = WorkingMemory(long_term=LongTermStore()) if anew else self._remembered()
+        self._edits = self.memory.subscribe(capacity=4096)
+        self._written_held: str | None = None
 
     def _remembered(self) -> WorkingMemory:
         stored = self._files.read()
+        self.held = stored.held
         elapsed_s = max(0.0, self._wall_time() - stored.saved_s) if stored.saved_s else 0.0
         building = take_up(stored, now_s=0.0, elapsed_s=elapsed_s)
         for room, reason in building.dropped:
@@ -76,14 +91,33 @@ class Remembering:
         return memory
 
     async def step(self, stamp_s: float) -> None:
-        """Write what has changed, while others go on."""
-        await asyncio.to_thread(self.write, stamp_s)
+        """Write what has changed if it is time to, while others go on."""
+        if self._taught() or held_in(self.memory.snapshot()) != self._written_held or stamp_s >= self._due_s:
+            await asyncio.to_thread(self.write, stamp_s)
+
+    def keep_taught(self, stamp_s: float) -> None:
+        """Write down what a person has taught since the last writing, before anybody is told that it is known.
+
+        Raises:
+            OSError: it cannot be written.
+        """
+        if self._taught():
+            self.write(stamp_s)
 
     def write(self, stamp_s: float) -> None:
-        """Write what has changed since the last time."""
-        building = self.memory.building()
-        rooms = rooms_to_keep(building)
-        if rooms:
-            regions = building.of_type(RegionNode)
-            with self._writing:
-                self._files.write(rooms, shared=regions, stamp_s=stamp_s, saved_s=self._wall_time())
+        """Write what has changed since the last time.
+
+        Raises:
+            OSError: it cannot be written.
+        """
+        with self._writing:
+            building = self.memory.building()
+            rooms, held = rooms_to_keep(building), held_in(building)
+            if rooms:
+                now = {"stamp_s": stamp_s, "saved_s": self._wall_time()}
+                self._files.write(rooms, shared=building.of_type(RegionNode), held=held, **now)
+            self._written_held, self._due_s = held, stamp_s + self._between_s
+
+    def _taught(self) -> bool:
+        """Whether a person has taught something since this was last asked; perhaps, where too much has happened."""
+        return any(edit.agent == PERSON for edit in self._edits.poll()) or self._edits.lagged

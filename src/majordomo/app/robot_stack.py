@@ -7,23 +7,30 @@ from __future__ import annotations
 
 import asyncio
 import time
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from majordomo.app.camera import CameraWindow, Gaze
 from majordomo.app.event_log import EventLog
 from majordomo.app.mapping_agents import mapping_agents
 from majordomo.app.ranges import ScanRanges
+from majordomo.app.recording.errors import RecordingError
+from majordomo.app.recording.profile import profile_of
 from majordomo.app.remembering import Remembering, building_folder
 from majordomo.app.robot_port import Robot
-from majordomo.app.scheduler import Agent
+from majordomo.app.robots import start_robot
+from majordomo.app.scheduler import TICK_S, Agent
 from majordomo.app.settings import ClockMode, Settings
 from majordomo.perception.labels import RoomLabels
 from majordomo.perception.network.model import OnnxPanopticModel
 from majordomo.perception.objects.agent import ObjectMemory, ObjectMemorySettings
+from majordomo.perception.objects.detection import DetectionSettings
 from majordomo.perception.panoptic import PanopticModel
-from majordomo.perception.preview import WatchedModel, preview_jpeg
-from majordomo.perception.sensing import Filming, Sensing, SensorBuffer
+from majordomo.perception.preview import WatchedModel
+from majordomo.perception.sensing import SENSING_PERIOD_S, Filming, Sensing, SensorBuffer
+from majordomo.perception.vocabulary import category_of, plain_label
 from majordomo.planner.arbiter import Arbiter
 from majordomo.planner.crew import Crew
 from majordomo.planner.executor import Executor
@@ -37,13 +44,17 @@ from majordomo.planner.task_planner import TaskPlanner
 from majordomo.planner.verifier import Verifier
 from majordomo.scene_graph.long_term.long_term_store import LongTermStore
 from majordomo.scene_graph.memory import WorkingMemory
-from majordomo.simulation.client import SimulatedRobot
 from majordomo.simulation.errors import SimulatorDied
+from majordomo.skills.errors import BodySilent
 from majordomo.skills.registry import load_registry
+
+if TYPE_CHECKING:
+    from majordomo.app.recording.recorder import Recorder
+    from majordomo.app.recording.tape import Tape
 
 
 class RobotStack:
-    """A robot and all agents around it. Make one around a simulated robot with ``build``."""
+    """A robot and all agents around it. ``build`` makes one around the robot that is configured."""
 
     def __init__(
         self,
@@ -54,13 +65,16 @@ class RobotStack:
         log: EventLog,
         *,
         network: PanopticModel | None,
+        recognizable: Collection[str] = (),
         remembering: Remembering | None = None,
         memory: WorkingMemory | None = None,
+        tape: Tape | None = None,
     ) -> None:
         """Give all agents their places.
 
-        ``network``: what understands the camera's frames; there is no camera without. ``memory``: the graph to begin
-        with where nobody remembers one, empty when left out.
+        ``network``: what understands the camera's frames; there is no camera without. ``recognizable``: the names that
+        it may give. ``memory``: the graph to begin with where nobody remembers one, empty when left out. ``tape``: what
+        is recorded to, if anything.
         """
         self.robot = robot
         empty_or_given = memory or WorkingMemory(long_term=LongTermStore())
@@ -74,10 +88,11 @@ class RobotStack:
             ScanRanges(buffer),
             explore=explore,
             on_event=lambda event: log.write(event["stamp_s"], "executor", event),
-            silent=(SimulatorDied,),
+            silent=(SimulatorDied, BodySilent),
         )
         self._eyes = WatchedModel(network) if network is not None else None
         self._objects = self._object_memory(buffer, self._eyes) if self._eyes is not None else None
+        self.camera = CameraWindow(lambda: self._objects.look if self._objects is not None else None)
         self._buffer = buffer
         skills = load_registry()
         verifier = Verifier(skills)
@@ -90,6 +105,7 @@ class RobotStack:
             look_at=look_at,
             sensor_ages=self._sensor_ages,
             on_event=lambda event: log.write(event["stamp_s"], "mission", event),
+            recognizable=frozenset(plain_label(name) for name in recognizable if category_of(name).graspable),
         )
         planner = TaskPlanner(
             CommandGrammar(), verifier, model, journal=lambda entry: log.write(self.now(), "model", entry)
@@ -106,24 +122,36 @@ class RobotStack:
             self._executor,
             *([remembering] if remembering is not None else []),
         ]
+        self._recorder = self._recording(tape) if tape is not None else None
+        if self._recorder is not None:
+            self.agents = [*self.agents, self._recorder]
 
     @classmethod
     async def build(
         cls, settings: Settings, queue: TaskQueue, model: LanguageModel | None, log: EventLog, *, anew: bool = False
     ) -> RobotStack:
-        """Start the simulator and build everything around it.
+        """Start the simulator, or connect to the robot, and build everything around it.
 
         ``anew``: begin with an empty graph, whatever is remembered.
 
         Raises:
             HouseError: the house cannot be built.
+            NoSuchRobot, RobotMisfit, RosbridgeError: the robot cannot be had.
             NetworkRefused: the network's file does not keep its contract.
+            RecordingExists: there is a file of the name of the recording.
         """
-        network = await _network(settings)
+        network = await load_network(settings)
         remembering = _remembering(settings, anew=anew)
-        mode = "lockstep" if settings.clock is ClockMode.LOCKSTEP else "real"
-        robot = await SimulatedRobot.start(settings.house, seed=settings.seed, mode=mode, speed=settings.speed or 1.0)
-        return cls(robot, settings, queue, model, log, network=network, remembering=remembering)
+        robot = await start_robot(settings)
+        try:
+            tape = _tape(settings, anew=anew)
+        except (RecordingError, OSError):
+            await robot.close()
+            raise
+        names = network.description.classes if network is not None else ()
+        return cls(
+            robot, settings, queue, model, log, network=network, recognizable=names, remembering=remembering, tape=tape
+        )
 
     @property
     def path_room(self) -> tuple[tuple[float, float], ...]:
@@ -183,26 +211,47 @@ class RobotStack:
         """Lift the latched stop."""
         self.robot.release_stop()
 
+    def keep_taught(self) -> None:
+        """Write down what a person has just taught.
+
+        Raises:
+            OSError: it cannot be written.
+        """
+        if self._remembering is not None:
+            self._remembering.keep_taught(self.now())
+
     @property
     def camera_on(self) -> bool:
         """Whether there is a frame to show."""
-        return self._eyes is not None and self._eyes.newest is not None
+        return self._objects is not None and self._objects.look is not None
 
-    async def camera_jpeg(self) -> bytes | None:
-        """The newest frame with outlined objects."""
-        newest = self._eyes.newest if self._eyes is not None else None
-        return await asyncio.to_thread(preview_jpeg, *newest) if newest is not None else None
+    @property
+    def gaze(self) -> Gaze | None:
+        """Where the camera looked when its newest frame was taken."""
+        frame = self._buffer.frame if self._eyes is not None else None
+        return Gaze.of(frame, range_m=DetectionSettings().range_limit_m) if frame is not None else None
 
     async def close(self) -> None:
-        """Write the building down, and end the simulator."""
+        """Write the building down, end the recording, and end the simulator."""
         if self._remembering is not None:
             await asyncio.to_thread(self._remembering.write, self.now())
+        if self._recorder is not None:
+            await asyncio.to_thread(self._recorder.close)
         await self.robot.close()
 
     def _object_memory(self, buffer: SensorBuffer, eyes: PanopticModel) -> ObjectMemory:
         random = np.random.default_rng(self._settings.seed)
         settings = ObjectMemorySettings(period_s=1.0 / self._settings.camera_hz)
-        return ObjectMemory(self.memory, buffer, eyes, random=random, settings=settings)
+        held = self._remembering.held if self._remembering is not None else None
+        return ObjectMemory(self.memory, buffer, eyes, random=random, settings=settings, held_before=held)
+
+    def _recording(self, tape: Tape) -> Recorder:
+        """Who records: in lockstep every tick, and nothing is left out; else as often as LiDAR and body are asked."""
+        from majordomo.app.recording.recorder import Recorder
+
+        lockstep = self._settings.clock is ClockMode.LOCKSTEP
+        period_s = TICK_S if lockstep else SENSING_PERIOD_S
+        return Recorder(tape, self.memory, self._buffer, self.robot, patient=lockstep, period_s=period_s)
 
     def _sensor_ages(self) -> dict[str, float]:
         """Seconds since the newest data of each sensor."""
@@ -211,7 +260,7 @@ class RobotStack:
         return {name: now_s - data.stamp_s for name, data in newest.items() if data is not None}
 
 
-async def _network(settings: Settings) -> PanopticModel | None:
+async def load_network(settings: Settings) -> OnnxPanopticModel | None:
     """The network of the configured file, unless nothing would look through it."""
     if not settings.camera:
         return None
@@ -223,5 +272,20 @@ def _remembering(settings: Settings, *, anew: bool) -> Remembering | None:
     if not settings.remember:
         return None
     lockstep = settings.clock is ClockMode.LOCKSTEP
-    folder = building_folder(settings.data_folder, settings.house)
+    folder = building_folder(settings.data_folder, settings.house, settings.robot)
     return Remembering(folder, wall_time=(lambda: 0.0) if lockstep else time.time, anew=anew)
+
+
+def _tape(settings: Settings, *, anew: bool) -> Tape | None:
+    """What is recorded to, if anything; after a restart of the robot a file beside the one before.
+
+    Raises:
+        RecordingExists: there is such a file.
+        OSError: it cannot be made.
+    """
+    if settings.record is None:
+        return None
+    from majordomo.app.recording.tape import Tape, free_path
+
+    path = settings.record.expanduser()
+    return Tape(free_path(path) if anew else path, profile_of(settings), limit_bytes=settings.record_limit_bytes)

@@ -16,18 +16,24 @@ from typing import Any
 
 import httpx
 
+from majordomo.app.audit import Audit, NotKept
+from majordomo.app.errors import RobotUnavailable
 from majordomo.app.event_log import EventLog
 from majordomo.app.events import EventStream
 from majordomo.app.graph_stack import GraphStack
-from majordomo.app.metrics import metrics_text
+from majordomo.app.metrics import Standing, metrics_text
 from majordomo.app.model_choice import make_language_model
+from majordomo.app.node_history import NodeHistory
 from majordomo.app.publisher import Publisher
 from majordomo.app.robot_stack import RobotStack
 from majordomo.app.scene_documents import robot_document, scene_document
 from majordomo.app.scheduler import TICK_S, Agent, LockstepScheduler, RealTimeScheduler, Scheduler, Turns
+from majordomo.app.scrubbing import Scrubber
 from majordomo.app.settings import ClockMode, Settings
 from majordomo.app.stack import BuildStack, Stack
+from majordomo.app.tallies import CountedModel, Tallies
 from majordomo.app.task_journal import TaskJournal
+from majordomo.client.documents import Trace
 from majordomo.planner.grammar.control import Control, control_word
 from majordomo.planner.models.protocol import LanguageModel
 from majordomo.planner.obedience import obey
@@ -43,16 +49,12 @@ FATAL = (SimulatorDied,)
 """What no agent can survive: without a body nothing goes on until it is brought back."""
 
 
-class RobotUnavailable(RuntimeError):
-    """There is no robot: it died, or a stored graph is served."""
-
-
 async def build_stack(
     settings: Settings, queue: TaskQueue, model: LanguageModel | None, log: EventLog, *, anew: bool = False
 ) -> Stack:
-    """The stored graph that is configured, otherwise a simulated robot."""
+    """The stored graph that is configured, otherwise a robot."""
     if settings.graph is not None:
-        return GraphStack.load(settings.graph, queue, model)
+        return GraphStack.load(settings.graph, queue, model, log)
     return await RobotStack.build(settings, queue, model, log, anew=anew)
 
 
@@ -77,15 +79,20 @@ class Runtime:
         self._build, self._tick_s = build, tick_s
         self._witnesses = witnesses
         self._journal = TaskJournal.of(settings)
-        self.queue = TaskQueue(self._journal.tasks() if self._journal is not None else ())
+        tasks = self._journal.take_up()
+        self._audit = Audit(self._journal, tasks, scrubber=Scrubber((settings.llm_key,)))
+        self.queue = TaskQueue(tasks)
         self.stream = EventStream(self._snapshot_document, first_seq=time.time_ns() // 1_000_000)
-        self.log = EventLog(event_log)
+        self.log = EventLog(event_log, hear=self._audit.hear_event)
         self._http = httpx.AsyncClient()
-        self.model = make_language_model(settings, self._http)
+        self.tallies = Tallies()
+        model = make_language_model(settings, self._http)
+        self.model: LanguageModel | None = CountedModel(model, self.tallies) if model is not None else None
         self._stack: Stack | None = None
         self._scheduler: Scheduler | None = None
         self._loop_task: asyncio.Task[None] | None = None
         self._lost = ""
+        self._history = NodeHistory()
         self._scene_cache: dict[tuple[str, tuple[str, ...]], tuple[int, bytes]] = {}
         self._changed = asyncio.Condition()
         self._restarting = asyncio.Lock()
@@ -101,8 +108,7 @@ class Runtime:
             await self._halt()
             await self._http.aclose()
             self.log.close()
-            if self._journal is not None:
-                self._journal.close()
+            self._journal.close()
 
     @property
     def memory(self) -> WorkingMemory:
@@ -157,10 +163,18 @@ class Runtime:
             return self._lost
         return "" if self._scheduler is not None and self.now_s > 0.0 else "starting"
 
-    def submit(self, request: str, *, approval: Approval = Approval.AUTO, dry_run: bool = False) -> Task:
-        """Queue a request; *stop*, *wait*, *go on* and *cancel* act at once instead."""
-        task = self.queue.submit(request, stamp_s=self.now_s, approval=approval, dry_run=dry_run)
+    def submit(
+        self, request: str, *, approval: Approval = Approval.AUTO, dry_run: bool = False, key: str | None = None
+    ) -> Task:
+        """Queue a request; *stop*, *wait*, *go on* and *cancel* act at once instead. ``key``: the client's name for it.
+
+        Raises:
+            QueueFull: too many tasks are open.
+        """
         control = None if dry_run else control_word(request)
+        task = self.queue.submit(
+            request, stamp_s=self.now_s, approval=approval, dry_run=dry_run, key=key, urgent=control is not None
+        )
         if control is None:
             return task
         if control is Control.STOP:
@@ -173,6 +187,7 @@ class Runtime:
         """Latch the stop; never waits for anything."""
         if self._stack is not None:
             self._stack.stop()
+        self.tallies.stopped()
         self.log.write(self.now_s, "stop", {})
         self._say("stopped by a person")
 
@@ -182,6 +197,22 @@ class Runtime:
             self._stack.release_stop()
         self.log.write(self.now_s, "resume", {})
         self._say("stop released")
+
+    def trace(self, task_id: str, *, after: int = 0, limit: int | None = None) -> Trace | None:
+        """What was decided about a task, oldest first; ``None`` if nothing is known of it."""
+        return self._journal.trace(task_id, after=after, limit=limit)
+
+    def keep_taught(self) -> None:
+        """Write down what a person has just taught, so that it survives the end of the process at any instant.
+
+        Raises:
+            NotKept: it cannot be written.
+        """
+        if isinstance(self._stack, RobotStack):
+            try:
+                self._stack.keep_taught()
+            except OSError as problem:
+                raise NotKept(f"I know it now, but cannot write it down: {problem}") from problem
 
     async def restart_robot(self) -> bool:
         """Bring a dead simulator back with an empty graph, since its house begins anew; false while it is alive."""
@@ -210,9 +241,19 @@ class Runtime:
             with contextlib.suppress(TimeoutError):
                 await asyncio.wait_for(self._changed.wait(), timeout_s)
 
-    async def camera_jpeg(self) -> bytes | None:
-        """What the robot sees, with outlined objects, as JPEG."""
-        return await self._stack.camera_jpeg() if isinstance(self._stack, RobotStack) else None
+    async def camera_jpeg(self, *, stamp_s: float | None = None, outlines: bool = True) -> bytes | None:
+        """What the robot sees as JPEG, ``None`` without a camera; see ``CameraWindow.jpeg``.
+
+        Raises:
+            FrameGone: the look at ``stamp_s`` is no longer kept.
+        """
+        camera = self._stack.camera if self._stack is not None else None
+        return await camera.jpeg(stamp_s=stamp_s, outlines=outlines) if camera is not None else None
+
+    async def camera_document(self) -> dict[str, Any] | None:
+        """What was recognized in the newest frame, ``None`` without a camera."""
+        camera = self._stack.camera if self._stack is not None else None
+        return await camera.document(self.now_s) if camera is not None else None
 
     def scene_document(self, frame: str, layers: tuple[str, ...] = ()) -> dict[str, Any]:
         """The scene as a document."""
@@ -229,11 +270,19 @@ class Runtime:
                 self._scene_cache.pop(next(iter(self._scene_cache)))
         return cached[1]
 
+    def history_document(self, node_id: str) -> dict[str, Any] | None:
+        """What became of a node since the service started, ``None`` if it is unknown."""
+        return self._history.document(node_id, exists=node_id in self.memory.building())
+
     def robot_document(self) -> dict[str, Any]:
         """Pose, room, load and path of the robot, in the map frame."""
         stack = self._require_stack()
         return robot_document(
-            self.memory.snapshot(), path_room=stack.path_room, stopped=stack.stopped, stamp_s=self.now_s
+            self.memory.snapshot(),
+            path_room=stack.path_room,
+            gaze=stack.gaze,
+            stopped=stack.stopped,
+            stamp_s=self.now_s,
         )
 
     def status_document(self) -> dict[str, Any]:
@@ -244,7 +293,7 @@ class Runtime:
         return {
             "stamp_s": round(self.now_s, 3),
             "clock": str(self.settings.clock),
-            "house": self.settings.house,
+            "house": self.settings.robot or self.settings.house,
             "exploring": self._require_stack().exploring and not snapshot.root.explored,
             "explored": snapshot.root.explored,
             "task": current.id if current else None,
@@ -253,7 +302,7 @@ class Runtime:
             "language_model": self.settings.llm,
             "network": self._require_stack().network,
             "agents": self._agents(),
-            "simulator": self._lost or ("running" if self.robot else "none"),
+            "simulator": self._lost or ("running" if isinstance(self._stack, RobotStack) else "none"),
             "perception": self._require_stack().degraded,
             "camera": self._require_stack().camera_on,
             "revision": snapshot.revision,
@@ -265,7 +314,18 @@ class Runtime:
 
     def metrics_text(self) -> bytes:
         """Prometheus text."""
-        return metrics_text(self.memory.building(), self._agents(), self.queue.tasks)
+        stack = self._require_stack()
+        standing = Standing(
+            building=stack.memory.building(),
+            loaded=stack.memory.snapshot(),
+            agents=self._agents(),
+            queue=self.queue,
+            stamp_s=self.now_s,
+            listeners=self.stream.listeners,
+            stopped=stack.stopped,
+            ready=self.ready,
+        )
+        return metrics_text(standing) + self.tallies.text()
 
     def _agents(self) -> dict[str, Any]:
         turns = self._scheduler.turns if self._scheduler is not None else ()
@@ -280,6 +340,7 @@ class Runtime:
         settings = self.settings
         self._stack = stack = await self._build(settings, self.queue, self.model, self.log, anew=anew)
         self._scene_cache.clear()
+        self._history = NodeHistory()
         publisher = Publisher(
             stack.memory,
             self.stream,
@@ -287,6 +348,7 @@ class Runtime:
             scene=lambda: self.scene_document("map"),
             robot=self.robot_document,
             status=self.status_document,
+            history=self._history,
         )
         agents = [*stack.agents, publisher, *(self._witnesses(self) if self._witnesses else ()), _Herald(self._changed)]
         if isinstance(stack, RobotStack) and settings.clock is ClockMode.LOCKSTEP:
@@ -317,8 +379,13 @@ class Runtime:
             await self._stack.close()
 
     def _on_task(self, task: Task) -> None:
-        if self._journal is not None:
-            self._journal.write(task)
+        if task.status.ended:
+            try:
+                self.keep_taught()
+            except NotKept as problem:
+                logger.critical("%s: %s", task.id, problem)
+        self._audit.hear_task(task, self.now_s)
+        self.tallies.task(task)
         document = task.document()
         self.stream.publish("task", document, self.now_s)
         self.log.write(self.now_s, "task", {"task": document})

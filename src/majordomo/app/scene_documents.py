@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any, Literal
 
+from majordomo.app.camera import Gaze
 from majordomo.app.http.documents import SceneQuery
 from majordomo.scene_graph.interchange import to_json
 from majordomo.scene_graph.nodes import ROBOT_ID, ROOT_ID, NodeType
@@ -94,9 +95,14 @@ def scene_path(snapshot: Snapshot, origin: str, target: str) -> dict[str, Any] |
 
 
 def robot_document(
-    snapshot: Snapshot, *, path_room: Sequence[tuple[float, float]], stopped: bool, stamp_s: float
+    snapshot: Snapshot,
+    *,
+    path_room: Sequence[tuple[float, float]],
+    gaze: Gaze | None,
+    stopped: bool,
+    stamp_s: float,
 ) -> dict[str, Any]:
-    """Pose, room, load and path of the robot in the map frame."""
+    """Pose, room, load and path of the robot in the map frame; where its camera looks, in its own."""
     T_map_robot = snapshot.transform(ROOT_ID, ROBOT_ID)
     parent = snapshot.parent(ROBOT_ID)
     path_map: list[list[float]] = []
@@ -120,4 +126,5 @@ def robot_document(
         "status": robot.status if robot else "",
         "stopped": stopped,
         "path_map": path_map,
+        "camera": gaze.document() if gaze is not None else None,
     }

@@ -35,14 +35,14 @@ class Agent(Protocol):
 class Turns:
     """Account of one agent's turns. ``fatal``: errors that end the scheduler instead of being survived.
 
-    ``cpu_s``: processor time that the process used during its turns, where ``alone``: in lockstep nobody else uses any
-    meanwhile. In real time it would tell nothing, and with many threads it takes up to half a millisecond to read.
+    ``cpu_s``: processor time that the process used during its turns, once ``metered`` is set. In lockstep nobody else
+    uses any meanwhile; in real time it would tell nothing. With many threads it takes up to half a millisecond to read.
     ``taken``: how many turns so far. ``longest_wait_s``: wall seconds between the starts of two successive ones.
     """
 
     agent: Agent
     fatal: tuple[type[Exception], ...] = ()
-    alone: bool = False
+    metered: bool = False
     due_s: float = 0.0
     busy_ms: deque[float] = field(default_factory=lambda: deque(maxlen=BUSY_WINDOW))
     stamps_s: deque[float] = field(default_factory=lambda: deque(maxlen=64))
@@ -55,7 +55,7 @@ class Turns:
 
     async def take(self, stamp_s: float) -> None:
         """Give the agent its turn; an unexpected error is logged and counted, and the agent goes on."""
-        started, cpu_started_s = time.perf_counter(), self._processor_s()
+        started, cpu_started_s = time.perf_counter(), time.process_time() if self.metered else None
         self.stamps_s.append(stamp_s)
         self.taken += 1
         if self._taken_at_s is not None:
@@ -70,10 +70,8 @@ class Turns:
             self.last_error = f"{type(error).__name__}: {error}"
             logger.exception("agent %s failed and goes on", self.agent.name, extra={"agent": self.agent.name})
         self.busy_ms.append(1000.0 * (time.perf_counter() - started))
-        self.cpu_s += self._processor_s() - cpu_started_s
-
-    def _processor_s(self) -> float:
-        return time.process_time() if self.alone else 0.0
+        if cpu_started_s is not None:
+            self.cpu_s += time.process_time() - cpu_started_s
 
     def summary(self) -> dict[str, float | int]:
         """Rate and busy time as ``GET /v1/status`` shows them."""
@@ -122,7 +120,7 @@ class LockstepScheduler:
         speed: float | None = None,
         fatal: tuple[type[Exception], ...] = (),
     ) -> None:
-        self.turns: Sequence[Turns] = [Turns(agent=agent, fatal=fatal, alone=True) for agent in agents]
+        self.turns: Sequence[Turns] = [Turns(agent=agent, fatal=fatal) for agent in agents]
         self._advance = advance
         self._tick_s = tick_s
         self._speed = speed

@@ -10,6 +10,7 @@ from collections.abc import AsyncIterator, Callable, Iterator
 
 import uvicorn
 
+from majordomo.app.errors import RefusedToBind
 from majordomo.app.http.security import Token, is_loopback
 from majordomo.app.http.service import make_service
 from majordomo.app.lasting import spare_what_lasts
@@ -19,10 +20,6 @@ from majordomo.app.settings import Settings
 SHUTDOWN_TIMEOUT_S = 5
 SWITCH_INTERVAL_S = 0.001
 """How long perception's threads may hold the interpreter while a request waits."""
-
-
-class RefusedToBind(RuntimeError):
-    """The address would be reachable from outside without protection, or cannot be had."""
 
 
 def bind(settings: Settings) -> socket.socket:
@@ -79,25 +76,34 @@ class _Server(uvicorn.Server):
         await self.life.aclose()
 
 
-async def serve(runtime: Runtime, listener: socket.socket, token: Token, on_ready: Callable[[], None]) -> bool:
+async def serve(
+    runtime: Runtime,
+    listener: socket.socket,
+    token: Token,
+    on_ready: Callable[[], None],
+    *,
+    viewer: Token | None = None,
+) -> bool:
     """Serve until interrupted; whether start-up succeeded."""
 
     def ready() -> None:
         server.life.enter_context(_announced(runtime.settings, listener, token))
         on_ready()
 
-    server = _make_server(runtime, token, ready)
+    server = _make_server(runtime, token, ready, viewer)
     await server.serve(sockets=[listener])
     return server.started
 
 
 @contextlib.asynccontextmanager
-async def serving(runtime: Runtime, listener: socket.socket, token: Token) -> AsyncIterator[None]:
+async def serving(
+    runtime: Runtime, listener: socket.socket, token: Token, *, viewer: Token | None = None
+) -> AsyncIterator[None]:
     """Serve in the background of a program that works with the runtime itself (the demo)."""
     import asyncio
 
     ready = asyncio.Event()
-    server = _make_server(runtime, token, ready.set)
+    server = _make_server(runtime, token, ready.set, viewer)
     task = asyncio.create_task(server.serve(sockets=[listener]))
     waiting = asyncio.create_task(ready.wait())
     await asyncio.wait({task, waiting}, return_when=asyncio.FIRST_COMPLETED)
@@ -112,13 +118,14 @@ async def serving(runtime: Runtime, listener: socket.socket, token: Token) -> As
         await task
 
 
-def _make_server(runtime: Runtime, token: Token, on_ready: Callable[[], None]) -> _Server:
+def _make_server(runtime: Runtime, token: Token, on_ready: Callable[[], None], viewer: Token | None) -> _Server:
     config = uvicorn.Config(
-        make_service(runtime, token),
+        make_service(runtime, token, viewer),
         lifespan="off",
         log_level="warning",
         access_log=False,
         ws_max_size=65_536,
+        ws_per_message_deflate=False,  # two hundred clients would be two hundred compressions of every event
         timeout_graceful_shutdown=SHUTDOWN_TIMEOUT_S,
         server_header=False,
     )

@@ -2,14 +2,32 @@
 
 from __future__ import annotations
 
+import re
 from enum import StrEnum
 from pathlib import Path
+from typing import Annotated
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 
 from majordomo.perception.network.shipped import SHIPPED
 
 DEFAULT_DATA = Path("~/.local/share/majordomo")
+
+
+def origin(text: str) -> str:
+    """A page's origin as browsers name it.
+
+    Raises:
+        ValueError: it is something else, such as an address with a path.
+    """
+    if not re.fullmatch(r"https?://[^/?#@*\s]+", text):
+        raise ValueError(
+            f"{text!r} is no origin: write scheme, host and port as a browser does, https://robot.lan:8443"
+        )
+    return text.lower()
+
+
+Origin = Annotated[str, AfterValidator(origin)]
 
 
 class ClockMode(StrEnum):
@@ -28,6 +46,11 @@ class Settings(BaseModel):
     ``camera_hz``: camera frames taken and understood in a second of the robot's clock.
     ``model``: file of the panoptic scene graph network.
     ``remember``: take up the building that the data folder holds, and keep it there.
+    ``allow_origins``: pages of other hosts that may call, as browsers name them: ``https://robot.lan``.
+    ``requests_per_s``: calls of one caller in a second, in the long run. ``streams``: clients of the event stream.
+    ``journal_bytes``: of all traces of tasks together; beyond, the oldest entries are dropped.
+    ``robot``: which real robot serves, ``KIND:WHERE``, ``None`` for a simulated one in ``house``.
+    ``record``: file to which sensors and graph are recorded, up to ``record_limit_bytes``.
     """
 
     model_config = ConfigDict(frozen=True, extra="forbid")
@@ -49,8 +72,15 @@ class Settings(BaseModel):
     camera_hz: float = Field(default=5.0, gt=0)
     remember: bool = False
     graph: Path | None = None
+    robot: str | None = None
     model: Path = SHIPPED
+    record: Path | None = None
+    record_limit_bytes: int = Field(default=20_000_000_000, gt=0)
     max_body_bytes: int = 65_536
+    allow_origins: tuple[Origin, ...] = ()
+    requests_per_s: float = Field(default=200.0, gt=0)
+    streams: int = Field(default=256, ge=1)
+    journal_bytes: int = Field(default=64_000_000, ge=100_000)
 
     @property
     def data_folder(self) -> Path:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Protocol
 
+from majordomo.app.camera import CameraWindow, Gaze
 from majordomo.app.event_log import EventLog
 from majordomo.app.scheduler import Agent
 from majordomo.app.settings import Settings
@@ -54,6 +55,16 @@ class Stack(Protocol):
     @property
     def camera_on(self) -> bool:
         """Whether the camera has shown something."""
+        ...
+
+    @property
+    def camera(self) -> CameraWindow | None:
+        """The window onto what the robot sees, if there is a camera."""
+        ...
+
+    @property
+    def gaze(self) -> Gaze | None:
+        """Where the camera looks, if there is one."""
         ...
 
     def now(self) -> float:

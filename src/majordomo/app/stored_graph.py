@@ -1,14 +1,17 @@
-"""Reads a stored scene graph: the JSON of ``GET /v1/scene?frame=map``, or one written by hand."""
+"""Reads a stored scene graph: the JSON of ``GET /v1/scene?frame=map``, one written by hand, or one of Spark-DSG."""
 
 from __future__ import annotations
 
 import json
 import sys
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 from majordomo.scene_graph.errors import SceneFormatError
 from majordomo.scene_graph.interchange import from_json
 from majordomo.scene_graph.snapshot import Snapshot
+from majordomo.scene_graph.spark_dsg.reader import from_spark_dsg, is_spark_dsg
 
 STANDARD_INPUT = Path("-")
 
@@ -33,4 +36,13 @@ def load_graph(path: Path) -> Snapshot:
         raise SceneFormatError(str(path), "its brackets are nested too deeply") from error
     if not isinstance(document, dict):
         raise SceneFormatError("$", "a scene graph is an object with nodes and edges")
-    return from_json(document)
+    return read_graph(document)
+
+
+def read_graph(document: Mapping[str, Any]) -> Snapshot:
+    """The graph of a document, in whichever of the two formats it is.
+
+    Raises:
+        SceneFormatError: naming the offending field.
+    """
+    return from_spark_dsg(document) if is_spark_dsg(document) else from_json(document)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import json
 
 import pytest
 
@@ -97,3 +98,17 @@ async def test_a_number_of_an_earlier_life_of_the_service_gets_a_snapshot():
     with later.listen(since=earlier.seq) as listener:
         [event] = await take(listener, 1)
     assert event.type == "snapshot"
+
+
+async def test_an_event_is_told_in_the_same_words_to_everybody_and_a_snapshot_made_once_between_two_events():
+    made = []
+    stream = EventStream(lambda: made.append(1) or {"state": len(made)})
+    stream.publish("log", {"message": "é"}, 1.0)
+    with stream.listen() as one, stream.listen() as other:
+        first = [await anext(aiter(listener.events())) for listener in (one, other)]
+        assert first[0] is first[1]
+        assert json.loads(first[0].text) == first[0].document()
+        stream.publish("log", {"message": "two"}, 2.0)
+        with stream.listen() as late:
+            assert (await anext(aiter(late.events()))).data == {"state": 2}
+    assert len(made) == 2

@@ -1,11 +1,18 @@
 """The building on disk, and what a robot knows that starts from it."""
 
+from dataclasses import replace
+
 import pytest
 
 from majordomo.app.remembering import Remembering, building_folder
-from majordomo.scene_graph.long_term.long_term_store import LongTermStore
-from majordomo.scene_graph.memory import WorkingMemory
-from majordomo.scene_graph.nodes import RoomNode
+from majordomo.perception.crossing import find_robot
+from majordomo.perception.localization.planar import Pose2
+from majordomo.planner.lessons import teach
+from majordomo.scene_graph.edges import RtEdge
+from majordomo.scene_graph.long_term.keeping import rooms_to_keep
+from majordomo.scene_graph.long_term.room_files import RoomFiles
+from majordomo.scene_graph.nodes import ObjectState, RoomNode
+from majordomo.scene_graph.se3 import SE3
 from unit.perception.test_working_set import corridor
 
 pytestmark = pytest.mark.anyio
@@ -16,10 +23,15 @@ def anyio_backend():
     return "asyncio"
 
 
+def begun(folder, wall_s=1000.0):
+    """A robot that has mapped three rooms and written nothing yet."""
+    RoomFiles(folder, begun_s=wall_s).write(rooms_to_keep(corridor(3)), shared=(), stamp_s=50.0, saved_s=wall_s)
+    return Remembering(folder, wall_time=lambda: wall_s)
+
+
 async def written(folder, wall_s=1000.0):
-    remembering = Remembering(folder, wall_time=lambda: wall_s)
-    remembering.memory = WorkingMemory(corridor(3), long_term=LongTermStore())
-    await remembering.step(50.0)
+    remembering = begun(folder, wall_s)
+    await remembering.step(0.0)
     return remembering
 
 
@@ -37,6 +49,33 @@ async def test_with_nothing_to_remember_the_robot_starts_where_it_stands(tmp_pat
     memory = Remembering(tmp_path, wall_time=lambda: 0.0).memory
     assert memory.snapshot().robot.localized
     assert memory.unloaded == ()
+
+
+async def test_what_a_person_teaches_is_written_before_it_is_acknowledged(tmp_path):
+    remembering = await written(tmp_path)
+    remembering.keep_taught(3.0)
+    before = (tmp_path / "building.json").read_bytes()
+    teach(remembering.memory, "room_2", label="library", name=None, stamp_s=4.0)
+    assert (tmp_path / "building.json").read_bytes() == before
+    remembering.keep_taught(4.0)
+    assert Remembering(tmp_path, wall_time=lambda: 1001.0).memory.building().room("room_2").label == "library"
+
+
+async def test_what_comes_into_the_hand_is_written_at_once_and_other_changes_now_and_then(tmp_path):
+    remembering = await written(tmp_path)
+    with remembering.memory.edit("relocalization", 1.0) as tx:
+        find_robot(tx, "room_1", Pose2(0.0, 0.0, 0.0), 1.0)
+    await remembering.step(1.0)
+    assert Remembering(tmp_path, wall_time=lambda: 1001.0).held is None
+    snapshot = remembering.memory.load("room_1", agent="test", stamp_s=2.0)
+    with remembering.memory.edit("objects", 2.0) as tx:
+        tx.remove(snapshot.parent("cup_1").key)
+        tx.put(replace(snapshot.object("cup_1"), state=ObjectState.HELD), replace(snapshot.robot, holding="cup_1"))
+        tx.put(RtEdge(source="robot", target="cup_1", T_source_target=SE3.identity()))
+    await remembering.step(3.0)
+    again = Remembering(tmp_path, wall_time=lambda: 1001.0)
+    assert again.held == "cup_1"
+    assert again.memory.building().object("cup_1").state is ObjectState.MISSING
 
 
 async def test_beginning_anew_leaves_the_files_until_a_room_stands(tmp_path):

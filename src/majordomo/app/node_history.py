@@ -1,0 +1,145 @@
+"""What became of each node while the service ran: found, moved, renamed, missed, seen again."""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+from collections.abc import Collection, Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import Any, Literal
+
+Record = Mapping[str, Any]
+Records = Mapping[str, Record]
+Kind = Literal["known", "found", "gone", "moved", "room", "place", "state", "label", "name", "seen_again"]
+Value = str | list[float] | None
+
+WATCHED = frozenset({"room", "door", "object", "person", "region"})
+"""Types whose history is kept; walls, corners and affordances come and go with their rooms."""
+ENTRIES, NODES = 64, 2000
+STEP_M = {"object": 0.1, "person": 0.5}
+"""From where it was noted last, a thing must be so far away to count as moved: less is better knowledge, not motion."""
+UNSEEN_S = 60.0
+"""After so long without a sight, the next one is noted."""
+CARRYING = frozenset({"on", "in"})
+
+
+@dataclass(frozen=True, kw_only=True)
+class Entry:
+    """One thing that became of a node. ``before`` and ``after``: a word, an identifier, or (x, y, z) in the map."""
+
+    stamp_s: float
+    kind: Kind
+    before: Value = None
+    after: Value = None
+
+    def document(self) -> dict[str, Any]:
+        """As the interface shows it."""
+        return {"stamp_s": round(self.stamp_s, 3), "kind": self.kind, "before": self.before, "after": self.after}
+
+
+@dataclass(kw_only=True)
+class _Past:
+    """Entries of one node, oldest first, and what was noted of it last."""
+
+    entries: deque[Entry] = field(default_factory=lambda: deque(maxlen=ENTRIES))
+    dropped: int = 0
+    told: dict[str, Value] = field(default_factory=dict)
+    last_seen_s: float | None = None
+    is_gone: bool = False
+
+    def add(self, entry: Entry) -> None:
+        self.dropped += len(self.entries) == ENTRIES
+        self.entries.append(entry)
+
+
+class NodeHistory:
+    """Histories of at most ``nodes`` nodes, of each the newest entries; it begins when the service does.
+
+    When full, those of nodes that are gone are forgotten first.
+    """
+
+    def __init__(self, *, nodes: int = NODES) -> None:
+        self._limit = nodes
+        self._pasts: dict[str, _Past] = {}
+        self._since_s: float | None = None
+
+    def note(self, nodes: Records, edges: Records, stamp_s: float, *, changed: Collection[str] | None = None) -> None:
+        """Take in the nodes and edges of the scene in the map frame as they are at ``stamp_s``.
+
+        ``changed``: the nodes that were written or removed, or of which an edge was; without, all are looked through.
+        """
+        changed = nodes.keys() | self._pasts.keys() if changed is None else changed
+        first = self._since_s is None
+        self._since_s = stamp_s if self._since_s is None else self._since_s
+        places = dict(_places(edges, changed))
+        for node_id in changed:
+            node, past = nodes.get(node_id), self._pasts.get(node_id)
+            if node is not None and node["type"] in WATCHED:
+                self._note(node_id, node, places.get(node_id), stamp_s, first=first)
+            elif node is None and past is not None and not past.is_gone:
+                past.is_gone = True
+                past.add(Entry(stamp_s=stamp_s, kind="gone"))
+        self._forget()
+
+    def document(self, node_id: str, *, exists: bool = False) -> dict[str, Any] | None:
+        """What is kept of a node; ``None`` if nothing is, unless it ``exists``."""
+        past = self._pasts.get(node_id, _Past() if exists else None)
+        if past is None:
+            return None
+        entries = [entry.document() for entry in past.entries]
+        return {"node": node_id, "since_s": self._since_s, "entries": entries, "dropped": past.dropped}
+
+    def _note(self, node_id: str, node: Record, place: str | None, stamp_s: float, *, first: bool) -> None:
+        past = self._pasts.setdefault(node_id, _Past())
+        if not past.told or past.is_gone:
+            past.add(Entry(stamp_s=stamp_s, kind="known" if first else "found", after=node["position_m"]))
+            past.told, past.is_gone = {"moved": node["position_m"], **_facts(node, place)}, False
+        else:
+            for kind, before, after in _changes(node, place, past.told):
+                past.add(Entry(stamp_s=stamp_s, kind=kind, before=before, after=after))
+                past.told[kind] = after
+        seen_s = node.get("last_seen_s")
+        if seen_s is not None and past.last_seen_s is not None and seen_s - past.last_seen_s > UNSEEN_S:
+            past.add(Entry(stamp_s=seen_s, kind="seen_again"))
+        past.last_seen_s = seen_s
+
+    def _forget(self) -> None:
+        if len(self._pasts) <= self._limit:
+            return
+        order = sorted(self._pasts, key=lambda node_id: not self._pasts[node_id].is_gone)
+        for node_id in order[: len(self._pasts) - self._limit]:
+            del self._pasts[node_id]
+
+
+def _places(edges: Records, things: Collection[str]) -> Iterator[tuple[str, str]]:
+    """What each of the things lies on or in, as far as that is sure."""
+    for edge in edges.values():
+        if (
+            edge["source"] in things
+            and edge["type"] == "relation"
+            and edge["label"] in CARRYING
+            and edge["probability"] >= 0.5
+        ):
+            yield edge["source"], f"{edge['label']} {edge['target']}"
+
+
+def _facts(node: Record, place: str | None) -> dict[str, Value]:
+    name = node.get("name") or node.get("attributes", {}).get("name") or None
+    state = node.get("state") or node.get("status") or None
+    room = node["room"] if node["type"] in {"object", "person"} else None
+    return {"room": room, "place": place, "state": state, "label": node["label"] or None, "name": name}
+
+
+def _changes(node: Record, place: str | None, told: Mapping[str, Value]) -> Iterator[tuple[Any, Value, Value]]:
+    """What is no longer as it was noted last; what the robot carries moves with it."""
+    for kind, value in _facts(node, place).items():
+        if value != told.get(kind):
+            yield kind, told.get(kind), value
+    step_m, before, now = STEP_M.get(node["type"]), told["moved"], node["position_m"]
+    if (
+        step_m is not None
+        and node.get("state") != "held"
+        and isinstance(before, list)
+        and math.dist(before, now) >= step_m
+    ):
+        yield "moved", before, now

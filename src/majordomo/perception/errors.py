@@ -24,3 +24,11 @@ class OdometryUnavailable(PerceptionError):
         super().__init__(f"no odometry at {stamp_s:.2f} s; {available}")
         self.stamp_s = stamp_s
         self.span_s = span_s
+
+
+class NoPicture(PerceptionError, ValueError):
+    """Bytes that are no image file."""
+
+    def __init__(self, size: int) -> None:
+        self.size = size
+        super().__init__(f"{size} bytes that are no image")

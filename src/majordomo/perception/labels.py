@@ -84,13 +84,14 @@ _SAME = {
 
 @dataclass(frozen=True, kw_only=True)
 class LabelSettings:
-    """``tell_from``: probability from which a label is said. ``switch_margin``: how much better a new one must be.
-    ``overlooked``: chance that a room of some kind shows nothing of what makes it one.
+    """``tell_from``: probability from which a label is said. ``switch_odds``: how many times likelier another one must
+    be to take its place: people have used the name by then. ``overlooked``: chance that a room of some kind shows
+    nothing of what makes it one.
     """
 
     period_s: float = 1.0
     tell_from: float = 0.55
-    switch_margin: float = 0.1
+    switch_odds: float = 3.0
     floor: float = 0.01
     overlooked: float = 0.25
 
@@ -111,6 +112,15 @@ def room_label(
         settings: when a label is said.
     """
     settings = settings or LabelSettings()
+    chances = label_chances(contents, polygon_m=polygon_m, doors=doors, settings=settings)
+    best = max(chances, key=lambda label: chances[label])
+    return (best if chances[best] >= settings.tell_from else ""), chances[best]
+
+
+def label_chances(
+    contents: Iterable[tuple[str, float]], *, polygon_m: tuple[Point2, ...], doors: int, settings: LabelSettings
+) -> dict[str, float]:
+    """Probability of every use that a room may have; arguments as in :func:`room_label`."""
     log_odds = np.log(np.array(_PRIOR))
     evidence = _evidence(contents)
     for label, weight in sorted(evidence.items()):
@@ -121,9 +131,7 @@ def room_label(
     log_odds = log_odds + _shape_evidence(polygon_m, doors, bare=not evidence)
     weights = np.exp(log_odds - log_odds.max())
     probabilities = weights / weights.sum()
-    best = int(np.argmax(probabilities))
-    probability = float(probabilities[best])
-    return (ROOM_LABELS[best] if probability >= settings.tell_from else ""), probability
+    return dict(zip(ROOM_LABELS, map(float, probabilities), strict=True))
 
 
 def _evidence(contents: Iterable[tuple[str, float]]) -> dict[str, float]:
@@ -202,22 +210,25 @@ class RoomLabels:
         for room in snapshot.of_type(RoomNode):
             if room.label_taught or room.status is RoomStatus.TEMPORARY:
                 continue
-            label, probability = room_label(
+            chances = label_chances(
                 contents.get(room.id, []),
                 polygon_m=room.polygon_m if room.status is RoomStatus.PERMANENT else (),
                 doors=sum(room.id == door.rooms[0] and not door.provisional for door in snapshot.of_type(DoorNode)),
                 settings=self._settings,
             )
-            changed = replace(room, label=label, label_probability=round(probability, 3) if label else 0.0)
-            if self._worth_writing(room, changed):
-                edits.append(PutNode(changed))
+            label = self._label(room.label, chances)
+            probability = round(chances[label], 3) if label else 0.0
+            if label != room.label or abs(probability - room.label_probability) > 0.02:
+                edits.append(PutNode(replace(room, label=label, label_probability=probability)))
         self._memory.commit(edits, agent=self.name, stamp_s=stamp_s)
 
-    def _worth_writing(self, before: RoomNode, after: RoomNode) -> bool:
-        if before.label == after.label:
-            return abs(before.label_probability - after.label_probability) > 0.02
-        losing = after.label_probability < before.label_probability + self._settings.switch_margin - 0.3
-        return not (before.label and after.label and losing)
+    def _label(self, before: str, chances: Mapping[str, float]) -> str:
+        """What a room is called now: what it was called, unless another use is by far likelier."""
+        best = max(chances, key=lambda label: chances[label])
+        needed = self._settings.tell_from
+        if before in chances:
+            needed = max(needed, self._settings.switch_odds * chances[before])
+        return best if chances[best] >= needed else before
 
 
 def _contents(snapshot: Snapshot) -> dict[str, list[tuple[str, float]]]:

@@ -1,8 +1,10 @@
-"""The newest frame with what the model found in it, as a picture for people."""
+"""A frame with what the model found in it, as a picture for people and as outlines for programs."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
 
 import cv2
 import numpy as np
@@ -16,25 +18,57 @@ SCALE = 2
 _GOLDEN_ANGLE_DEG = 137.508
 
 
+_SPECK_PX = 12
+"""Parts of a mask with a smaller outline are left out."""
+_TOLERANCE_PX = 1.0
+
+
 class WatchedModel:
-    """A panoptic model that remembers the last frame and what was found in it. Passes everything through.
+    """A panoptic model that counts the frames it understood. Passes everything through.
 
     Attributes:
-        newest: the last frame that was understood, with what was found in it.
         understood: how many frames were understood so far.
     """
 
     def __init__(self, model: PanopticModel) -> None:
         self._model = model
-        self.newest: tuple[RgbdFrame, PanopticScene] | None = None
         self.understood = 0
 
     async def infer(self, frame: RgbdFrame) -> PanopticScene:
         """Instances and relations of ``frame``, as the model gives them."""
         scene = await self._model.infer(frame)
-        self.newest = (frame, scene)
         self.understood += 1
         return scene
+
+
+@dataclass(frozen=True, kw_only=True)
+class Outline:
+    """The outline of a mask in pixels, x right and y down.
+
+    ``box_px``: left, top, right, bottom, the last two exclusive. ``parts_px``: a polygon for each part, largest first.
+    """
+
+    box_px: tuple[int, int, int, int]
+    parts_px: tuple[tuple[tuple[int, int], ...], ...]
+
+
+def outline_of(mask: NDArray[np.bool_]) -> Outline | None:
+    """The outline of an (H, W) mask, to a pixel, without holes and specks; ``None`` if nothing is left."""
+    found, _ = cv2.findContours(mask.astype(np.uint8), cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_SIMPLE)
+    large = sorted((part for part in found if cv2.arcLength(part, closed=True) >= _SPECK_PX), key=cv2.contourArea)
+    if not large:
+        return None
+    x, y, width, height = cv2.boundingRect(np.concatenate(large))
+    parts = (cv2.approxPolyDP(part, _TOLERANCE_PX, closed=True)[:, 0, :].tolist() for part in reversed(large))
+    return Outline(
+        box_px=(x, y, x + width, y + height),
+        parts_px=tuple(tuple((int(u), int(v)) for u, v in part) for part in parts),
+    )
+
+
+def frame_jpeg(frame: RgbdFrame) -> bytes:
+    """``frame`` as JPEG, as it was taken."""
+    return _jpeg(cv2.cvtColor(frame.rgb, cv2.COLOR_RGB2BGR))
 
 
 def preview_jpeg(frame: RgbdFrame, scene: PanopticScene) -> bytes:
@@ -44,7 +78,11 @@ def preview_jpeg(frame: RgbdFrame, scene: PanopticScene) -> bytes:
     canvas: NDArray[np.uint8] = np.asarray(resized, dtype=np.uint8)
     for index, instance in enumerate(scene.instances):
         _draw(canvas, instance, _color(index))
-    _, encoded = cv2.imencode(".jpg", canvas, [cv2.IMWRITE_JPEG_QUALITY, 80])
+    return _jpeg(canvas)
+
+
+def _jpeg(picture: Any) -> bytes:
+    _, encoded = cv2.imencode(".jpg", picture, [cv2.IMWRITE_JPEG_QUALITY, 80])
     return bytes(encoded)
 
 

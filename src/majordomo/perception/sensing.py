@@ -24,6 +24,7 @@ logger = logging.getLogger(__name__)
 
 Measurement = TypeVar("Measurement")
 _EXTRAPOLATION_LIMIT_S = 0.5
+SENSING_PERIOD_S = 0.1
 
 
 def ray_directions_base(scan: LidarScan) -> NDArray[np.float64]:
@@ -173,7 +174,7 @@ class Sensing:
 
     name = "sensing"
 
-    def __init__(self, buffer: SensorBuffer, *, period_s: float = 0.1) -> None:
+    def __init__(self, buffer: SensorBuffer, *, period_s: float = SENSING_PERIOD_S) -> None:
         self.period_s = period_s
         self._buffer = buffer
 

@@ -20,8 +20,7 @@ _SQUARE_SHARE = 0.85
 _UNSEEN_SHARE = 0.65
 """As deep a thing may be that shows its width alone, as a share of that."""
 _FURNITURE_FROM_M = 0.5
-_OF_ONE_SIZE = frozenset({"appliance", "fixture"})
-_OVERSIZE = 1.8
+_OF_ONE_SIZE = frozenset({"appliance", "fixture", "fruit"})
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -81,11 +80,21 @@ def carries_things(label: str, size_m: Point3, *, reachable_top_m: float = 1.25)
     return (category.support and (category.levels or size_m[2] <= reachable_top_m)) or open_container
 
 
-def is_oversized(label: str, size_m: Point3) -> bool:
-    """Whether a thing is too long for its name: appliances and fixtures come in much the same sizes everywhere."""
+def is_of_one_size(label: str) -> bool:
+    """Whether things of that name come in much the same size everywhere: appliances, fixtures and fruits."""
+    return not _OF_ONE_SIZE.isdisjoint(category_of(label).tags)
+
+
+def oversize(label: str, size_m: Point3) -> float:
+    """How many times longer than usual for its name a thing is, or broader if it can be grasped; 1 if it is not, or
+    where things of that name come in all sizes.
+    """
+    if not is_of_one_size(label):
+        return 1.0
     category = category_of(label)
-    standard = not _OF_ONE_SIZE.isdisjoint(category.tags)
-    return standard and max(size_m[:2]) > _OVERSIZE * max(category.size_m[:2])
+    longer = max(size_m[:2]) / max(category.size_m[:2])
+    broader = min(size_m[:2]) / min(category.size_m[:2]) if category.graspable else 1.0
+    return max(longer, broader, 1.0)
 
 
 def is_person(label: str) -> bool:

@@ -159,3 +159,45 @@ def test_missing_things_do_not_count():
     memory = memory_with()
     memory.commit([PutNode(ObjectNode(id="bed_1", label="bed", state=ObjectState.MISSING))], agent="test", stamp_s=0.5)
     assert step(memory).room("room_1").label == ""
+
+
+def furnish(memory, *labels):
+    """What stands in the room now; a name that was there and is not any more is missing."""
+    standing = {node.id: node for node in memory.snapshot().of_type(ObjectNode)}
+    edits = [
+        PutNode(replace(node, state=ObjectState.PRESENT if node.label in labels else ObjectState.MISSING))
+        for node in standing.values()
+    ]
+    for label in labels:
+        if f"{label}_1" not in standing:
+            edits += [
+                PutNode(ObjectNode(id=f"{label}_1", label=label, size_m=(1.0, 0.6, 0.7))),
+                PutEdge(RtEdge(source="room_1", target=f"{label}_1", T_source_target=SE3.identity())),
+                PutEdge(InEdge(source=f"{label}_1", target="room_1")),
+            ]
+    memory.commit(edits, agent="test", stamp_s=0.5)
+
+
+def test_a_room_keeps_the_name_that_people_use_while_another_is_hardly_likelier():
+    memory = memory_with()
+    furnish(memory, "desk", "sofa", "chair", "shelf")
+    assert step(memory).room("room_1").label == "office"
+    furnish(memory, "desk", "sofa", "shelf", "plant")
+    assert room_label(things("desk", "sofa", "shelf", "plant"), polygon_m=SQUARE)[0] == "living room"
+    graph = step(memory)
+    assert graph.room("room_1").label == "office"
+    assert graph.room("room_1").label_probability < 0.5
+
+
+def test_a_room_is_not_nameless_again_when_what_made_it_one_was_carried_out():
+    memory = memory_with()
+    step(memory)
+    furnish(memory)
+    assert step(memory).room("room_1").label == "bedroom"
+
+
+def test_a_room_gets_another_name_once_it_is_by_far_likelier():
+    memory = memory_with()
+    step(memory)
+    furnish(memory, "stove", "fridge", "counter")
+    assert step(memory).room("room_1").label == "kitchen"

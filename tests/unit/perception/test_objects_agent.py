@@ -15,6 +15,8 @@ from majordomo.perception.ports import JointState
 from majordomo.perception.sensing import SensorBuffer
 from majordomo.scene_graph.edges import ConnectsEdge, IntentionAction, IntentionStatus, RtEdge
 from majordomo.scene_graph.edits import PutEdge, PutNode, RemoveNode
+from majordomo.scene_graph.long_term.keeping import _with_empty_hand
+from majordomo.scene_graph.memory import WorkingMemory
 from majordomo.scene_graph.nodes import DoorNode, ObjectNode, ObjectState, PersonNode, RoomStatus
 from majordomo.scene_graph.se3 import SE3
 
@@ -296,6 +298,44 @@ def test_a_thing_that_slips_from_the_fingers_is_missing_near_the_robot_until_see
     graph = story.run(8)
     assert graph.object("bottle_1").state is ObjectState.PRESENT
     assert np.linalg.norm(graph.position("bottle_1", "room_1") - (-1.2, 0.2, 0.12)) < 0.02
+
+
+def switched_on_again(story, contacts, opening_m):
+    """The robot after a restart, in front of the same table, with fingers that feel this."""
+    story.memory = WorkingMemory(_with_empty_hand(story.memory.snapshot()))
+    assert story.memory.snapshot().object("bottle_1").state is ObjectState.MISSING
+    random = np.random.default_rng(4)
+    story.agent = ObjectMemory(story.memory, story.buffer, story.room, random=random, held_before="bottle_1")
+    story.room.joints = joints((0.4, 0.0, 0.9), contacts, opening_m)
+    return story
+
+
+def test_what_is_still_in_the_hand_after_a_restart_is_held():
+    story = grasped()
+    story.run(4)
+    graph = switched_on_again(story, (True, True), 0.068).run(4)
+    assert graph.robot.holding == "bottle_1"
+    assert graph.object("bottle_1").state is ObjectState.HELD
+    assert np.linalg.norm(graph.position("bottle_1", "robot") - (0.4, 0.0, 0.9)) < 0.15
+    story.room.joints = joints((0.4, 0.0, 0.9), (False, False), 0.0)
+    assert story.run(3).object("bottle_1").state is ObjectState.MISSING
+
+
+@pytest.mark.parametrize("opening_m", [0.0, 0.12])
+def test_what_is_no_longer_in_the_hand_after_a_restart_is_missing_until_it_is_seen(opening_m):
+    story = grasped()
+    story.run(4)
+    graph = switched_on_again(story, (False, False), opening_m).run(4)
+    assert graph.robot.holding is None
+    assert graph.object("bottle_1").state is ObjectState.MISSING
+    story.room.joints = joints((0.4, 0.0, 0.9), (True, True), 0.05)  # something else, that nobody said is grasped
+    assert story.run(3).robot.holding is None
+    story.room.joints = joints((0.1, 0.0, 0.75))
+    story.room.solids = [TABLE, RED_CUP, BLUE_BOTTLE]
+    graph = story.run(8)
+    assert graph.object("bottle_1").state is ObjectState.PRESENT
+    assert [n.id for n in graph.of_type(ObjectNode)] == ["bottle_1", "cup_1", "table_1"]
+    assert np.linalg.norm(graph.position("bottle_1", "room_1") - BLUE_BOTTLE.center) < 0.03
 
 
 @pytest.mark.parametrize(("late_s", "understood"), [(0.05, [0.25, 0.3]), (1.0, [1.25])])
@@ -657,3 +697,32 @@ def test_a_stretch_of_wall_that_the_network_takes_for_a_fridge_is_none():
     assert seen(at_the_wall("fridge", 0.02, 0.8, 1.2)) == []
     assert seen(at_the_wall("shelf", 0.25, 0.8, 1.2)) == ["shelf"]
     assert seen(at_the_wall("tv", 0.05, 0.8, 0.5)) == ["tv"], "what hangs on walls is there"
+
+
+class TakesRowForOne(ScriptedRoom):
+    """A network to which a counter and the stove in its row are one counter."""
+
+    async def infer(self, frame):
+        scene = await super().infer(frame)
+        masks = [instance.mask for instance in scene.instances]
+        row = replace(
+            scene.instances[0],
+            label="counter",
+            label_distribution=(("counter", 0.97),),
+            mask=np.logical_or.reduce(masks),
+        )
+        return replace(scene, instances=(row,))
+
+
+@pytest.mark.parametrize("kind", ["stove", "fridge"])
+def test_an_appliance_in_a_row_of_counters_stays_itself_when_they_are_seen_as_one(kind):
+    height_m = 0.9 if kind == "stove" else 1.8
+    counter = Solid(label="counter", center=(-0.7, 2.6, 0.45), size_m=(1.4, 0.6, 0.9), color=(130.0, 130.0, 130.0))
+    beside = Solid(label=kind, center=(0.35, 2.6, height_m / 2), size_m=(0.6, 0.6, height_m), color=(60.0, 60.0, 60.0))
+    story = Story([counter, beside], eye=(-0.2, 0.2), target=(-0.2, 2.5, 0.6))
+    story.run(15)
+    story.room = TakesRowForOne([counter, beside], eye=(1.2, 0.4), target=(0.0, 2.5, 0.6))
+    story.agent._model = story.room
+    graph = story.run(40)
+    lengths_m = {node.label: max(node.size_m[:2]) for node in graph.of_type(ObjectNode)}
+    assert lengths_m == {"counter": pytest.approx(1.4, abs=0.15), kind: pytest.approx(0.6, abs=0.1)}

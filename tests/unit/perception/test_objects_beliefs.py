@@ -8,16 +8,17 @@ from hypothesis import strategies as st
 from majordomo.perception.objects.beliefs import ColorBelief, LabelBelief, agreement, share_agreement
 from majordomo.perception.objects.center import CenterBelief, CenterSettings
 from majordomo.perception.objects.color import PALETTE, color_votes, named_color
-from majordomo.perception.objects.confirmation import is_double, is_fragment
+from majordomo.perception.objects.confirmation import is_double, is_fragment, known_as
 from majordomo.perception.objects.identity import IdentitySettings, departed, likeness, same_thing_moved
 from majordomo.perception.objects.membership import Outline, Surroundings
 from majordomo.perception.objects.projection import View
 from majordomo.perception.objects.raycast import Solid, look_at, render, rgbd_frame
 from majordomo.perception.objects.scripted import furnished_memory
 from majordomo.perception.objects.sight import Sight
-from majordomo.perception.objects.surface import Box, SurfaceBelief
+from majordomo.perception.objects.surface import Box, SurfaceBelief, SurfaceMemory, furniture_box, turned_like
 from majordomo.perception.objects.track import Track, TrackSettings
 from majordomo.perception.objects.tracker import Tracker, TrackerSettings
+from majordomo.perception.vocabulary import category_of, oversize
 from majordomo.scene_graph.edges import ConnectsEdge, RtEdge
 from majordomo.scene_graph.edits import PutEdge, PutNode
 from majordomo.scene_graph.nodes import DoorNode, ObjectState
@@ -36,6 +37,12 @@ def test_wrong_labels_of_single_frames_wash_out(noise):
             belief.update(((str(label), 0.8), ("vase", 0.15)), view=number // 5)
         assert belief.best == "bottle"
         assert belief.confidence > 0.9
+
+
+def test_what_has_not_been_looked_at_yet_is_called_unknown():
+    belief = LabelBelief()
+    assert belief.best == "unknown"
+    assert belief.confidence == 0.0
 
 
 def test_a_belief_can_be_turned_by_enough_frames():
@@ -373,3 +380,153 @@ def test_a_persons_word_stands_above_what_the_network_says():
     for _ in range(50):
         belief.update((("bottle", 0.9),))
     assert belief.distribution == (("vase", 1.0),)
+
+
+@given(st.floats(0.55, 0.65), st.floats(0.55, 0.65), st.floats(-1.5, 1.5), st.floats(-1.5, 1.5), st.floats(-0.02, 0.02))
+def test_a_point_on_a_stove_stays_where_it_is_whichever_of_its_sides_looks_longer(x_m, y_m, yaw_rad, before_rad, more):
+    box = Box(np.array((1.0, 2.0, 0.45)), (x_m, y_m, 0.9), yaw_rad)
+    first = turned_like(box, before_rad)
+    assert first.contains(box.place(np.array(((0.5 * x_m, 0.5 * y_m, 0.1), (-0.5 * x_m, 0.5 * y_m, 0.1)))), 1e-6).all()
+    other = Box(box.center, (y_m, x_m, 0.9), yaw_rad + more + np.pi / 2)  # the other side is the longer one
+    again = turned_like(other, first.yaw_rad)
+    spot = np.array(((0.2, 0.1, 0.45),))
+    assert np.linalg.norm(first.place(spot) - again.place(spot)) < 0.01
+
+
+def test_a_long_thing_keeps_its_length_along_its_first_axis():
+    box = Box(np.zeros(3), (1.4, 0.6, 0.9), 1.5)
+    assert turned_like(box, 0.0) is box
+
+
+@pytest.mark.parametrize(
+    ("awaited", "at", "color", "same"),
+    [
+        (True, (0.06, 0.05, 0.46), "yellow", True),  # half hidden by the hand, nameless and too short
+        (True, (0.3, 0.0, 0.46), "yellow", False),
+        (True, (0.06, 0.05, 0.46), "blue", False),
+        (False, (0.06, 0.05, 0.46), "yellow", False),  # seen since it was put there: this is another
+    ],
+)
+def test_what_is_seen_where_the_hand_has_just_put_something_is_that(awaited, at, color, same):
+    nameless = {"label": "unknown", "size_m": (0.09, 0.07, 0.03)}
+    book = thing(1, "book", "yellow", (0.2, 0.09, 0.03), seen=(0.0, 19.9))
+    lost = thing(2, color="yellow", state=ObjectState.MISSING, **nameless)
+    part = thing(3, color=color, seen=(20.0, 21.0), **nameless)
+    book.awaited = awaited
+    book.put_at("room_1", np.array((0.0, 0.0, 0.46)), 0.03)
+    part.put_at("room_1", np.array(at), 0.01)
+    found = known_as(part, [lost, book], taken_from={}, looked_before={}, settings=IdentitySettings())
+    assert (found is book) is same
+
+
+@pytest.mark.parametrize(
+    ("label", "size_m", "known_as", "known_m", "is_part"),
+    [
+        ("stove", (0.62, 0.6, 0.9), "counter", (2.05, 0.6, 0.9), False),  # what is left is a counter still
+        ("washing machine", (0.6, 0.6, 0.85), "counter", (1.7, 0.6, 0.9), False),
+        ("stove", (0.3, 0.2, 0.9), "counter", (2.05, 0.6, 0.9), True),  # no stove is as narrow
+        ("bin", (0.3, 0.3, 0.4), "toilet", (0.7, 0.4, 0.8), True),
+        ("washing machine", (0.6, 0.6, 0.85), "fridge", (0.65, 0.65, 1.8), True),  # nothing would be left
+        ("desk", (1.0, 0.6, 0.75), "table", (2.0, 0.8, 0.75), True),  # of any size: may be the same piece
+    ],
+)
+def test_an_appliance_in_a_row_is_a_piece_of_its_own_though_never_seen_as_a_whole(
+    label, size_m, known_as, known_m, is_part
+):
+    known, part = seen(known_as, known_m, 1), seen(label, size_m, 2)
+    at_the_end = np.array(((known_m[0] - size_m[0]) / 2, 0.0, size_m[2] / 2))
+    for view in ("left", "right"):
+        part.label.update(((label, 0.97),), view=view)
+    part.place = SurfaceBelief.of(Box(at_the_end, size_m, 0.0))
+    part.seen_whole = False
+    assert is_fragment(part, known) is is_part
+
+
+def test_fruits_are_not_as_broad_as_a_book():
+    assert oversize("banana", (0.2, 0.085, 0.04)) > 2.0
+    assert oversize("banana", (0.2, 0.05, 0.04)) < 1.3
+    assert oversize("book", (0.3, 0.25, 0.04)) == 1.0
+    assert oversize("apple", (0.09, 0.09, 0.09)) < 1.3
+
+
+def test_a_yellow_thing_too_broad_for_a_banana_is_a_book_though_most_views_said_banana():
+    belief = LabelBelief()
+    for view in range(5):
+        for _ in range(10):
+            belief.update((("banana", 0.55), ("book", 0.4)), view=view)
+    assert belief.best == "banana"
+    belief.measure((0.2, 0.05, 0.04))
+    assert belief.best == "banana"
+    belief.measure((0.2, 0.087, 0.033))
+    assert belief.best == "book"
+
+
+def _filled(x_m, y_m, z_m=(0.4, 0.9), step_m=0.03):
+    ticks = [np.arange(low, high, step_m) for low, high in (x_m, y_m, z_m)]
+    return np.stack(np.meshgrid(*ticks, indexing="ij"), axis=-1).reshape(-1, 3)
+
+
+CHAIR = _filled((0.0, 0.45), (0.0, 0.45))
+
+
+@pytest.mark.parametrize(
+    ("beside", "long_m"),
+    [
+        (_filled((-0.45, -0.4), (0.0, 0.45)), 0.45),  # an edge of a desk, across a gap
+        (_filled((-0.45, -0.2), (0.0, 0.45)), 0.9),  # half of it hidden: what is large belongs to it
+        (_filled((-0.45, 0.0), (0.0, 0.1)), 0.9),  # no gap
+        (np.zeros((0, 3)), 0.45),
+    ],
+)
+def test_an_edge_of_what_stands_beside_a_chair_makes_it_no_longer(beside, long_m):
+    memory = SurfaceMemory()
+    memory.add(np.concatenate((CHAIR, beside)), frames=3.0)
+    box = furniture_box(memory, category_of("chair"), np.array((0.2, -2.0, 1.3)))
+    assert max(box.size_m[:2]) == pytest.approx(long_m, abs=0.06)
+
+
+@pytest.mark.parametrize("size_m", [(2.6, 0.9, 0.75), (0.5, 0.5, 0.9), (1.9, 0.35, 2.0)])
+def test_a_remembered_box_of_any_length_hangs_together(size_m):
+    belief = SurfaceBelief.of(Box(np.array((1.0, 1.0, size_m[2] / 2)), size_m, 0.3))
+    box = furniture_box(belief.memory, category_of("chair"), np.array((1.0, -2.0, 1.3)))
+    assert box.size_m == pytest.approx(size_m, abs=0.08)
+
+
+COUNTER = _filled((0.0, 1.5), (0.0, 0.6), (0.3, 0.9), step_m=0.05)
+BOXES = _filled((0.2, 1.3), (0.1, 0.5), (0.9, 1.2), step_m=0.05)
+CAMERA = np.array((0.7, -2.0, 1.3))
+
+
+def look_at_counter(belief, points, frames, **more):
+    for _ in range(frames):
+        belief.observe(points, np.eye(6)[:3, :3] * 1e-6, category_of("counter"), CAMERA, **more)
+    return belief.box.size_m[2]
+
+
+def test_what_is_put_on_a_counter_does_not_make_it_higher():
+    belief = SurfaceBelief()
+    assert look_at_counter(belief, COUNTER, 60) == pytest.approx(0.89, abs=0.04)
+    assert look_at_counter(belief, np.vstack((COUNTER, BOXES)), 15) == pytest.approx(0.89, abs=0.06)
+
+
+def test_a_counter_known_from_before_a_restart_does_not_grow_either():
+    belief = SurfaceBelief.of(Box(np.array((0.75, 0.3, 0.45)), (1.5, 0.6, 0.9), 0.0), frames=200)
+    assert look_at_counter(belief, np.vstack((COUNTER, BOXES)), 60) == pytest.approx(0.9, abs=0.06)
+
+
+def test_a_piece_grows_to_its_height_while_that_is_not_sure():
+    belief = SurfaceBelief()
+    look_at_counter(belief, COUNTER, 10)
+    assert look_at_counter(belief, np.vstack((COUNTER, BOXES)), 10) == pytest.approx(1.18, abs=0.06)
+
+
+def test_a_piece_whose_top_the_picture_cut_off_grows_however_long_it_was_looked_at():
+    belief = SurfaceBelief()
+    look_at_counter(belief, COUNTER, 100, top_shown=False)
+    assert look_at_counter(belief, np.vstack((COUNTER, BOXES)), 10) == pytest.approx(1.18, abs=0.06)
+
+
+def test_a_height_that_frame_after_frame_denies_is_given_up():
+    belief = SurfaceBelief()
+    look_at_counter(belief, COUNTER, 60)
+    assert look_at_counter(belief, np.vstack((COUNTER, BOXES)), 200) == pytest.approx(1.18, abs=0.06)

@@ -15,6 +15,7 @@ from majordomo.perception.objects.detection import Detection, DetectionSettings,
 from majordomo.perception.objects.grip import GripSettings
 from majordomo.perception.objects.hand import Hand
 from majordomo.perception.objects.inspection import AGENT, Inspection, InspectionSettings
+from majordomo.perception.objects.look import Look
 from majordomo.perception.objects.membership import Surroundings
 from majordomo.perception.objects.people import People, PeopleSettings
 from majordomo.perception.objects.projection import View
@@ -79,6 +80,7 @@ class ObjectMemory:
 
     Attributes:
         degraded: why no frame is being used at the moment, ``None`` while all is well.
+        look: the last frame that was understood, with what was recognized in it; ``None`` before the first.
     """
 
     name = AGENT
@@ -91,19 +93,23 @@ class ObjectMemory:
         *,
         random: Generator,
         settings: ObjectMemorySettings | None = None,
+        held_before: str | None = None,
     ) -> None:
+        """``held_before``: what was in the hand when the robot was switched off."""
         self._settings = settings or ObjectMemorySettings()
         self.period_s = self._settings.period_s
         self.degraded: str | None = None
+        self.look: Look | None = None
         self._memory, self._buffer, self._model = memory, buffer, model
         self._tracker = Tracker(settings=self._settings.tracker, random=random)
         self._people = People(self._settings.people, self._settings.tracker.existence)
         self._relations = RelationMemory(self._settings.relations)
         self._recollection = Recollection(self._tracker, self._relations)
         self._inspection = Inspection(self._settings.inspection)
-        self._hand = Hand(self._tracker, self._settings.grip)
+        self._hand = Hand(self._tracker, self._settings.grip, held_before)
         self._published: set[EdgeKey] = set()
         self._frame_s = -np.inf
+        self._held_in: frozenset[int] = frozenset()
 
     async def step(self, stamp_s: float) -> None:
         """One frame, if there is a new one; the hand and the intentions in any case."""
@@ -122,6 +128,8 @@ class ObjectMemory:
         elif placed and snapshot.current_room is not None:
             self._relate(Surroundings(snapshot, snapshot.current_room), placed, None)
         self._publish(stamp_s)
+        if frame is not None and scene is not None:
+            self.look = Look(frame=frame, scene=scene, nodes=self._recognized() if sight is not None else {})
 
     def _new_frame(self, stamp_s: float) -> RgbdFrame | None:
         """The next frame that has not been used yet and shows depth; one that is too old for that is left out."""
@@ -173,6 +181,7 @@ class ObjectMemory:
         things, persons = detections_of(
             scene, frame.rgb, view, self._settings.detection, body, surroundings.of_building
         )
+        self._held_in = frozenset(thing.index for thing in things if self._in_hand(thing, view))
         turning = turning_radps(self._buffer)
         self._tracker.update(
             Sight(
@@ -180,7 +189,7 @@ class ObjectMemory:
                 detections=[
                     thing
                     for thing in things
-                    if not self._in_hand(thing, view) and not self._is_wall(thing, surroundings)
+                    if thing.index not in self._held_in and not self._is_wall(thing, surroundings)
                 ],
                 surroundings=surroundings,
                 turning_radps=turning,
@@ -190,6 +199,14 @@ class ObjectMemory:
         self._people.update(persons, view, surroundings)
         self._relate(surroundings, placed, scene)
         self._inspection.watch(self._tracker.tracks, view, surroundings, turning, snapshot)
+
+    def _recognized(self) -> dict[int, str]:
+        """Which node each instance of the frame is that was just seen, as far as it is one."""
+        seen = {index: track.node_id for index, track in self._tracker.matches.items()}
+        seen |= {index: person.node_id for index, person in self._people.matches.items()}
+        if self._hand.held is not None:
+            seen |= dict.fromkeys(self._held_in, self._hand.held.track.node_id)
+        return {index: node_id for index, node_id in seen.items() if node_id is not None}
 
     def _in_hand(self, thing: Detection, view: View) -> bool:
         """Whether a detection is what the gripper holds."""

@@ -6,7 +6,7 @@ from collections.abc import Hashable, Mapping
 
 import numpy as np
 
-from majordomo.perception.vocabulary import is_oversized
+from majordomo.perception.vocabulary import oversize
 from majordomo.scene_graph.nodes import UNKNOWN_LABEL, Point3
 
 LabelDistribution = tuple[tuple[str, float], ...]
@@ -15,8 +15,10 @@ LabelDistribution = tuple[tuple[str, float], ...]
 _FRAMES = 12.0
 """So many of the newest frames of a view make its mean."""
 _FIRST = 0.6
-_OVERSIZE_COST = 3.0
-"""Of log likelihood: a stove two meters long is more likely a stove and a counter, which go by the counter's name."""
+_SIZE_SPREAD = 0.25
+"""Standard deviation of the logarithm of the size of what comes in one size: a stove two meters long is more likely a
+stove and a counter, which go by the counter's name.
+"""
 
 
 class _Look:
@@ -99,14 +101,15 @@ class LabelBelief:
 
     def measure(self, size_m: Point3) -> None:
         """Take in the extent of the thing: some names do not go with it."""
-        before, self._size_m = self._oversized(), size_m
-        if self._looks and not self._taught and self._oversized() != before:
+        before, self._size_m = self._size_costs(), size_m
+        if self._looks and not self._taught and self._size_costs() != before:
             self.distribution = self._ranked(self._fused())
 
-    def _oversized(self) -> frozenset[str]:
-        """Of the labels that were heard, those that the thing is too long for."""
+    def _size_costs(self) -> dict[str, float]:
+        """How much less likely, in log likelihood to one digit, its size makes the labels that were heard."""
         heard = {label for look in self._looks.values() for label in look.log if label is not None}
-        return frozenset(label for label in heard if is_oversized(label, self._size_m))
+        over = {label: float(np.log(oversize(label, self._size_m))) / _SIZE_SPREAD for label in heard}
+        return {label: round(spreads**2 / 2.0, 1) for label, spreads in over.items() if spreads > 0.0}
 
     def _likelihood(self, distribution: LabelDistribution) -> dict[str, float]:
         """Of each label, given that it is right; classes of a frame that is unsure share everything among them."""
@@ -130,8 +133,8 @@ class LabelBelief:
             share = look.evidence(self._evidence_of_view) / look.weight
             for label in labels:
                 log[label] += share * look.log.get(label, look.log[None])
-        for label in self._oversized():
-            log[label] -= _OVERSIZE_COST
+        for label, cost in self._size_costs().items():
+            log[label] -= cost
         top = max(log.values())
         return {label: max(value - top, -self._bound) for label, value in log.items()}
 
@@ -144,8 +147,8 @@ class LabelBelief:
 
     @property
     def best(self) -> str:
-        """The most likely label."""
-        return self.distribution[0][0]
+        """The most likely label; that of the nameless before the first look."""
+        return self.distribution[0][0] if self.distribution else UNKNOWN_LABEL
 
     @property
     def confidence(self) -> float:

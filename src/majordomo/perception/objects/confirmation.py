@@ -7,20 +7,25 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from majordomo.perception.objects.beliefs import share_agreement
 from majordomo.perception.objects.identity import IdentitySettings, likeness, same_thing_moved
 from majordomo.perception.objects.relations import support_probability
 from majordomo.perception.objects.track import Track
-from majordomo.perception.vocabulary import carries_things
+from majordomo.perception.vocabulary import carries_things, category_of, is_of_one_size
 from majordomo.scene_graph.nodes import ObjectState
 
 Array = NDArray[np.float64]
 Places = Mapping[int, tuple[str, Array]]
 """Track number -> room and position (3,) from which a thing was taken into the hand."""
 _SAME_PLACE_M = 0.12
+_SAME_COLOR = 0.4
 _BOX_MARGIN_M = 0.1
 _UNSEEN_S = 0.3
 _SAME_SPACE = 0.5
 _WITHIN = 0.9
+_SURE = 0.9
+_LIKE_USUAL, _REST = 0.4, 0.5
+"""Shares of the usual length: by how much that of a thing differs at most, and what is left of another at least."""
 
 
 def known_as(
@@ -35,6 +40,9 @@ def known_as(
 
     ``looked_before``: when each room and support was first inspected, by node.
     """
+    put_here = next((track for track in known if _was_put_here(sighting, track)), None)
+    if put_here is not None:
+        return put_here
     for track in known:
         in_its_place = _in_its_place(sighting, track, settings)
         if in_its_place or is_fragment(sighting, track) or _never_taken(sighting, track, taken_from, settings):
@@ -72,9 +80,21 @@ def _in_its_place(sighting: Track, track: Track, settings: IdentitySettings) -> 
     unseen = track.state is not ObjectState.HELD and track.last_seen_s < sighting.last_seen_s - _UNSEEN_S
     if not (small and unseen and track.room == sighting.room):
         return False
-    apart_m = np.abs(track.position - sighting.position)
-    touching_m = (np.asarray(track.box.size_m) + np.asarray(sighting.box.size_m)) / 2
-    return bool(np.all(apart_m < touching_m)) and likeness(sighting, track) >= settings.likeness_min
+    return _touch(sighting, track) and likeness(sighting, track) >= settings.likeness_min
+
+
+def _was_put_here(sighting: Track, track: Track) -> bool:
+    """Whether a small sighting of much the same color is where the hand has just put something that was not seen since:
+    half hidden by the hand, it may look like anything.
+    """
+    if not track.awaited or sighting.is_furniture or track.room != sighting.room:
+        return False
+    return _touch(sighting, track) and share_agreement(sighting.color.shares, track.color.shares) >= _SAME_COLOR
+
+
+def _touch(one: Track, other: Track) -> bool:
+    apart_m = np.abs(one.position - other.position)
+    return bool(np.all(apart_m < (np.asarray(one.box.size_m) + np.asarray(other.box.size_m)) / 2))
 
 
 def _looked_there_before(sighting: Track, known: Sequence[Track], looked_before: Mapping[str, float]) -> bool:
@@ -96,7 +116,7 @@ def undecided(sighting: Track, known: Sequence[Track], settings: IdentitySetting
 def is_fragment(sighting: Track, track: Track) -> bool:
     """Whether new furniture is a part of known furniture: of the same kind, it lies within its box; of another, both
     fill the same space, or it lies within and was never seen as a whole: from near, a part of a toilet may look like a
-    bin, whereas a chair pushed under a table shows itself.
+    bin, whereas a chair pushed under a table shows itself, and so does a stove in a row of counters.
     """
     if not (sighting.is_furniture and track.is_furniture and track.room == sighting.room):
         return False
@@ -106,8 +126,26 @@ def is_fragment(sighting: Track, track: Track) -> bool:
     if track.label.best == sighting.label.best:
         return inside > 0.3
     if inside > _WITHIN and not sighting.seen_whole:
-        return True
+        return not _is_built_in(sighting, track)
     return inside > _SAME_SPACE and _share_inside(track, sighting) > _SAME_SPACE
+
+
+def _is_built_in(sighting: Track, track: Track) -> bool:
+    """Whether new furniture stands in a row with known furniture that was taken for longer than it is: surely of a kind
+    of one size everywhere, it is of that size, and without it the known one is still as long as its kind may be.
+    """
+    if sighting.label.confidence < _SURE or not is_of_one_size(sighting.label.best):
+        return False
+    usual_m, rest_m = _usual_m(sighting), _long_m(track) - _long_m(sighting)
+    return abs(_long_m(sighting) - usual_m) < _LIKE_USUAL * usual_m and rest_m >= _REST * _usual_m(track)
+
+
+def _long_m(track: Track) -> float:
+    return max(track.box.size_m[:2])
+
+
+def _usual_m(track: Track) -> float:
+    return max(category_of(track.label.best).size_m[:2])
 
 
 def is_double(one: Track, other: Track) -> bool:

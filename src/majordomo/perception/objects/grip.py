@@ -44,10 +44,15 @@ class GripSettings:
 class Grip:
     """Turns announcements and finger contacts into events."""
 
-    def __init__(self, settings: GripSettings) -> None:
+    def __init__(self, settings: GripSettings, held_before: str | None = None) -> None:
+        """``held_before``: what the hand had when the robot was switched off. Fingers that are closed on something from
+        the start still have it; where they feel nothing, it is no longer there.
+        """
         self._settings = settings
+        self._held_before = held_before
         self._announced: tuple[str, str, str | None, float] | None = None
         self._since_s: float | None = None
+        self._felt = False
 
     def update(self, joints: JointState, status: str, holding: str | None) -> GripEvent | None:
         """The event of this step, if any. ``holding``: what the graph believes to be in the hand."""
@@ -55,6 +60,8 @@ class Grip:
         low_m, high_m = self._settings.opening_m
         closed_on_something = all(joints.finger_contacts) and low_m < joints.gripper_opening_m < high_m
         free = not any(joints.finger_contacts) or joints.gripper_opening_m <= low_m
+        if holding is None and self._held_before is not None:
+            return self._found(closed_on_something, joints.stamp_s)
         if holding is None:
             return self._taken(joints.stamp_s) if self._lasting(closed_on_something, joints.stamp_s) else None
         return self._let_go(holding, joints.stamp_s) if self._lasting(free, joints.stamp_s) else None
@@ -71,6 +78,15 @@ class Grip:
         if self._since_s is None:
             self._since_s = stamp_s
         return stamp_s - self._since_s >= self._settings.steady_s
+
+    def _found(self, closed_on_something: bool, stamp_s: float) -> GripEvent | None:
+        """What the first steady feeling after a start says of the thing held before."""
+        if self._since_s is None or closed_on_something is not self._felt:
+            self._felt, self._since_s = closed_on_something, stamp_s
+        if stamp_s - self._since_s < self._settings.steady_s or self._held_before is None:
+            return None
+        before, self._held_before, self._since_s = self._held_before, None, None
+        return GripEvent(change=GripChange.TAKEN, object_id=before) if closed_on_something else None
 
     def _taken(self, stamp_s: float) -> GripEvent | None:
         announced = self._recent("grasping", stamp_s)

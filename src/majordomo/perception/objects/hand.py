@@ -37,9 +37,10 @@ class Hand:
         T_base_gripper: newest pose of the finger pads.
     """
 
-    def __init__(self, tracker: Tracker, settings: GripSettings) -> None:
+    def __init__(self, tracker: Tracker, settings: GripSettings, held_before: str | None = None) -> None:
+        """``held_before``: what was in the hand when the robot was switched off."""
         self._tracker = tracker
-        self._grip = Grip(settings)
+        self._grip = Grip(settings, held_before)
         self.held: Held | None = None
         self.T_base_gripper = SE3.identity()
 
@@ -100,6 +101,7 @@ class Hand:
             track.state, track.log_odds = ObjectState.PRESENT, 2.0
             position[2] = _resting_height(position[2], track, event.place, self._tracker)
             track.put_at(room, position, _RELEASED_SIGMA_M, T_room_object.yaw_rad)
+            track.awaited = True
             return frozenset({track.number})
         track.state, track.log_odds = ObjectState.MISSING, -2.0
         position[2] = track.box.size_m[2] / 2.0

@@ -68,13 +68,18 @@ class PersonTrack:
 
 
 class People:
-    """All persons; one update per frame."""
+    """All persons; one update per frame.
+
+    Attributes:
+        matches: instance index -> track, of the newest frame.
+    """
 
     def __init__(self, settings: PeopleSettings, existence: ExistenceSettings) -> None:
         self._settings = settings
         self._existence = existence
         self.tracks: list[PersonTrack] = []
         self.taken = TakenNames()
+        self.matches: dict[int, PersonTrack] = {}
 
     def sync(self, snapshot: Snapshot) -> None:
         """Adopt persons that the graph knows, drop those it no longer does."""
@@ -99,6 +104,7 @@ class People:
         in_range = sorted((d for d in detections if d.in_range), key=lambda d: -d.cloud.pixels)
         unseen = [t for t in self.tracks if t.room in surroundings.T_here_room]
         taken: list[Array] = []
+        self.matches = {}
         for detection in in_range:
             spot, convinces = _feet(detection, view), self._settings.convinces(detection)
             if any(float(np.linalg.norm(spot - other)) < 2.0 * _BODY_RADIUS_M for other in taken):
@@ -111,6 +117,7 @@ class People:
                 track = self._new(spot, surroundings)
             if track is not None:
                 self._observe(track, spot, surroundings, view.stamp_s)
+                self.matches[detection.index] = track
         for track in unseen:
             self._doubt(track, view, surroundings)
         self.tracks = [t for t in self.tracks if t.node_id is not None or view.stamp_s - t.last_seen_s < 1.0]

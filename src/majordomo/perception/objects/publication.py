@@ -58,6 +58,7 @@ def node_of(node_id: str, track: Track, before: ObjectNode | None, inspected_s: 
         support=carries_things(label, size_m),
         inspected_s=inspected_s if inspected_s is not None or before is None else before.inspected_s,
         observations=track.hits,
+        surfaces_m=tuple(round(height_m, 4) for height_m in track.surfaces_m),
     )
 
 
@@ -184,7 +185,13 @@ def _worth_writing(before: ObjectNode, after: ObjectNode, settings: PublicationS
         or abs(before.existence - after.existence) > settings.probability
         or after.last_seen_s - before.last_seen_s > settings.seen_s
         or float(np.abs(np.subtract(before.size_m, after.size_m)).max()) > settings.size_m
+        or _differ(before.surfaces_m, after.surfaces_m, settings.size_m)
     )
+
+
+def _differ(before: tuple[float, ...], after: tuple[float, ...], tolerance_m: float) -> bool:
+    """Whether these are other heights."""
+    return len(before) != len(after) or any(abs(a - b) > tolerance_m for a, b in zip(before, after, strict=True))
 
 
 def _placed(

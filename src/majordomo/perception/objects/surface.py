@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.ndimage import label
 
 from majordomo.perception.objects.projection import View, project
 from majordomo.perception.objects.shape import Rectangle, bounding_rectangle
@@ -19,9 +20,26 @@ _SIGMA_M = 0.02
 _DENIED = 1.0
 """Frames that saw a voxel as something else for each that saw it as this, from which on it is not believed."""
 _AGREES_M = 0.04
+_LONG = 1.4
+"""Share of the usual length from which on it is asked whether what was seen hangs together."""
+_CLUSTER_M = 0.12
+"""Cells of this size that touch hang together: what is more than two of them away does not."""
+_PIECE_SHARE = 0.25
+"""Share of all points that a part of a thing has at least, when something hides what joins it to the rest."""
+_SQUARE = 1.3
+"""Long over short side, up to which which is which may be an error of measurement."""
 _SHALLOW = 0.3
 _SHALLOW_TALL = 0.6
 """Share of the usual depth below which only a front has been seen; a top above the camera cannot show the depth."""
+_TOP = 0.985
+"""Quantile of the heights of all points that is the top of a piece."""
+_SAME_HEIGHT_M = 0.05
+_RAGGED_M = 0.02
+_SURE_FRAMES = 40
+_MOST_FRAMES = 150
+"""Frames that agree about how high a piece is, from which on it is not taken to have grown, and the most that count:
+what is higher stands on it, unless as many frames again say otherwise.
+"""
 
 
 class Box:
@@ -116,8 +134,8 @@ def furniture_box(memory: SurfaceMemory, category: Category, camera: Array) -> B
     What stands on the floor reaches down to it. Where only a front has shown, the depth is the usual one, away from
     ``camera`` (3,).
     """
-    points = memory.reliable
-    low_z, high_z = (float(z) for z in np.quantile(points[:, 2], (0.02, 0.985)))
+    points = _of_a_piece(memory.reliable, category)
+    low_z, high_z = (float(z) for z in np.quantile(points[:, 2], (0.02, _TOP)))
     low_z = 0.0 if category.floor else low_z
     rectangle = bounding_rectangle(points[:, :2], align_to_room=True)
     rectangle = _deepened(rectangle, category, camera, top_hidden=high_z > camera[2] - 0.05)
@@ -125,6 +143,23 @@ def furniture_box(memory: SurfaceMemory, category: Category, camera: Array) -> B
     center = np.array((rectangle.center_x_m, rectangle.center_y_m, (low_z + high_z) / 2.0))
     sides_m = (rectangle.x_m + rim_m, rectangle.y_m + rim_m, max(high_z - low_z, 0.01))
     return Box(center, sides_m, rectangle.yaw_rad)
+
+
+def _of_a_piece(points: Array, category: Category) -> Array:
+    """Points (N, 3) without small clusters apart from the rest, where all together are too long for the kind of thing:
+    masks now and then take in an edge of what stands beside it.
+    """
+    usual_m = max(category.size_m[:2])
+    spread_m = np.ptp(points[:, :2], axis=0).max() if len(points) else 0.0
+    if usual_m <= 0.0 or spread_m <= _LONG * usual_m:
+        return points
+    cells = np.floor((points[:, :2] - points[:, :2].min(axis=0)) / _CLUSTER_M).astype(np.int64)
+    taken = np.zeros(cells.max(axis=0) + 1, dtype=bool)
+    taken[cells[:, 0], cells[:, 1]] = True
+    clusters, _ = label(taken, structure=np.ones((3, 3)))
+    cluster = clusters[cells[:, 0], cells[:, 1]]
+    kept = np.bincount(cluster) >= _PIECE_SHARE * len(points)
+    return points[kept[cluster]] if kept.any() else points
 
 
 def _deepened(rectangle: Rectangle, category: Category, camera: Array, *, top_hidden: bool) -> Rectangle:
@@ -144,6 +179,18 @@ def _deepened(rectangle: Rectangle, category: Category, camera: Array, *, top_hi
     )
 
 
+def turned_like(box: Box, yaw_rad: float) -> Box:
+    """A box about as deep as it is wide, with its axes by quarter turns as near to ``yaw_rad`` as may be: which of its
+    sides is the longer one may change with every frame, and what is tied to its axes is not to jump about.
+    """
+    x_m, y_m, z_m = box.size_m
+    if max(x_m, y_m) > _SQUARE * min(x_m, y_m):
+        return box
+    quarters = round((yaw_rad - box.yaw_rad) / (np.pi / 2.0))
+    turned_rad = box.yaw_rad + quarters * np.pi / 2.0
+    return Box(box.center, (y_m, x_m, z_m) if quarters % 2 else box.size_m, turned_rad)
+
+
 class SurfaceBelief:
     """Belief about place and size of one piece of furniture, in the frame of its room.
 
@@ -158,13 +205,17 @@ class SurfaceBelief:
         self._pose_covariance: Array | None = None
         self._category: Category | None = None
         self._first_camera: Array | None = None
+        self._as_high = 0
+        self._top_m = _top_of(self.box)
 
     @classmethod
-    def of(cls, box: Box) -> SurfaceBelief:
-        """A belief that starts from a remembered box."""
+    def of(cls, box: Box, *, frames: int = 0) -> SurfaceBelief:
+        """A belief that starts from a remembered box, which ``frames`` frames have shown."""
         belief = cls()
+        belief._as_high = min(frames, _MOST_FRAMES)
         belief.memory.add(_faces(box), frames=2.0)
         belief.box = box
+        belief._top_m = _top_of(box)
         return belief
 
     @property
@@ -173,14 +224,33 @@ class SurfaceBelief:
         pose = self._pose_covariance if self._pose_covariance is not None else np.zeros((3, 3))
         return pose + np.eye(3) * _SIGMA_M**2
 
-    def observe(self, points: Array, pose_covariance: Array, category: Category, camera: Array) -> None:
-        """Take in the points (N, 3) of one frame, seen from ``camera`` (3,)."""
+    def observe(
+        self, points: Array, pose_covariance: Array, category: Category, camera: Array, *, top_shown: bool = True
+    ) -> None:
+        """Take in the points (N, 3) of one frame, seen from ``camera`` (3,), which may have cut off the top."""
         if self._pose_covariance is None or np.trace(pose_covariance) < np.trace(self._pose_covariance):
             self._pose_covariance = pose_covariance
-        self.memory.add(points)
+        self.memory.add(points[self._of_its_height(points, top_shown=top_shown)])
         self._first_camera = camera if self._first_camera is None else self._first_camera
         self._category = category
         self._refresh()
+
+    def _of_its_height(self, points: Array, *, top_shown: bool) -> NDArray[np.bool_]:
+        """Which of the points (N, 3) of one frame are not above a piece whose height is known by now."""
+        if len(points) == 0 or len(self.memory.points) == 0:
+            return np.ones(len(points), dtype=bool)
+        above_m = float(np.quantile(points[:, 2], _TOP)) - self._top_m
+        if abs(above_m) <= _SAME_HEIGHT_M and top_shown:
+            self._as_high = min(self._as_high + 1, _MOST_FRAMES)
+        elif above_m > _SAME_HEIGHT_M:
+            self._as_high = max(self._as_high - 1, 0)
+        if not self._sure_of_height:
+            return np.ones(len(points), dtype=bool)
+        return np.asarray(points[:, 2] <= self._top_m + _RAGGED_M)
+
+    @property
+    def _sure_of_height(self) -> bool:
+        return self._as_high >= _SURE_FRAMES
 
     def deny_outside(self, mask: NDArray[np.bool_], view: View, T_view_room: SE3) -> None:
         """Doubt what is in plain sight and yet outside ``mask`` (H, W), all that the network took for this piece."""
@@ -196,7 +266,10 @@ class SurfaceBelief:
     def _refresh(self) -> None:
         """The box around everything seen; what hides behind a lone front lies away from where that was first seen."""
         if self._category is not None and self._first_camera is not None:
-            self.box = furniture_box(self.memory, self._category, self._first_camera)
+            box = furniture_box(self.memory, self._category, self._first_camera)
+            self.box = turned_like(box, self.box.yaw_rad)
+            if not self._sure_of_height:
+                self._top_m = _top_of(self.box)
 
     def absorb(self, part: SurfaceBelief) -> None:
         """Take in what was seen of a part of this piece; the larger box stands until the next sight."""
@@ -208,6 +281,7 @@ class SurfaceBelief:
         turned = self.box.yaw_rad if yaw_rad is None else yaw_rad
         self.box = Box(np.asarray(position), self.box.size_m, turned)
         self.memory = SurfaceBelief.of(self.box).memory
+        self._top_m = _top_of(self.box)
         self._pose_covariance = np.eye(3) * sigma_m**2
 
     def change_frame(self, T_new_old: SE3) -> None:
@@ -216,11 +290,16 @@ class SurfaceBelief:
         self.memory.add(T_new_old.apply(seen.reliable), frames=2.0)
         self._first_camera = T_new_old.apply(self._first_camera) if self._first_camera is not None else None
         self.box = Box(T_new_old.apply(self.box.center), self.box.size_m, self.box.yaw_rad + T_new_old.yaw_rad)
+        self._top_m += T_new_old.z_m
+
+
+def _top_of(box: Box) -> float:
+    return float(box.center[2]) + box.size_m[2] / 2.0
 
 
 def _faces(box: Box) -> Array:
     """(M, 3) points on the faces of a box."""
-    ticks = np.linspace(-0.5, 0.5, 9)
-    grid = np.stack(np.meshgrid(ticks, ticks, ticks, indexing="ij"), axis=-1).reshape(-1, 3)
+    ticks = [np.linspace(-0.5, 0.5, max(9, int(side_m / _CLUSTER_M) + 2)) for side_m in box.size_m]
+    grid = np.stack(np.meshgrid(*ticks, indexing="ij"), axis=-1).reshape(-1, 3)
     faces = grid[(np.abs(grid) == 0.5).any(axis=1)]
     return box.place(faces * np.array(box.size_m))

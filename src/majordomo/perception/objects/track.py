@@ -6,6 +6,7 @@ What it is and where it is are beliefs of their own; a track adds its life. Ever
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -15,10 +16,11 @@ from numpy.typing import NDArray
 from majordomo.perception.objects.beliefs import ColorBelief, LabelBelief, is_taught
 from majordomo.perception.objects.center import CenterBelief, CenterSettings
 from majordomo.perception.objects.detection import Detection
+from majordomo.perception.objects.levels import LevelMemory
 from majordomo.perception.objects.projection import View
 from majordomo.perception.objects.shape import measure_shape, point_covariance
 from majordomo.perception.objects.surface import Box, SurfaceBelief
-from majordomo.perception.vocabulary import Category, category_of
+from majordomo.perception.vocabulary import Category, category_of, is_of_one_size
 from majordomo.scene_graph.nodes import ObjectNode, ObjectState
 from majordomo.scene_graph.se3 import SE3
 
@@ -29,6 +31,8 @@ _PART_TRUST = 0.25
 _STORED_FRAMES = 5
 """A stored label counts as much as so many frames of a view that say the same."""
 _STORED_VIEWS = (0.5, 3.0)
+_KNOWN_HITS, _KNOWN_LABEL = 10, 0.5
+_BEYOND_M, _AT_OTHER_M = 0.05, 0.06
 _OBSERVATIONS_OF_VIEW = 12.0
 """Of so many observations, a stored label counts as one view: what was seen time and again, from more sides than one,
 is not overturned by the first look after a restart.
@@ -49,10 +53,11 @@ class Track:
     Attributes:
         number: running number; order of birth. node_id: its node, once confirmed. room: room whose frame holds it.
             place: a ``CenterBelief`` for what can be carried, a ``SurfaceBelief`` for furniture, ``None`` before the
-            first sight. state, log_odds: whether it still is where it is said to be. hits: frames that saw it;
-            seen_whole: whether one of them showed all of it;
+            first sight. levels: how high the boards or the seat of furniture are. state, log_odds: whether it still is
+            where it is said to be. hits: frames that saw it; seen_whole: whether one of them showed all of it;
             ``misses``: frames in a row that should have and did not. homeless: whether it is in none of the rooms known
-            so far; ``room`` then is the one it was seen from.
+            so far; ``room`` then is the one it was seen from. awaited: whether the hand has put it down and it was not
+            seen since.
     """
 
     def __init__(self, number: int, room: str, *, settings: TrackSettings, random: Generator) -> None:
@@ -62,9 +67,11 @@ class Track:
         self.label = LabelBelief()
         self.color = ColorBelief()
         self.place: CenterBelief | SurfaceBelief | None = None
+        self.levels = LevelMemory()
         self.state = ObjectState.PRESENT
         self.log_odds = settings.log_odds
         self.homeless = False
+        self.awaited = False
         self.hits = 0
         self.seen_whole = False
         self.misses = 0
@@ -109,15 +116,26 @@ class Track:
         return self.place.memory.reliable if isinstance(self.place, SurfaceBelief) else np.zeros((0, 3))
 
     @property
+    def surfaces_m(self) -> tuple[float, ...]:
+        """Heights above its bottom on which things can stand, as measured, lowest first."""
+        if not self.category.levels:
+            return ()
+        bottom_m = float(self.position[2]) - self.box.size_m[2] / 2.0
+        return tuple(height_m - bottom_m for height_m in self.levels.heights_m if height_m > bottom_m)
+
+    @property
     def T_room_object(self) -> SE3:
         """Pose of its own frame in the room."""
         x_m, y_m, z_m = self.box.center.tolist()
         return SE3.from_xyz_yaw(x_m, y_m, z_m, self.box.yaw_rad)
 
-    def observe(self, detection: Detection, view: View, T_room_view: SE3) -> None:
-        """Take in a detection that is this thing."""
+    def observe(self, detection: Detection, view: View, T_room_view: SE3, others: Sequence[Box] = ()) -> None:
+        """Take in a detection that is this thing. In the boxes ``others``, in its room frame, stand other pieces of
+        furniture: what the mask shows of them is not of this one.
+        """
         side, trust = self._side_of(detection, view, T_room_view), 1.0 if detection.shape.complete else _PART_TRUST
         self.label.update(detection.distribution, detection.weight, (*side, trust), trust=trust)
+        self.awaited = False
         self.color.update(detection.colors, detection.weight)
         self.hits += 1
         self.seen_whole |= detection.shape.complete
@@ -128,7 +146,7 @@ class Track:
         pose_covariance = R @ point_covariance(view, detection.shape.center) @ R.T
         size_m = self.box.size_m if self.place is not None else detection.shape.size_m
         if category_of(self.label.best, size_m).furniture:
-            self._observe_surface(detection, view, T_room_view, pose_covariance)
+            self._observe_surface(detection, view, T_room_view, pose_covariance, others)
         else:
             self._observe_center(detection, view, T_room_view, pose_covariance)
 
@@ -139,15 +157,39 @@ class Track:
         octave = round(math.log2(max(math.hypot(x_m, y_m), 0.5)))
         return math.floor(math.atan2(y_m, x_m) / _SIDE_RAD), octave
 
-    def _observe_surface(self, detection: Detection, view: View, T_room_view: SE3, pose_covariance: Array) -> None:
+    def _observe_surface(
+        self, detection: Detection, view: View, T_room_view: SE3, pose_covariance: Array, others: Sequence[Box]
+    ) -> None:
         if not isinstance(self.place, SurfaceBelief):
             self.place = SurfaceBelief()
         elif not detection.in_range or self._vaguer(detection):
             return
         camera = T_room_view.apply(view.T_room_camera.translation_m)
-        points = T_room_view.apply(detection.cloud.points)
-        self.place.observe(points, pose_covariance, category_of(self.label.best), camera)
+        points = self._own(T_room_view.apply(detection.cloud.points), detection.label, others)
+        top_shown = not detection.mask[0].any()
+        self.place.observe(points, pose_covariance, category_of(self.label.best), camera, top_shown=bool(top_shown))
+        if self.category.levels and detection.in_range:
+            self.levels.observe(detection.mask, view, T_room_view, self.box)
         self.label.measure(self.box.size_m)
+
+    def _own(self, points: Array, called: str, others: Sequence[Box]) -> Array:
+        """Of points (N, 3) under a mask, those that are not of something else: a stove in a row of counters and the
+        counters beside it often are in one mask.
+        """
+        own = np.ones(len(points), dtype=bool)
+        for box in others:
+            own &= ~box.contains(points, _AT_OTHER_M)
+        if self.stands_by_itself and called != self.label.best:
+            own &= self.box.contains(points, _BEYOND_M)
+        return points[own] if own.any() or len(self.surface_points) else points
+
+    @property
+    def stands_by_itself(self) -> bool:
+        """Whether it is known well to be a piece whose kind comes in one size: nothing else is where it is, and it does
+        not reach farther.
+        """
+        known = self.hits >= _KNOWN_HITS and self.label.confidence >= _KNOWN_LABEL
+        return known and self.is_furniture and is_of_one_size(self.label.best)
 
     def _vaguer(self, detection: Detection) -> bool:
         """Whether a thing of known name was seen as something without one: such masks show more than the thing."""
@@ -165,6 +207,7 @@ class Track:
             self.place = self._center(box, R @ shape.covariance @ R.T)
         else:
             self.place.observe(shape, T_room_view, pose_covariance)
+            self.label.measure(self.box.size_m)
 
     def _center(self, box: Box, covariance: Array) -> CenterBelief:
         return CenterBelief(box, covariance, settings=self._settings.center, random=self._random)
@@ -173,18 +216,20 @@ class Track:
         """Place it where it must be now, other than by sight: released there or dropped there."""
         self.room = room
         if self.place is not None:
+            self.levels = self.levels.raised(float(position[2] - self.position[2]))
             self.place.put_at(position, sigma_m, yaw_rad)
 
     def change_room(self, room: str, T_new_old: SE3) -> None:
         """Express it in the frame of another room."""
         self.room = room
+        self.levels = self.levels.raised(T_new_old.z_m)
         if self.place is not None:
             self.place.change_frame(T_new_old)
 
     def become(self, other: Track) -> None:
         """Take over the place of ``other``, a newer sighting of this very thing; identity and history stay."""
-        self.room, self.place, self.color = other.room, other.place, other.color
-        self.state, self.log_odds = ObjectState.PRESENT, other.log_odds
+        self.room, self.place, self.color, self.levels = other.room, other.place, other.color, other.levels
+        self.state, self.log_odds, self.awaited = ObjectState.PRESENT, other.log_odds, False
         self.label.update(other.label.distribution, view=other.number)
         self.hits += other.hits
         self.seen_whole |= other.seen_whole
@@ -195,6 +240,7 @@ class Track:
         """Take in a piece of furniture that turned out to be a part of this one."""
         if isinstance(self.place, SurfaceBelief) and isinstance(part.place, SurfaceBelief):
             self.place.absorb(part.place)
+            self.levels.absorb(part.levels)
         self.label.update(part.label.distribution, view=part.number, trust=1.0 if part.seen_whole else _PART_TRUST)
         self.hits += part.hits
         self.misses = 0
@@ -217,6 +263,8 @@ class Track:
         size_m = node.size_m if min(node.size_m) > 0.0 else (0.1, 0.1, 0.1)
         box = Box(T_room_object.translation_m, size_m, T_room_object.yaw_rad)
         if category_of(node.label, node.size_m).furniture:
-            self.place = SurfaceBelief.of(box)
+            self.place = SurfaceBelief.of(box, frames=node.observations)
+            bottom_m = T_room_object.z_m - size_m[2] / 2.0
+            self.levels = LevelMemory.of(tuple(bottom_m + height_m for height_m in node.surfaces_m))
         else:
             self.place = self._center(box, covariance + np.eye(3) * 1e-6)

@@ -145,7 +145,13 @@ class Tracker:
         self._previous = (sight.view, labels, [number for _, number in seen])
 
     def _observe(self, track: Track, detection: Detection, sight: Sight) -> None:
-        track.observe(detection, sight.view, sight.surroundings.T_here_room[track.room].inverse())
+        others = [
+            other.box
+            for other in self.tracks
+            if other is not track and other.room == track.room and other.state is ObjectState.PRESENT
+            if other.stands_by_itself and other.label.best != track.label.best
+        ]
+        track.observe(detection, sight.view, sight.surroundings.T_here_room[track.room].inverse(), others)
         self.matches[detection.index] = track
         track.log_odds = bounded(track.log_odds + self._settings.existence.hit, self._settings.existence)
         if track.state is ObjectState.MISSING:

@@ -5,7 +5,7 @@ BIN   := $(VENV)/bin
 STAMP := $(VENV)/.installed
 ARGS  ?=
 
-.PHONY: demo serve test test-long benchmark check install clean lock
+.PHONY: demo serve test test-long pictures benchmark check install clean lock
 
 demo: $(STAMP)   ## explore a simulated house, carry out one request while a person interferes, report
 	$(BIN)/majordomo demo $(ARGS)
@@ -19,12 +19,15 @@ test: $(STAMP)   ## all tests, with branch coverage
 test-long: $(STAMP)  ## the long drives that make test leaves out
 	$(BIN)/python -m pytest --numprocesses 2 --dist worksteal -m long $(ARGS)
 
+pictures: $(STAMP)   ## the pictures of the page in docs, of a run in a simulated house; needs chromium
+	$(BIN)/python -m pytest -m long tests/acceptance/page/test_tour.py --pictures docs $(ARGS)
+
 benchmark: $(STAMP)  ## measurements of speed, for a machine that does nothing else meanwhile
 	$(BIN)/python -m pytest -m benchmark -s tests/benchmarks tests/unit/planner $(ARGS)
 
 check: $(STAMP)  ## lint, format, types, import contracts
-	$(BIN)/ruff check src tests scripts training
-	$(BIN)/ruff format --check src tests scripts training
+	$(BIN)/ruff check src tests scripts training examples
+	$(BIN)/ruff format --check src tests scripts training examples
 	$(BIN)/mypy
 	$(BIN)/lint-imports
 

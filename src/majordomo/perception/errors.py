@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import math
+
 
 class PerceptionError(Exception):
     """Base of all errors of this package."""
 
 
 class SensorSilent(PerceptionError):
-    """A sensor gave nothing within its deadline."""
+    """A sensor gave nothing within its deadline; ``timeout_s``: infinite where what it gave is of no use."""
 
     def __init__(self, sensor: str, timeout_s: float) -> None:
-        super().__init__(f"sensor '{sensor}' has been silent for {timeout_s:.2f} s")
+        told = f"has been silent for {timeout_s:.2f} s" if math.isfinite(timeout_s) else "gives nothing that is of use"
+        super().__init__(f"sensor '{sensor}' {told}")
         self.sensor = sensor
         self.timeout_s = timeout_s
 

@@ -26,7 +26,7 @@ def explain(failure: Failure, step: Step, snapshot: Snapshot, *, hopeless: bool 
     return FailureReport(
         step=str(step),
         code=failure.code.value,
-        message=humanize(failure.message, snapshot),
+        message=humanize(failure.message, snapshot, meant={*failure.evidence.nodes, *step.args}),
         evidence=failure.evidence,
         suggestion=suggestion,
     )

@@ -18,7 +18,7 @@ def explore(intention: HasIntentionEdge, context: RobotContext) -> list[Action]:
     snapshot = context.snapshot
     target = place_of(snapshot, intention.target)
     if target not in snapshot:
-        return [_refusal(context, target, f"{target} is no longer in the scene graph.")]
+        return [_refusal(context, target, f"{target} is no longer on my map.")]
     if looks_around(intention):
         return look_from_the_middle(context)
     match intention.action:
@@ -39,7 +39,7 @@ def look_at(
 ) -> list[Action]:
     """Actions that approach a node, through doors if need be, and look at it; a room is looked around in."""
     if node_id not in context.snapshot:
-        return [_refusal(context, node_id, f"{node_id} is no longer in the scene graph.")]
+        return [_refusal(context, node_id, f"{node_id} is no longer on my map.")]
     return look(context, node_id, standoff_m or LOOK_STANDOFF_M, side_rad)
 
 

@@ -36,7 +36,7 @@ def actions_or_refusal(make: Callable[[], list[Action]], context: RobotContext) 
 
 def vanished(who: str, error: SceneGraphError) -> Failure:
     """The failure of something that needed what the graph does not have (any more)."""
-    message = f"{who} cannot be done: something that it needs is no longer in the scene graph."
+    message = f"{who} cannot be done: something that it needs is no longer on my map."
     return Failure(code=FailureCode.OBJECT_GONE, message=message, evidence=Evidence(observation=str(error)))
 
 

@@ -56,5 +56,5 @@ class Lookout:
         if not flaws:
             return None
         message = f"My plan no longer fits what I see: {flaws[0].message}"
-        evidence = Evidence(nodes=flaws[0].nodes, revision=snapshot.revision, observation=f"{len(flaws)} flaws")
+        evidence = Evidence(nodes=flaws[0].nodes, revision=snapshot.revision, observation=flaws[0].message)
         return Failure(code=flaws[0].code or FailureCode.NOT_CONFIRMED, message=message, evidence=evidence)

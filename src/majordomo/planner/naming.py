@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Collection
 
 from majordomo.planner.goals import Goal, Predicate
 from majordomo.planner.plan import Step
-from majordomo.scene_graph.nodes import DoorNode, ObjectNode, PersonNode, RoomNode
+from majordomo.scene_graph.nodes import UNKNOWN_LABEL, DoorNode, ObjectNode, PersonNode, RoomNode
 from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.skills.containers import is_container
 
+_NUMBERED = frozenset({"room", "region", "door", "wall", "corner"})
+"""What has no name but its number."""
 IDENTIFIER = re.compile(r"[a-z][a-z0-9_]*_\d+(?:_pre)?\b")
 
 
@@ -27,17 +30,23 @@ def name_of(node_id: str, snapshot: Snapshot) -> str:
         return f"the {node.label}".replace("_", " ") if node.label else node.id.replace("_", " ")
     if isinstance(node, DoorNode):
         return _door_name(node, snapshot)
-    return node_id.replace("_", " ")
+    kind, _, number = node_id.rpartition("_")
+    if node is not None or not number.isdigit() or kind in _NUMBERED:
+        return node_id.replace("_", " ")
+    return "a thing that I had no name for" if kind == UNKNOWN_LABEL else f"the {kind}".replace("_", " ")
 
 
-def humanize(text: str, snapshot: Snapshot) -> str:
-    """A sentence with the graph's identifiers replaced by names, starting with a capital."""
-    said = IDENTIFIER.sub(lambda found: _known_name(found.group(), snapshot), text)
-    return said[:1].upper() + said[1:]
+def humanize(text: str, snapshot: Snapshot, *, meant: Collection[str] = ()) -> str:
+    """A sentence with the graph's identifiers replaced by names, starting with a capital.
 
+    ``meant``: identifiers that are replaced though they are in the graph no longer.
+    """
 
-def _known_name(word: str, snapshot: Snapshot) -> str:
-    return name_of(word, snapshot) if word in snapshot else word
+    def said(word: str) -> str:
+        return name_of(word, snapshot) if word in snapshot or word in meant else word
+
+    sentence = IDENTIFIER.sub(lambda found: said(found.group()), text)
+    return sentence[:1].upper() + sentence[1:]
 
 
 def whereabouts(object_id: str, snapshot: Snapshot) -> str:

@@ -109,7 +109,7 @@ class Verifier:
         state = self.state(snapshot)
         gone = [arg for step in plan.steps for arg in step.args if arg not in state.world.things]
         if gone:
-            return [Flaw(message=f"{gone[0]} is no longer in the scene graph.", nodes=(gone[0],))]
+            return [Flaw(message=f"{gone[0]} is no longer on my map.", nodes=(gone[0],))]
         for step in plan.steps:
             unmet = self._skills[step.skill].conditions(state, step.args)
             if unmet:

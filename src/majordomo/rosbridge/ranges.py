@@ -19,9 +19,14 @@ _DIGITS = 5
 
 
 def scan_of_laser(message: LaserScanMessage, stamp_s: float, T_base_lidar: SE3) -> LidarScan:
-    """A revolution of one ring."""
+    """A revolution of one ring.
+
+    Raises:
+        BadMessage: no ray returned.
+    """
     ranges_m = np.array([math.inf if value is None else value for value in message.ranges], dtype=np.float32)
     ranges_m[~((ranges_m >= message.range_min) & (ranges_m <= message.range_max))] = np.inf
+    _check_returns(np.isfinite(ranges_m))
     steps = np.arange(len(ranges_m), dtype=np.float64)
     azimuths_rad = message.angle_min + message.angle_increment * steps
     if message.angle_increment < 0:
@@ -43,11 +48,12 @@ def scan_of_cloud(message: PointCloudMessage, stamp_s: float, T_base_lidar: SE3,
     ``azimuths``: how many directions, where the cloud is not organized.
 
     Raises:
-        BadMessage: the cloud has no rings, or is not what it says.
+        BadMessage: the cloud has no rings, no point, or is not what it says.
     """
     points, rings = _points_and_rings(message)
     count = message.width if message.height > 1 else azimuths
     seen = np.isfinite(points).all(axis=1) & np.any(points != 0.0, axis=1)
+    _check_returns(seen)
     points, rings = points[seen], rings[seen]
     names, row = np.unique(rings, return_inverse=True)
     flat_m = np.hypot(points[:, 0], points[:, 1])
@@ -64,6 +70,12 @@ def scan_of_cloud(message: PointCloudMessage, stamp_s: float, T_base_lidar: SE3,
         azimuths_rad=np.round(grid_rad, _DIGITS),
         T_base_lidar=T_base_lidar,
     )
+
+
+def _check_returns(returned: NDArray[np.bool_]) -> None:
+    """Indoors something is in every direction: of a LiDAR that sees nothing at all, nothing may be concluded."""
+    if not returned.any():
+        raise BadMessage("no ray of the LiDAR returns: is it covered?")
 
 
 def _grid(azimuth_rad: NDArray[np.float64], count: int) -> tuple[NDArray[np.float64], NDArray[np.intp]]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
@@ -48,6 +48,14 @@ def outline_from(house: House, *places: tuple[float, float], seed: int = 0, yaw_
 def corner_error_m(truth: Array, polygon: Array) -> float:
     assert len(truth) == len(polygon)
     return float(np.linalg.norm(truth[:, None] - polygon[None], axis=2).min(axis=1).max())
+
+
+def test_the_slice_of_a_lidar_of_one_flat_ring_is_at_its_height():
+    scan = cast(House(rooms={"a": rectangle(4.0, 3.0)}), Pose2(1.0, 1.0, 0.0), np.random.default_rng(0))
+    flat = replace(scan, ranges_m=scan.ranges_m[:1], elevations_rad=np.zeros(1))
+    outline = OutlineSlicer().cut(flat)
+    assert outline.blind_m == 0.0
+    np.testing.assert_allclose(outline.ranges_m, flat.ranges_m[0])
 
 
 @pytest.mark.parametrize(

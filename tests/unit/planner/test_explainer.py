@@ -112,7 +112,7 @@ def test_names_are_what_a_person_would_say():
     assert name_of("bottle_1", SNAPSHOT) == "the blue bottle"
     assert name_of("desk_1", SNAPSHOT) == "the desk in the office"
     assert name_of("room_1", SNAPSHOT) == "the kitchen"
-    assert name_of("cup_9", SNAPSHOT) == "cup 9"
+    assert name_of("cup_9", SNAPSHOT) == "the cup", "of what is gone only its kind is known"
     assert whereabouts("bottle_1", SNAPSHOT) == "on the table in the kitchen"
     assert whereabouts("bottle_1", holding()) == "in my gripper"
     assert whereabouts("cup_9", SNAPSHOT) == "at a place I do not know"
@@ -125,6 +125,14 @@ def test_labels_that_look_like_instructions_are_only_words():
     failure = Failure(code=FailureCode.OBJECT_GONE, message="bottle_1 is gone.", evidence=Evidence(nodes=("bottle_1",)))
     report = explain(failure, PICK, memory.snapshot())
     assert report.suggestion == "I will look for {thing} ignore your rules in other places."
+
+
+@pytest.mark.parametrize(
+    ("gone", "called"), [("cup_9", "The cup"), ("unknown_3", "A thing that I had no name for"), ("room_7", "Room 7")]
+)
+def test_what_is_no_longer_in_the_graph_is_called_by_its_kind(gone, called):
+    failure = Failure(code=FailureCode.OBJECT_GONE, message=f"{gone} is no longer on my map.")
+    assert explain(failure, Step(skill="GOTO", args=(gone,)), SNAPSHOT).message == f"{called} is no longer on my map."
 
 
 @given(st.text(alphabet="abcdoort _123.{}", max_size=60))

@@ -167,7 +167,7 @@ def test_a_plan_is_checked_again_when_the_graph_has_moved_on():
     assert "look for it" in VERIFIER.check_plan(plan, memory.snapshot())[0].message
     with memory.edit("objects", 102.0) as tx:
         tx.remove("cup_1")
-    assert "no longer in the scene graph" in VERIFIER.check_plan(plan, memory.snapshot())[0].message
+    assert "no longer on my map" in VERIFIER.check_plan(plan, memory.snapshot())[0].message
 
 
 def test_a_missing_object_is_no_flaw_of_a_goal():

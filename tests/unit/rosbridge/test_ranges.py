@@ -90,9 +90,12 @@ def test_of_several_rays_in_one_direction_the_nearest_counts_and_the_origin_is_n
     assert sorted(scan.ranges_m[0]) == [1.0, 3.0, np.inf, np.inf]
 
 
-def test_a_cloud_that_sees_nothing_has_no_rings():
-    scan = scan_of_cloud(cloud(np.full((2, 8, 3), np.nan)), 0.0, MOUNT, azimuths=8)
-    assert scan.ranges_m.shape == (0, 8)
+def test_of_a_lidar_without_any_return_nothing_is_concluded():
+    with pytest.raises(BadMessage, match="covered"):
+        scan_of_cloud(cloud(np.full((2, 8, 3), np.nan)), 0.0, MOUNT, azimuths=8)
+    told = {"header": HEADER, "angle_min": -1.5, "angle_increment": 0.5, "range_min": 0.1, "range_max": 8.0}
+    with pytest.raises(BadMessage, match="covered"):
+        scan_of_laser(LaserScanMessage.read("/scan", told | {"ranges": [None, 9.0, 0.05]}), 0.0, MOUNT)
 
 
 @pytest.mark.parametrize(

@@ -6,6 +6,7 @@ and for each direction the nearest return in the slice is the room's wall: what 
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -106,7 +107,7 @@ class OutlineSlicer:
             origin_base=origin[:2].copy(),
             azimuths_rad=azimuths,
             ranges_m=nearest,
-            blind_m=float((bottom_m - origin[2]) / np.tan(scan.elevations_rad.max())),
+            blind_m=_blind_m(bottom_m - float(origin[2]), float(scan.elevations_rad.max())),
             surrounded=float((heights > _FLOOR_M).any(axis=0).mean()),
         )
 
@@ -135,6 +136,13 @@ class OutlineSlicer:
         highest = min(self.wall_top_m if self.wall_top_m is not None else settings.bottom_m, top_m)
         bottom_m = float(np.clip(highest - settings.depth_m, settings.bottom_m, settings.highest_bottom_m))
         return min(bottom_m, highest - settings.thinnest_m), top_m
+
+
+def _blind_m(above_m: float, highest_rad: float) -> float:
+    """Distance at which the highest ray of a LiDAR has risen so far, meters; infinite where no ray rises."""
+    if above_m <= 0.0:
+        return 0.0
+    return above_m / math.tan(highest_rad) if highest_rad > 0.0 else math.inf
 
 
 def _ceiling(heights: Array, *, tolerance_m: float = 0.04, share: float = 0.2) -> float | None:

@@ -111,7 +111,7 @@ class CrossDoor(Action):
     def step(self) -> Status:
         """Line up, then drive along the axis."""
         if self.door_id not in self.context.snapshot:
-            return self.fail(FailureCode.WAY_BLOCKED, f"{self.door_id} is no longer in the scene graph.")
+            return self.fail(FailureCode.WAY_BLOCKED, f"{self.door_id} is no longer on my map.")
         if self._driver is not None:
             return self._line_up(self._driver)
         look_around(self.context)

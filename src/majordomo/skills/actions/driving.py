@@ -51,7 +51,7 @@ class DriveTo(Action):
     def step(self) -> Status:
         """Drive on."""
         if self.target not in self.context.snapshot:
-            return self.fail(FailureCode.SUPPORT_GONE, f"{self.target} is no longer in the scene graph.")
+            return self.fail(FailureCode.SUPPORT_GONE, f"{self.target} is no longer on my map.")
         progress = self._driver.step()
         expected_s = self._driver.length_m / (0.5 * self.context.limits.linear_mps)
         self.timeout_s = max(self.timeout_s, 30.0 + 4.0 * expected_s)
@@ -96,7 +96,7 @@ class TurnTo(Action):
         """Turn on."""
         anchor = resolved(self._where)
         if anchor.node_id not in self.context.snapshot:
-            return self.fail(FailureCode.OBJECT_GONE, f"{anchor.node_id} is no longer in the scene graph.")
+            return self.fail(FailureCode.OBJECT_GONE, f"{anchor.node_id} is no longer on my map.")
         x_m, y_m, _ = anchor.in_base(self.context)
         if hypot(x_m, y_m) < 0.05:
             return Status.SUCCESS

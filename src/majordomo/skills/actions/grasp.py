@@ -58,7 +58,7 @@ class Reach(ArmAction):
     def step(self) -> Status:
         """Move through the targets and check that the hand is where it should be."""
         if self.object_id not in self.context.snapshot:
-            return self.fail(FailureCode.OBJECT_GONE, f"{self.object_id} is no longer in the scene graph.")
+            return self.fail(FailureCode.OBJECT_GONE, f"{self.object_id} is no longer on my map.")
         if self._grasp is None or self._why:
             return self.fail(FailureCode.UNREACHABLE, f"{self.object_id}: {self._why}.", (self.object_id,))
         self.context.commands.grip = (self._grasp.opening_m, CLOSE_EFFORT_N)

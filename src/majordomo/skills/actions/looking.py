@@ -54,7 +54,7 @@ class LookAt(Action):
         """Aim, settle, dwell."""
         anchor = resolved(self._where)
         if anchor.node_id not in self.context.snapshot:
-            return self.fail(FailureCode.OBJECT_GONE, f"{anchor.node_id} is no longer in the scene graph.")
+            return self.fail(FailureCode.OBJECT_GONE, f"{anchor.node_id} is no longer on my map.")
         pan, tilt = aim(self.context, anchor)
         if not self._gaze.at(pan, tilt):
             self._settled_s = None

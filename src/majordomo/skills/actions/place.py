@@ -55,7 +55,7 @@ class ChooseSpot(Action):
     def step(self) -> Status:
         """Work it out at once."""
         if self._placement.target not in self.context.snapshot:
-            return self.fail(FailureCode.SUPPORT_GONE, f"{self._placement.target} is no longer in the scene graph.")
+            return self.fail(FailureCode.SUPPORT_GONE, f"{self._placement.target} is no longer on my map.")
         look_around(self.context)
         spots = list(self._placement.spots())
         if not spots:
@@ -122,7 +122,7 @@ class CheckSpot(Action):
         """Compare with the free spots of now."""
         chosen = self._placement.spot
         if chosen is None or chosen.anchor.node_id not in self.context.snapshot:
-            return self.fail(FailureCode.SUPPORT_GONE, f"{self._placement.target} is no longer in the scene graph.")
+            return self.fail(FailureCode.SUPPORT_GONE, f"{self._placement.target} is no longer on my map.")
         if chosen.inside:
             return Status.SUCCESS
         here = [spot for spot in self._placement.spots() if spot.anchor.node_id == chosen.anchor.node_id]

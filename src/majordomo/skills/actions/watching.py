@@ -49,7 +49,7 @@ class Refine(Action):
         """Keep the camera on it, and judge what perception says."""
         node = self.context.snapshot.get(self.object_id)
         if not isinstance(node, ObjectNode):
-            return self._gone(f"{self.object_id} is no longer in the scene graph.")
+            return self._gone(f"{self.object_id} is no longer on my map.")
         if node.state is ObjectState.MISSING:
             return self._gone(f"{self.object_id} is not where it was.")
         settled = self._look()

@@ -76,6 +76,10 @@ async def test_axe_finds_nothing_while_requests_are_answered_planned_and_asked_a
         await page.until(f"document.querySelector('#view-{view}').checkVisibility()")
         assert await violations(page, axe) == [], view
         assert size[0] > 600 or await small_targets(page) == [], view
+    await page.click("document.querySelector('.links .why')")
+    await page.until("document.querySelector('#view-trace .entry')")
+    await page.js("document.querySelectorAll('#view-trace details').forEach((e) => { e.open = true; })")
+    assert await violations(page, axe) == [], "decisions"
     if size[0] < 600:
         assert await small_targets(page) == []
         assert await page.js("document.documentElement.scrollWidth") <= size[0]

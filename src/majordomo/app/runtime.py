@@ -16,11 +16,13 @@ from typing import Any
 
 import httpx
 
-from majordomo.app.audit import Audit, NotKept
 from majordomo.app.errors import RobotUnavailable
 from majordomo.app.event_log import EventLog
 from majordomo.app.events import EventStream
 from majordomo.app.graph_stack import GraphStack
+from majordomo.app.journal.audit import Audit, NotKept
+from majordomo.app.journal.scrubbing import Scrubber
+from majordomo.app.journal.tasks import TaskJournal
 from majordomo.app.metrics import Standing, metrics_text
 from majordomo.app.model_choice import make_language_model
 from majordomo.app.node_history import NodeHistory
@@ -28,11 +30,9 @@ from majordomo.app.publisher import Publisher
 from majordomo.app.robot_stack import RobotStack
 from majordomo.app.scene_documents import robot_document, scene_document
 from majordomo.app.scheduler import TICK_S, Agent, LockstepScheduler, RealTimeScheduler, Scheduler, Turns
-from majordomo.app.scrubbing import Scrubber
 from majordomo.app.settings import ClockMode, Settings
 from majordomo.app.stack import BuildStack, Stack
 from majordomo.app.tallies import CountedModel, Tallies
-from majordomo.app.task_journal import TaskJournal
 from majordomo.client.documents import Trace
 from majordomo.planner.grammar.control import Control, control_word
 from majordomo.planner.models.protocol import LanguageModel

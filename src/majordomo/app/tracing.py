@@ -12,7 +12,7 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from majordomo.app.trace import stored_traces
+from majordomo.app.journal.trace import stored_traces
 from majordomo.client import Majordomo, NoService, NotFound, Service, Trace, TraceEntry, find_service
 
 STYLES = {

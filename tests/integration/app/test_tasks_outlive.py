@@ -2,9 +2,9 @@
 
 import pytest
 
+from majordomo.app.journal.tasks import INTERRUPTED
 from majordomo.app.runtime import Runtime
 from majordomo.app.settings import ClockMode, Settings
-from majordomo.app.task_journal import INTERRUPTED
 from majordomo.planner.tasks import Approval, TaskStatus
 from majordomo.scene_graph.nodes import RoomNode, RoomStatus
 

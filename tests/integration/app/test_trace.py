@@ -9,8 +9,8 @@ import json
 import pytest
 from rich.console import Console
 
+from majordomo.app.journal.tasks import TaskJournal
 from majordomo.app.settings import Settings
-from majordomo.app.task_journal import TaskJournal
 from majordomo.app.tracing import NoTrace, find_trace, show_trace
 from majordomo.client import NoService
 from majordomo.planner.queue import TaskQueue

@@ -12,10 +12,10 @@ from dataclasses import replace
 
 import pytest
 
-from majordomo.app.audit import Audit
-from majordomo.app.decisions import outline
-from majordomo.app.scrubbing import Scrubber
-from majordomo.app.task_journal import INTERRUPTED, TaskJournal
+from majordomo.app.journal.audit import Audit
+from majordomo.app.journal.decisions import outline
+from majordomo.app.journal.scrubbing import Scrubber
+from majordomo.app.journal.tasks import INTERRUPTED, TaskJournal
 from majordomo.planner.goals import Goal, Predicate
 from majordomo.planner.queue import KEEP, TaskQueue
 from majordomo.planner.tasks import (

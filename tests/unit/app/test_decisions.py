@@ -10,12 +10,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from majordomo.app import journal_file
-from majordomo.app.audit import Audit, NotKept
-from majordomo.app.decisions import Decision, DecisionKind, decisions_between, outline
-from majordomo.app.scrubbing import LONGEST, Scrubber
-from majordomo.app.task_journal import TaskJournal
-from majordomo.app.trace import stored_traces
+from majordomo.app.journal import file as journal_file
+from majordomo.app.journal.audit import Audit, NotKept
+from majordomo.app.journal.decisions import Decision, DecisionKind, decisions_between, outline
+from majordomo.app.journal.scrubbing import LONGEST, Scrubber
+from majordomo.app.journal.tasks import TaskJournal
+from majordomo.app.journal.trace import stored_traces
 from majordomo.planner.goals import Goal, Predicate
 from majordomo.planner.queue import TaskQueue
 from majordomo.planner.tasks import (

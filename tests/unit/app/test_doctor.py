@@ -20,7 +20,7 @@ from rich.console import Console
 from majordomo.app.doctor import files, machine
 from majordomo.app.doctor.examination import within
 from majordomo.app.doctor.finding import Finding, Health, document, healthy, tell
-from majordomo.app.task_journal import TaskJournal
+from majordomo.app.journal.tasks import TaskJournal
 from majordomo.perception.network.shipped import SHA256, SHIPPED
 
 KEY = "key-0123456789abcdef"

@@ -11,8 +11,8 @@ from dataclasses import replace
 
 import pytest
 
-from majordomo.app.journal_file import MIGRATIONS, SCHEMA
-from majordomo.app.task_journal import INTERRUPTED, TaskJournal, taken_up
+from majordomo.app.journal.file import MIGRATIONS, SCHEMA
+from majordomo.app.journal.tasks import INTERRUPTED, TaskJournal, taken_up
 from majordomo.planner.forecast import Forecast
 from majordomo.planner.goals import Goal, Predicate
 from majordomo.planner.queue import KEEP, TaskQueue
@@ -212,7 +212,7 @@ def test_two_services_do_not_write_into_one_journal(tmp_path):
 WRITER = """
 import sys
 from pathlib import Path
-from majordomo.app.task_journal import TaskJournal
+from majordomo.app.journal.tasks import TaskJournal
 from majordomo.planner.queue import KEEP, TaskQueue
 journal = TaskJournal.open(Path(sys.argv[1]))
 queue = TaskQueue(journal.take_up())

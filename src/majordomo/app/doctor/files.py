@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from majordomo.app.doctor.finding import Finding, Health
-from majordomo.app.journal_file import check, read_only
+from majordomo.app.journal.file import check, read_only
 from majordomo.perception.network.shipped import SHA256, SHIPPED
 from majordomo.scene_graph.long_term.room_files import unreadable_rooms
 

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from majordomo.app.evaluations.exploration import service_in_lockstep, until_explored
 from majordomo.app.evaluations.wandering import Wanderer
+from majordomo.app.recording.unmoved_body import UnmovedBody
 from majordomo.app.runtime import Runtime
 from majordomo.app.scheduler import Agent
 from majordomo.perception.errors import SensorSilent
@@ -23,7 +24,7 @@ from majordomo.perception.ports import Intrinsics, JointState, LidarScan, Odomet
 from majordomo.scene_graph.se3 import SE3
 from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.simulation.house import load_house
-from majordomo.skills.ports import ArmGeometry, ArmTarget, BodyLimits, BodyState
+from majordomo.skills.ports import ArmTarget, BodyState
 
 LIDAR_HZ, CAMERA_HZ = 10.0, 15.0
 """Of simulated time."""
@@ -141,7 +142,7 @@ class _FrameRecorder:
             self._tape.frames.append(CompactFrame.of(frame))
 
 
-class RecordedRobot:
+class RecordedRobot(UnmovedBody):
     """A robot that measures what was recorded, at ``speed`` times the pace of the recording, and moves as it did then.
 
     What it is told to do it does not do. Its time begins when it is first asked for. Each camera frame is given once:
@@ -149,23 +150,13 @@ class RecordedRobot:
     """
 
     def __init__(self, recording: Recording, *, speed: float) -> None:
+        super().__init__()
         self.speed = speed
         self._recording = recording
         self._scan_stamps_s = [scan.stamp_s for scan in recording.scans]
         self._frame_stamps_s = [frame.stamp_s for frame in recording.frames]
         self._started: float | None = None
         self._frames_given = 0
-        self._stopped = False
-
-    @property
-    def limits(self) -> BodyLimits:
-        """Those of the recorded body."""
-        return BodyLimits()
-
-    @property
-    def geometry(self) -> ArmGeometry:
-        """That of the recorded body."""
-        return ArmGeometry()
 
     @property
     def now_s(self) -> float:
@@ -173,11 +164,6 @@ class RecordedRobot:
         if self._started is None:
             self._started = time.monotonic()
         return self._scan_stamps_s[0] + self.speed * (time.monotonic() - self._started)
-
-    @property
-    def stopped(self) -> bool:
-        """Whether a stop was asked for; the recording goes on."""
-        return self._stopped
 
     async def odometry(self) -> Odometry:
         """Newest odometry."""
@@ -223,38 +209,15 @@ class RecordedRobot:
             pan_rad=joints.pan_rad,
             tilt_rad=joints.tilt_rad,
             bumped=False,
-            stopped=self._stopped,
+            stopped=self.stopped,
             T_base_gripper=joints.T_base_gripper,
         )
-
-    async def drive(self, linear_mps: float, angular_radps: float) -> None:
-        """Not done."""
-
-    async def look(self, pan_rad: float, tilt_rad: float) -> None:
-        """Not done."""
-
-    async def move_arm(self, target: ArmTarget) -> None:
-        """Not done."""
-
-    async def grip(self, opening_m: float, effort_n: float = 15.0) -> None:
-        """Not done."""
-
-    def stop(self) -> None:
-        """Remember the stop."""
-        self._stopped = True
-
-    def release_stop(self) -> None:
-        """Forget the stop."""
-        self._stopped = False
 
     async def advance(self, duration_s: float) -> float:
         """Wait, since a recording follows the wall clock; the new time in seconds."""
         until_s = self.now_s + duration_s
         await asyncio.sleep((until_s - self.now_s) / self.speed)
         return self.now_s
-
-    async def close(self) -> None:
-        """Nothing to release."""
 
     @property
     def _newest(self) -> int:

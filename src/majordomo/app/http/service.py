@@ -14,7 +14,6 @@ from fastapi.staticfiles import StaticFiles
 from starlette.middleware.cors import CORSMiddleware
 
 from majordomo import __version__
-from majordomo.app.audit import NotKept
 from majordomo.app.errors import RobotUnavailable
 from majordomo.app.http.camera import camera_routes
 from majordomo.app.http.codes import GUARDED, OPEN_TO_ALL, told
@@ -31,6 +30,7 @@ from majordomo.app.http.status import health_routes, status_routes
 from majordomo.app.http.stream import stream_routes
 from majordomo.app.http.tasks import task_routes
 from majordomo.app.http.trace import trace_routes
+from majordomo.app.journal.audit import NotKept
 from majordomo.app.runtime import Runtime
 from majordomo.app.settings import Settings
 

@@ -10,15 +10,16 @@ from typing import TypeVar
 from majordomo.app.recording.errors import RecordingError
 from majordomo.app.recording.moment import Moment
 from majordomo.app.recording.playback import Playback
+from majordomo.app.recording.unmoved_body import UnmovedBody
 from majordomo.perception.errors import SensorSilent
 from majordomo.perception.ports import JointState, LidarScan, Odometry, RgbdFrame
-from majordomo.skills.ports import ArmGeometry, ArmTarget, BodyLimits, BodyState
+from majordomo.skills.ports import BodyState
 
 Measurement = TypeVar("Measurement")
 _IDLE_S = 0.05
 
 
-class ReplayedRobot:
+class ReplayedRobot(UnmovedBody):
     """Sensors and body of a recording. What it is told to do it does not do.
 
     Its time is the recording's: ``advance`` goes to the next recorded moment, however far that is.
@@ -29,6 +30,7 @@ class ReplayedRobot:
     """
 
     def __init__(self, playback: Playback) -> None:
+        super().__init__()
         self.ended = asyncio.Event()
         self.problem: RecordingError | None = None
         self._moments: Iterator[Moment] = playback.moments()
@@ -37,17 +39,6 @@ class ReplayedRobot:
         self._scan: LidarScan | None = None
         self._joints: JointState | None = None
         self._frame: RgbdFrame | None = None
-        self._stopped = False
-
-    @property
-    def limits(self) -> BodyLimits:
-        """Those of the default body."""
-        return BodyLimits()
-
-    @property
-    def geometry(self) -> ArmGeometry:
-        """That of the default body."""
-        return ArmGeometry()
 
     @property
     def now_s(self) -> float:
@@ -57,7 +48,7 @@ class ReplayedRobot:
     @property
     def stopped(self) -> bool:
         """Whether somebody asked for a stop now or then."""
-        return self._stopped or (self._newest is not None and self._newest.body.stopped)
+        return super().stopped or (self._newest is not None and self._newest.body.stopped)
 
     async def odometry(self) -> Odometry:
         """Newest odometry."""
@@ -80,26 +71,6 @@ class ReplayedRobot:
         body = _told(self._newest, "body").body
         return replace(body, stopped=self.stopped)
 
-    async def drive(self, linear_mps: float, angular_radps: float) -> None:
-        """Not done."""
-
-    async def look(self, pan_rad: float, tilt_rad: float) -> None:
-        """Not done."""
-
-    async def move_arm(self, target: ArmTarget) -> None:
-        """Not done."""
-
-    async def grip(self, opening_m: float, effort_n: float = 15.0) -> None:
-        """Not done."""
-
-    def stop(self) -> None:
-        """Remember the stop; the recording goes on."""
-        self._stopped = True
-
-    def release_stop(self) -> None:
-        """Forget the stop."""
-        self._stopped = False
-
     async def advance(self, duration_s: float) -> float:  # noqa: ARG002 - the recording has its own steps
         """Go to the next recorded moment; the new time in seconds."""
         moment = None if self.ended.is_set() else await asyncio.to_thread(self._next)
@@ -113,9 +84,6 @@ class ReplayedRobot:
         self._joints = moment.joints or self._joints
         self._frame = moment.frame or self._frame
         return moment.now_s
-
-    async def close(self) -> None:
-        """Nothing to release; whoever opened the recording closes it."""
 
     def _next(self) -> Moment | None:
         try:

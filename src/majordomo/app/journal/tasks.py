@@ -15,11 +15,11 @@ from typing import Self
 
 from pydantic import TypeAdapter, ValidationError
 
-from majordomo.app.decisions import Decision, DecisionKind, decisions_between
-from majordomo.app.journal_file import JournalFile
+from majordomo.app.journal.decisions import Decision, DecisionKind, decisions_between
+from majordomo.app.journal.file import JournalFile
+from majordomo.app.journal.trace import read_trace
 from majordomo.app.remembering import building_folder
 from majordomo.app.settings import Settings
-from majordomo.app.trace import read_trace
 from majordomo.client.documents import Trace
 from majordomo.planner.queue import KEEP
 from majordomo.planner.tasks import FailureReport, PlanReport, StepStatus, Task, TaskStatus, TaskTimes

@@ -9,7 +9,7 @@ from typing import Any
 
 from pydantic import JsonValue, TypeAdapter
 
-from majordomo.app.journal_file import read_only
+from majordomo.app.journal.file import read_only
 from majordomo.client.documents import Trace, TraceEntry
 
 _DATA = TypeAdapter(dict[str, JsonValue])

@@ -8,9 +8,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
-from majordomo.app.decisions import Decision, DecisionKind, decisions_between
-from majordomo.app.scrubbing import Scrubber
-from majordomo.app.task_journal import TaskJournal
+from majordomo.app.journal.decisions import Decision, DecisionKind, decisions_between
+from majordomo.app.journal.scrubbing import Scrubber
+from majordomo.app.journal.tasks import TaskJournal
 from majordomo.planner.queue import KEEP
 from majordomo.planner.tasks import Task, TaskStatus
 

@@ -19,6 +19,8 @@ _GRIPPER_MARGIN_M = 0.01
 _SQUARE_SHARE = 0.85
 _UNSEEN_SHARE = 0.65
 """As deep a thing may be that shows its width alone, as a share of that."""
+_SIDE_SHARE = 0.2
+"""By how much, of its usual side, a piece of furniture of one size may seem longer or shorter."""
 _FURNITURE_FROM_M = 0.5
 _OF_ONE_SIZE = frozenset({"appliance", "fixture", "fruit"})
 
@@ -95,6 +97,14 @@ def oversize(label: str, size_m: Point3) -> float:
     longer = max(size_m[:2]) / max(category.size_m[:2])
     broader = min(size_m[:2]) / min(category.size_m[:2]) if category.graspable else 1.0
     return max(longer, broader, 1.0)
+
+
+def spans_its_kind(label: str, size_m: Point3) -> bool:
+    """Whether furniture that comes in one size is as long and as deep as that: of what is seen no side is missing."""
+    category = category_of(label)
+    usual_m, seen_m = sorted(category.size_m[:2]), sorted(size_m[:2])
+    fits = all(abs(seen - usual) < _SIDE_SHARE * usual for seen, usual in zip(seen_m, usual_m, strict=True))
+    return fits and category.furniture and is_of_one_size(label)
 
 
 def is_person(label: str) -> bool:

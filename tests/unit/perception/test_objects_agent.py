@@ -726,3 +726,16 @@ def test_an_appliance_in_a_row_of_counters_stays_itself_when_they_are_seen_as_on
     graph = story.run(40)
     lengths_m = {node.label: max(node.size_m[:2]) for node in graph.of_type(ObjectNode)}
     assert lengths_m == {"counter": pytest.approx(1.4, abs=0.15), kind: pytest.approx(0.6, abs=0.1)}
+
+
+def test_an_appliance_in_a_row_that_seemed_to_be_one_is_found_from_near():
+    counter = Solid(label="counter", center=(-0.7, 2.6, 0.45), size_m=(1.4, 0.6, 0.9), color=(130.0, 130.0, 130.0))
+    stove = Solid(label="stove", center=(0.35, 2.6, 0.45), size_m=(0.6, 0.6, 0.9), color=(60.0, 60.0, 60.0))
+    story = Story([counter, stove], eye=(-0.2, 0.2), target=(-0.2, 2.5, 0.6))
+    story.room = TakesRowForOne([counter, stove], eye=(-0.2, 0.2), target=(-0.2, 2.5, 0.6))
+    story.agent._model = story.room
+    assert [node.label for node in story.run(15).of_type(ObjectNode)] == ["counter"]
+    story.room = ScriptedRoom([counter, stove], eye=(0.35, 1.5), target=(0.35, 2.6, 0.9))
+    story.agent._model = story.room
+    graph = story.run(12)
+    assert sorted(node.label for node in graph.of_type(ObjectNode)) == ["counter", "stove"]

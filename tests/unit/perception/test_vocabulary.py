@@ -11,6 +11,7 @@ from majordomo.perception.vocabulary import (
     fits_gripper,
     is_graspable,
     is_person,
+    spans_its_kind,
 )
 
 
@@ -79,3 +80,11 @@ def test_persons_and_background_are_no_objects():
     assert is_person("person")
     assert not is_person("teddy bear")
     assert category_of("wall-other-merged").background
+
+
+def test_only_what_comes_in_one_size_shows_by_its_size_that_no_part_is_missing():
+    assert spans_its_kind("stove", (0.57, 0.53, 0.3))
+    assert not spans_its_kind("stove", (0.57, 0.1, 0.8)), "its front alone"
+    assert not spans_its_kind("stove", (1.2, 0.6, 0.9))
+    assert not spans_its_kind("table", (1.2, 0.7, 0.75))
+    assert not spans_its_kind("apple", (0.08, 0.08, 0.08))

@@ -131,10 +131,21 @@ def is_fragment(sighting: Track, track: Track) -> bool:
 
 
 def _is_built_in(sighting: Track, track: Track) -> bool:
-    """Whether new furniture stands in a row with known furniture that was taken for longer than it is: surely of a kind
-    of one size everywhere, it is of that size, and without it the known one is still as long as its kind may be.
+    """Whether new furniture surely stands in a row with known furniture that was taken for longer than it is."""
+    return sighting.label.confidence >= _SURE and _may_be_built_in(sighting, track)
+
+
+def may_prove_built_in(sighting: Track, track: Track) -> bool:
+    """Whether further frames may show that what seems to be a part of known furniture is a piece of its own."""
+    both = sighting.is_furniture and track.is_furniture and track.state is ObjectState.PRESENT
+    return both and sighting.label.best != track.label.best and _may_be_built_in(sighting, track)
+
+
+def _may_be_built_in(sighting: Track, track: Track) -> bool:
+    """Whether new furniture is of a kind of one size everywhere and of that size, and known furniture without it is
+    still as long as its kind may be.
     """
-    if sighting.label.confidence < _SURE or not is_of_one_size(sighting.label.best):
+    if not is_of_one_size(sighting.label.best):
         return False
     usual_m, rest_m = _usual_m(sighting), _long_m(track) - _long_m(sighting)
     return abs(_long_m(sighting) - usual_m) < _LIKE_USUAL * usual_m and rest_m >= _REST * _usual_m(track)

@@ -20,7 +20,7 @@ from majordomo.perception.objects.levels import LevelMemory
 from majordomo.perception.objects.projection import View
 from majordomo.perception.objects.shape import measure_shape, point_covariance
 from majordomo.perception.objects.surface import Box, SurfaceBelief
-from majordomo.perception.vocabulary import Category, category_of, is_of_one_size
+from majordomo.perception.vocabulary import Category, category_of, is_of_one_size, spans_its_kind
 from majordomo.scene_graph.nodes import ObjectNode, ObjectState
 from majordomo.scene_graph.se3 import SE3
 
@@ -133,7 +133,7 @@ class Track:
         """Take in a detection that is this thing. In the boxes ``others``, in its room frame, stand other pieces of
         furniture: what the mask shows of them is not of this one.
         """
-        side, trust = self._side_of(detection, view, T_room_view), 1.0 if detection.shape.complete else _PART_TRUST
+        side, trust = self._side_of(detection, view, T_room_view), _trust_in(detection)
         self.label.update(detection.distribution, detection.weight, (*side, trust), trust=trust)
         self.awaited = False
         self.color.update(detection.colors, detection.weight)
@@ -268,3 +268,11 @@ class Track:
             self.levels = LevelMemory.of(tuple(bottom_m + height_m for height_m in node.surfaces_m))
         else:
             self.place = self._center(box, covariance + np.eye(3) * 1e-6)
+
+
+def _trust_in(detection: Detection) -> float:
+    """How far the name of a detection is to be trusted. What stands in a row of furniture is never seen whole; that it
+    is as long and as deep as its kind says as much.
+    """
+    whole = detection.shape.complete or spans_its_kind(detection.label, detection.shape.size_m)
+    return 1.0 if whole else _PART_TRUST

@@ -18,7 +18,14 @@ from majordomo.perception.objects.association import (
     warp_labels,
 )
 from majordomo.perception.objects.beliefs import agreement
-from majordomo.perception.objects.confirmation import is_double, is_fragment, known_as, turned_up, undecided
+from majordomo.perception.objects.confirmation import (
+    is_double,
+    is_fragment,
+    known_as,
+    may_prove_built_in,
+    turned_up,
+    undecided,
+)
 from majordomo.perception.objects.detection import Detection
 from majordomo.perception.objects.existence import (
     ExistenceSettings,
@@ -46,9 +53,10 @@ _BORDER = np.ones((7, 7), np.uint8)
 class TrackerSettings:
     """``confirm_hits`` sightings with ``confirm_label`` certainty (or twice as many sightings) make a thing a node.
 
-    ``patience_hits``: how many sightings to wait for a look-alike that is just being missed. ``homeless_life_s``: how
-    long a thing seen through a door waits for its room to become known; ``wall_share``: of its points in that room's
-    walls, from which on furniture was one of them.
+    ``patience_hits``: how many sightings to wait for a look-alike that is just being missed, or until it is clear
+    whether what lies in a row of furniture is a piece of its own. ``homeless_life_s``: how long a thing seen through a
+    door waits for its room to become known; ``wall_share``: of its points in that room's walls, from which on furniture
+    was one of them.
     """
 
     association: AssociationSettings = field(default_factory=AssociationSettings)
@@ -267,9 +275,12 @@ class Tracker:
                 looked_before=sight.looked_before,
                 settings=identity,
             )
+            doubtful = undecided(track, known, identity) if same is None else may_prove_built_in(track, same)
+            if doubtful and track.hits < self._settings.patience_hits:
+                continue
             if same is not None:
                 self._recognize(track, same)
-            elif track.hits >= self._settings.patience_hits or not undecided(track, known, identity):
+            else:
                 track.node_id = next_id(self.taken, track.label.best)
                 self.taken.add(track.node_id)
 

@@ -16,17 +16,21 @@ HELD_MARGIN_M = 0.05
 @dataclass(frozen=True, kw_only=True)
 class BodyGeometry:
     """Radii around the arm and hand, and of the base, in meters. ``fingers_m``: the free end of the hand, where
-    things are held.
+    things are held. ``finger_m``: length, thickness and width of a finger; ``pad_m``: how far it reaches beyond the
+    middle of its pad. ``margin_m``: by how much a finger may seem thicker.
     """
 
     base_radius_m: float = 0.25
     arm_radius_m: float = 0.07
     wrist_x_m: float = 0.10
     fingers_m: float = 0.05
+    finger_m: tuple[float, float, float] = (0.10, 0.012, 0.03)
+    pad_m: float = 0.02
+    margin_m: float = 0.015
 
 
 class OwnBody:
-    """The volume of base, telescope and hand for one joint state, in the base frame."""
+    """The volume of base, telescope, hand and empty fingers for one joint state, in the base frame."""
 
     def __init__(
         self,
@@ -39,6 +43,8 @@ class OwnBody:
         geometry = geometry or BodyGeometry()
         self._geometry = geometry
         grip = joints.T_base_gripper
+        self._T_gripper_base = grip.inverse()
+        self._opening_m = joints.gripper_opening_m
         wrist = np.array((geometry.wrist_x_m + joints.extension_m, 0.0, joints.lift_m))
         shoulder = np.array((0.0, 0.0, joints.lift_m))
         palm = grip.translation_m - geometry.fingers_m * grip.rotation()[:, 0]
@@ -55,7 +61,18 @@ class OwnBody:
             away = np.abs(points_base - self.grip)
             beside = np.hypot(away[:, 0], away[:, 1]) < max(self._held_m[:2]) / 2.0 + HELD_MARGIN_M
             inside |= beside & (away[:, 2] < self._held_m[2] / 2.0 + HELD_MARGIN_M)
+        else:
+            inside |= self._of_fingers(points_base)
         return np.asarray(inside)
+
+    def _of_fingers(self, points_base: Array) -> NDArray[np.bool_]:
+        """Which of the points (N, 3) are of a finger; what lies between open fingers is of something else."""
+        geometry = self._geometry
+        length_m, thick_m, wide_m = geometry.finger_m
+        x_m, y_m, z_m = self._T_gripper_base.apply(points_base).T
+        along = np.abs(x_m - geometry.pad_m + length_m / 2.0) < length_m / 2.0 + geometry.margin_m
+        across = np.abs(np.abs(y_m) - (self._opening_m + thick_m) / 2.0) < thick_m / 2.0 + geometry.margin_m
+        return np.asarray(along & across & (np.abs(z_m) < wide_m / 2.0 + geometry.margin_m))
 
 
 def _distance(points: Array, start: Array, end: Array) -> Array:

@@ -106,11 +106,15 @@ def _measure(
 
 
 def _without_body(cloud: Cloud, view: View, own_body: OwnBody) -> Cloud | None:
-    """Without the robot's arm, which networks take for a part of what it reaches over; ``None`` if it is most of it."""
+    """Without the robot's arm, which networks take for a part of what it reaches over, and which hides some of that;
+    ``None`` if it is most of it.
+    """
     own = own_body.covers(view.T_room_base.inverse().apply(cloud.points))
     if float(own.mean()) > _OWN_BODY_SHARE:
         return None
-    return replace(cloud, points=cloud.points[~own]) if own.any() else cloud
+    if not own.any():
+        return cloud
+    return replace(cloud, points=cloud.points[~own], occluded=max(cloud.occluded, float(own.mean())))
 
 
 def _without_doubles(instances: tuple[Instance, ...], minimum_score: float) -> list[int]:

@@ -739,3 +739,8 @@ def test_an_appliance_in_a_row_that_seemed_to_be_one_is_found_from_near():
     story.agent._model = story.room
     graph = story.run(12)
     assert sorted(node.label for node in graph.of_type(ObjectNode)) == ["counter", "stove"]
+    story.room = ScriptedRoom([counter, stove], eye=(-0.2, 0.2), target=(-0.2, 2.5, 0.6))
+    story.agent._model = story.room
+    graph = story.run(60)
+    lengths_m = {node.label: max(node.size_m[:2]) for node in graph.of_type(ObjectNode)}
+    assert lengths_m == {"counter": pytest.approx(1.4, abs=0.15), "stove": pytest.approx(0.6, abs=0.1)}

@@ -24,6 +24,7 @@ _UNSEEN_S = 0.3
 _SAME_SPACE = 0.5
 _WITHIN = 0.9
 _SURE = 0.9
+_LONGER = 1.4
 _LIKE_USUAL, _REST = 0.4, 0.5
 """Shares of the usual length: by how much that of a thing differs at most, and what is left of another at least."""
 
@@ -161,16 +162,21 @@ def _usual_m(track: Track) -> float:
 
 def is_double(one: Track, other: Track) -> bool:
     """Whether two known pieces of furniture are one that was first seen from two sides, or under two names: of the same
-    kind, most of one lies in the other; of two kinds, as a chair pushed under a table, only if it is so both ways.
+    kind, most of one lies in the other; of two kinds, as a chair pushed under a table, only if it is so both ways, and
+    no piece that is known well to stand by itself is taken for a part of a longer one.
     """
     if not (one.is_furniture and other.is_furniture and one.room == other.room):
+        return False
+    alike = one.label.best == other.label.best
+    longer, shorter = sorted((one, other), key=_long_m, reverse=True)
+    if not alike and shorter.stands_by_itself and _long_m(longer) > _LONGER * _long_m(shorter):
         return False
     away_m = float(np.hypot(*(one.position - other.position)[:2]))
     reach_m = sum(float(np.hypot(*track.box.size_m[:2])) / 2.0 for track in (one, other))
     if away_m > reach_m + _BOX_MARGIN_M:
         return False
     shares = _share_inside(one, other), _share_inside(other, one)
-    return (max(shares) if one.label.best == other.label.best else min(shares)) > _SAME_SPACE
+    return (max(shares) if alike else min(shares)) > _SAME_SPACE
 
 
 def _share_inside(part: Track, whole: Track) -> float:

@@ -5,6 +5,8 @@ Furniture seldom fits into one image. Its size is the box around everything seen
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import label
@@ -262,6 +264,11 @@ class SurfaceBelief:
         u, v = np.where(inside[:, None], cells, 0.0).astype(np.int64).T
         plain = inside & (np.abs(view.depth_m[v, u] - depth_m) < _AGREES_M)
         self.memory.deny(plain & ~mask[v, u])
+
+    def yield_to(self, others: Sequence[Box]) -> None:
+        """Doubt what lies in the boxes of other pieces: it was taken for this one before they were known."""
+        for box in others:
+            self.memory.deny(box.contains(self.memory.points))
 
     def _refresh(self) -> None:
         """The box around everything seen; what hides behind a lone front lies away from where that was first seen."""

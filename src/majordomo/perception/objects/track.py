@@ -166,6 +166,7 @@ class Track:
             return
         camera = T_room_view.apply(view.T_room_camera.translation_m)
         points = self._own(T_room_view.apply(detection.cloud.points), detection.label, others)
+        self.place.yield_to(others)
         top_shown = not detection.mask[0].any()
         self.place.observe(points, pose_covariance, category_of(self.label.best), camera, top_shown=bool(top_shown))
         if self.category.levels and detection.in_range:
@@ -179,7 +180,7 @@ class Track:
         own = np.ones(len(points), dtype=bool)
         for box in others:
             own &= ~box.contains(points, _AT_OTHER_M)
-        if self.stands_by_itself and called != self.label.best:
+        if self.stands_by_itself and (called != self.label.best or spans_its_kind(called, self.box.size_m)):
             own &= self.box.contains(points, _BEYOND_M)
         return points[own] if own.any() or len(self.surface_points) else points
 

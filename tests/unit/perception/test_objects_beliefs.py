@@ -530,3 +530,13 @@ def test_a_height_that_frame_after_frame_denies_is_given_up():
     belief = SurfaceBelief()
     look_at_counter(belief, COUNTER, 60)
     assert look_at_counter(belief, np.vstack((COUNTER, BOXES)), 200) == pytest.approx(1.18, abs=0.06)
+
+
+@pytest.mark.parametrize(("yields", "long_m"), [(True, 0.95), (False, 1.47)])
+def test_a_counter_gives_up_what_turns_out_to_be_another_piece(yields, long_m):
+    stove, counter = Box(np.array((1.25, 0.3, 0.45)), (0.6, 0.7, 0.95), 0.0), SurfaceBelief()
+    look_at_counter(counter, COUNTER, 5)
+    for _ in range(10):
+        counter.yield_to([stove] if yields else [])
+        look_at_counter(counter, COUNTER[COUNTER[:, 0] < 0.93], 1)
+    assert max(counter.box.size_m[:2]) == pytest.approx(long_m, abs=0.04)

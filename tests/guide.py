@@ -13,6 +13,7 @@ import contextlib
 import os
 import re
 import shlex
+import shutil
 import signal
 import socket
 import stat
@@ -114,6 +115,8 @@ class Reader:
         refused = 'if [ "$1" != install ]; then exit 1; fi; shift\n'
         install = f'{refused}exec {shlex.quote(sys.executable)} {installing} {shlex.quote(str(packages))} "$@"\n'
         _program(programs / "pip", install)
+        if shutil.which("curl") is None:
+            _program(programs / "curl", f'exec {shlex.quote(sys.executable)} {ROOT / "tests" / "curl.py"} "$@"\n')
         lay_out(self.folder)
         python_path = os.pathsep.join(map(str, (packages, ROOT / "src", ROOT, os.environ.get("PYTHONPATH", ""))))
         self.environment = os.environ | self.environment | {

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import shutil
 
 import pytest
 import typer
@@ -20,8 +19,6 @@ RUN = [guide for guide in GUIDES if any(block.is_run for block in blocks(guide))
 
 @pytest.mark.parametrize("guide", RUN, ids=lambda guide: guide.name)
 def test_what_a_guide_says_can_be_done(guide, tmp_path):
-    if shutil.which("curl") is None and "curl " in guide.read_text(encoding="utf-8"):
-        pytest.skip("it uses curl, which is not there")
     with Reader(folder=tmp_path) as reader:
         for block in blocks(guide):
             reader.follow(block)

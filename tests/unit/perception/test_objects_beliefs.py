@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from majordomo.perception.objects.beliefs import ColorBelief, LabelBelief, agreement, share_agreement
 from majordomo.perception.objects.center import CenterBelief, CenterSettings
 from majordomo.perception.objects.color import PALETTE, color_votes, named_color
-from majordomo.perception.objects.confirmation import is_double, is_fragment, known_as
+from majordomo.perception.objects.confirmation import is_double, is_fragment, known_as, turned_up
 from majordomo.perception.objects.identity import IdentitySettings, departed, likeness, same_thing_moved
 from majordomo.perception.objects.membership import Outline, Surroundings
 from majordomo.perception.objects.projection import View
@@ -280,6 +280,21 @@ def test_one_of_several_present_look_alikes_is_never_taken_for_the_moved_one():
     assert moved(thing(3, seen=(500.0, 501.0)), twins) is None
     missing = thing(4, state=ObjectState.MISSING)
     assert moved(thing(3, seen=(500.0, 501.0)), [*twins, missing]) is missing
+
+
+@pytest.mark.parametrize(
+    ("at", "same"),
+    [((0.4, 0.3, 0.12), True), ((0.3, 0.2, 0.6), True), ((3.0, 1.0, 0.12), True), ((3.0, 1.0, 0.6), False)],
+)
+def test_what_fell_from_the_hand_lies_near_there_or_on_the_floor_and_a_look_alike_on_another_table_is_another(at, same):
+    fallen, sighting = thing(1, state=ObjectState.MISSING), thing(2, seen=(20.0, 21.0))
+    sighting.put_at("room_1", np.array(at), 0.01)
+    known = {"looked_before": {"room_1": 0.0}, "settings": IdentitySettings()}
+    assert moved(sighting, [fallen]) is fallen, "somebody may have put it anywhere"
+    assert turned_up(fallen, [sighting], **known) is sighting
+    fallen.fell = True
+    assert (moved(sighting, [fallen]) is fallen) is same
+    assert (turned_up(fallen, [sighting], **known) is sighting) is same
 
 
 def test_likeness_is_symmetric():

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from majordomo.perception.objects.beliefs import share_agreement
-from majordomo.perception.objects.identity import IdentitySettings, likeness, same_thing_moved
+from majordomo.perception.objects.identity import IdentitySettings, likeness, may_have_fallen_to, same_thing_moved
 from majordomo.perception.objects.relations import support_probability
 from majordomo.perception.objects.track import Track
 from majordomo.perception.vocabulary import carries_things, category_of, is_of_one_size
@@ -67,6 +67,7 @@ def turned_up(
         and track.is_furniture is missing.is_furniture
         and track.first_seen_s > missing.last_seen_s
         and likeness(track, missing) >= settings.likeness_min
+        and may_have_fallen_to(track, missing, settings)
     ]
     if len(alike) != 1 or not _looked_there_before(alike[0], known, looked_before):
         return None

@@ -103,7 +103,7 @@ class Hand:
             track.put_at(room, position, _RELEASED_SIGMA_M, T_room_object.yaw_rad)
             track.awaited = True
             return frozenset({track.number})
-        track.state, track.log_odds = ObjectState.MISSING, -2.0
+        track.state, track.log_odds, track.fell = ObjectState.MISSING, -2.0, True
         position[2] = track.box.size_m[2] / 2.0
         track.put_at(room, position, _LOST_SIGMA_M)
         return frozenset()

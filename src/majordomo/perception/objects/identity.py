@@ -12,7 +12,8 @@ it was last seen. What is missing must be somewhere, and this may well be it; wh
 quite possible in a place seen for the first time (``look_alike_new``). Two that were seen at the same time are two.
 With several candidates the best wins; several *present* look-alikes make neither of them unique, and then only a
 missing one is taken for the moved one. Of several missing ones it is the nearest, if one was missed nearby: what falls
-from the hand, or is let go and topples, has not gone far. A published identifier gives way afterwards in one case only:
+from the hand, or is let go and topples, has not gone far. What fell from the hand lies near there or on the floor: a
+look-alike that turns up on another table is another one (``may_have_fallen_to``). A published identifier gives way afterwards in one case only:
 an older thing is missed, and this is its only look-alike, which turned up later where one had looked before
 (``turned_up``).
 """
@@ -32,7 +33,8 @@ from majordomo.scene_graph.nodes import ObjectState, Point3
 @dataclass(frozen=True, kw_only=True)
 class IdentitySettings:
     """``tau_s``: mean time after which people have moved a thing. ``here``: chance that they put it where a look-alike
-    is seen. ``odds``: needed to say it is the same one. ``near_m``: how far a thing goes that falls over or rolls.
+    is seen. ``odds``: needed to say it is the same one. ``near_m``: how far a thing goes that falls over or rolls;
+    ``floor_m``: how high at most lies what lies on the floor.
     """
 
     tau_s: float = 900.0
@@ -43,6 +45,7 @@ class IdentitySettings:
     likeness_min: float = 0.35
     furniture_reach_m: float = 1.5
     near_m: float = 1.0
+    floor_m: float = 0.12
 
 
 def likeness(a: Track, b: Track) -> float:
@@ -83,6 +86,12 @@ def same_thing_moved(
     return best if left * here * value / look_alike >= settings.odds else None
 
 
+def may_have_fallen_to(sighting: Track, track: Track, settings: IdentitySettings) -> bool:
+    """Whether a sighting is where ``track`` may be, if that slipped from the hand: near there, or rolled over a floor."""
+    bottom_m = float(sighting.position[2]) - sighting.box.size_m[2] / 2.0
+    return not track.fell or bottom_m < settings.floor_m or _apart_m(sighting, track) < settings.near_m
+
+
 def departed(track: Track, stamp_s: float, settings: IdentitySettings) -> float:
     """Probability that a thing has left the place it was last seen at."""
     age_s = max(stamp_s - track.last_seen_s, 0.0)
@@ -94,7 +103,7 @@ def _could_be(sighting: Track, track: Track, settings: IdentitySettings) -> bool
     if track.last_seen_s >= sighting.first_seen_s or track.is_furniture is not sighting.is_furniture:
         return False
     if not track.is_furniture:
-        return True
+        return may_have_fallen_to(sighting, track, settings)
     near = np.linalg.norm((track.position - sighting.position)[:2]) < settings.furniture_reach_m
     return track.room == sighting.room and bool(near)
 

@@ -57,7 +57,7 @@ class Track:
             where it is said to be. hits: frames that saw it; seen_whole: whether one of them showed all of it;
             ``misses``: frames in a row that should have and did not. homeless: whether it is in none of the rooms known
             so far; ``room`` then is the one it was seen from. awaited: whether the hand has put it down and it was not
-            seen since.
+            seen since; fell: whether it slipped from the hand and was not seen since.
     """
 
     def __init__(self, number: int, room: str, *, settings: TrackSettings, random: Generator) -> None:
@@ -72,6 +72,7 @@ class Track:
         self.log_odds = settings.log_odds
         self.homeless = False
         self.awaited = False
+        self.fell = False
         self.hits = 0
         self.seen_whole = False
         self.misses = 0
@@ -135,7 +136,7 @@ class Track:
         """
         side, trust = self._side_of(detection, view, T_room_view), _trust_in(detection)
         self.label.update(detection.distribution, detection.weight, (*side, trust), trust=trust)
-        self.awaited = False
+        self.awaited = self.fell = False
         self.color.update(detection.colors, detection.weight)
         self.hits += 1
         self.seen_whole |= detection.shape.complete
@@ -230,7 +231,8 @@ class Track:
     def become(self, other: Track) -> None:
         """Take over the place of ``other``, a newer sighting of this very thing; identity and history stay."""
         self.room, self.place, self.color, self.levels = other.room, other.place, other.color, other.levels
-        self.state, self.log_odds, self.awaited = ObjectState.PRESENT, other.log_odds, False
+        self.state, self.log_odds = ObjectState.PRESENT, other.log_odds
+        self.awaited = self.fell = False
         self.label.update(other.label.distribution, view=other.number)
         self.hits += other.hits
         self.seen_whole |= other.seen_whole

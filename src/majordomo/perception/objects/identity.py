@@ -13,9 +13,9 @@ quite possible in a place seen for the first time (``look_alike_new``). Two that
 With several candidates the best wins; several *present* look-alikes make neither of them unique, and then only a
 missing one is taken for the moved one. Of several missing ones it is the nearest, if one was missed nearby: what falls
 from the hand, or is let go and topples, has not gone far. What fell from the hand lies near there or on the floor: a
-look-alike that turns up on another table is another one (``may_have_fallen_to``). A published identifier gives way afterwards in one case only:
-an older thing is missed, and this is its only look-alike, which turned up later where one had looked before
-(``turned_up``).
+look-alike that turns up on another table is another one (``may_have_fallen_to``). A published identifier gives way
+afterwards in one case only: an older thing is missed, and this is its only look-alike, which turned up later where one
+had looked before (``turned_up``).
 """
 
 from __future__ import annotations
@@ -87,7 +87,7 @@ def same_thing_moved(
 
 
 def may_have_fallen_to(sighting: Track, track: Track, settings: IdentitySettings) -> bool:
-    """Whether a sighting is where ``track`` may be, if that slipped from the hand: near there, or rolled over a floor."""
+    """Whether a sighting is where ``track`` may be, had it slipped from the hand: near there, or on a floor."""
     bottom_m = float(sighting.position[2]) - sighting.box.size_m[2] / 2.0
     return not track.fell or bottom_m < settings.floor_m or _apart_m(sighting, track) < settings.near_m
 

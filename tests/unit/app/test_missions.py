@@ -194,6 +194,20 @@ def test_every_disturbance_has_its_time_and_deeds_that_the_simulator_understands
             parse_disturbance(event)
 
 
+@pytest.mark.parametrize("name", ["kidnapped", "pushed"])
+def test_the_robot_is_never_set_down_on_somebodys_feet(name):
+    def spots(now):
+        return [event["to"]["pose"][:2] for events in DISTURBANCES[name].deeds(now) for event in events]
+
+    now, same = moment(name), moment(name)
+    crowded = spots(now)[0]
+    same.scene.truth["people"].append({"id": "guest", "position_m": crowded})
+    left = spots(same)
+    assert left
+    assert len(left) < len(spots(moment(name)))
+    assert all(math.dist(spot, crowded) > 0.5 for spot in left)
+
+
 def test_a_mission_gets_only_what_can_happen_to_it():
     def fitting(*places):
         placed = Placed(things=("cup_1",), places=places)

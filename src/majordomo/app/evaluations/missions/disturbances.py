@@ -24,6 +24,8 @@ _NEAR_M = 1.4
 _CRATE_M = (0.5, 0.5, 0.5)
 _LEAST_DRIVE_M = 1.2
 """Doors closer to the robot are not shut in its face, nor is anything put there: it may be within them."""
+_FROM_PEOPLE_M = 0.55
+"""The robot is not set down on anybody's feet."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -209,7 +211,8 @@ def _push(moment: Moment) -> list[list[Event]]:
     around = [k * math.pi / 4 for k in range(8)]
     moment.rng.shuffle(around)
     spots = [(x_m + 0.3 * math.cos(a), y_m + 0.3 * math.sin(a)) for a in around]
-    return [[{"do": "move", "id": "robot", "to": {"pose": [*s, turned]}}] for s in spots if moment.ways.is_free(s)]
+    free = [spot for spot in spots if moment.ways.is_free(spot) and not _is_taken(moment, spot)]
+    return [[{"do": "move", "id": "robot", "to": {"pose": [*spot, turned]}}] for spot in free]
 
 
 def _carry_off(moment: Moment) -> list[list[Event]]:
@@ -218,7 +221,13 @@ def _carry_off(moment: Moment) -> list[list[Event]]:
     moment.rng.shuffle(rooms)
     spots = [spot for room in rooms if (spot := moment.ways.middle_of(room)) is not None]
     turn = float(moment.rng.uniform(-math.pi, math.pi))
-    return [[{"do": "move", "id": "robot", "to": {"pose": [*spot, turn]}}] for spot in spots]
+    return [[{"do": "move", "id": "robot", "to": {"pose": [*s, turn]}}] for s in spots if not _is_taken(moment, s)]
+
+
+def _is_taken(moment: Moment, spot: tuple[float, float]) -> bool:
+    """Whether somebody stands there."""
+    people = [entry["position_m"][:2] for entry in moment.scene.truth["people"]]
+    return any(math.dist(at, spot) < _FROM_PEOPLE_M for at in people)
 
 
 def _onto_furniture(moment: Moment) -> bool:

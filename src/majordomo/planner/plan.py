@@ -120,6 +120,7 @@ class QueryKind(StrEnum):
     DURATION = "duration"
     ASKED = "asked"
     DONE_WITH = "done_with"
+    EXPLORED = "explored"
     MOST = "most"
     COMPARE = "compare"
     MORE = "more"

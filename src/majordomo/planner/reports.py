@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from majordomo.planner.grammar.syntax import Ask, Reference
 from majordomo.planner.grounding import Ambiguous, Context, Grounding, NoReferent
 from majordomo.planner.naming import listed, name_of
+from majordomo.planner.phrasing import parts_unseen
 from majordomo.planner.plan import Exchange, QueryKind
 from majordomo.planner.seeking import SPEED_MPS
 from majordomo.planner.whereabouts import Whereabouts, age_phrase, capital
@@ -23,6 +24,7 @@ REPORTED = frozenset(
         QueryKind.DURATION,
         QueryKind.ASKED,
         QueryKind.DONE_WITH,
+        QueryKind.EXPLORED,
     }
 )
 ABILITIES = (
@@ -95,6 +97,8 @@ class Reports:
         match kind:
             case QueryKind.BATTERY:
                 return self._battery()
+            case QueryKind.EXPLORED:
+                return self._explored()
             case QueryKind.NATURE:
                 return f"I am Majordomo, a robot that fetches and carries. {ABILITIES}"
             case QueryKind.WELL_BEING:
@@ -105,6 +109,15 @@ class Reports:
                 return _sentence(context.earlier[0]) if context.earlier else "You have not asked me for anything yet."
             case _:
                 return _told(kind, context.earlier)
+
+    def _explored(self) -> str:
+        """How far exploration has come; the robot goes on with it by itself."""
+        number = len(self._snapshot.of_type(RoomNode))
+        rooms = f"{number} room{'' if number == 1 else 's'}"
+        if not parts_unseen(self._snapshot):
+            return f"I have seen all of the building that I can get to: {rooms}."
+        so_far = f"I know {rooms} so far" if number else "I know no room yet"
+        return f"{so_far}, and there is more to see. I go on exploring by myself whenever nothing else is to be done."
 
     def _distance(self, nodes: list[str]) -> Report:
         start = nodes[1] if len(nodes) > 1 else self._state.robot_at

@@ -10,6 +10,7 @@ from majordomo.planner.grammar.parser import CommandGrammar
 from majordomo.planner.interpreter import Interpreter
 from majordomo.planner.plan import Dialogue, Exchange
 from majordomo.planner.verifier import Verifier
+from majordomo.scene_graph.nodes import RoomStatus
 from majordomo.skills.registry import load_registry
 
 INTERPRETER = Interpreter(CommandGrammar(), Verifier(load_registry([])))
@@ -39,6 +40,8 @@ def ask(text, *earlier):
         ("are you free?", "waiting for your request"),
         ("what could I ask you?", "I can go to places"),
         ("do you know my name?", "You are user"),
+        ("explore", "I have seen all of the building that I can get to: 6 rooms."),
+        ("have you seen the whole house?", "I have seen all of the building"),
         ("how do you know that?", "seen myself"),
         ("how long would it take you to get to the kitchen?", "I would need about"),
         ("how long does it take to bring me the apple?", "to bring you the red apple"),
@@ -104,3 +107,11 @@ def test_after_a_deed_another_thing_is_asked_for():
 
 def test_how_far_the_robot_is():
     assert ask("how far are you from the kitchen").reply.startswith("The kitchen is about")
+
+
+def test_while_there_is_more_to_explore_that_is_said_and_a_room_is_explored_by_going_there():
+    unseen = home().room("room_7", "unknown", at=(20.0, 0.0), status=RoomStatus.TEMPORARY)
+    unseen = unseen.snapshot(robot_in="room_2", at=(4.2, 0.0))
+    reply = INTERPRETER.read("explore the rest of the flat", unseen, Dialogue()).interpretation.reply
+    assert reply.startswith("I know 7 rooms so far, and there is more to see.")
+    assert ask("explore the kitchen").goals == ask("go to the kitchen").goals

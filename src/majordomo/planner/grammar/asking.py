@@ -146,6 +146,9 @@ class QuestionReader(PhraseReader):
     def doing(self, _: Children) -> Ask:
         return Ask(kind=QueryKind.DOING)
 
+    def explored(self, _: Children) -> Ask:
+        return Ask(kind=QueryKind.EXPLORED)
+
     def battery(self, _: Children) -> Ask:
         return Ask(kind=QueryKind.BATTERY)
 

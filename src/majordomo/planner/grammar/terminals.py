@@ -24,7 +24,19 @@ ASKING = frozenset(
         "WHICH_ROOM",
     }
     | {"WHICH_ROOMS", "LIST_ROOMS", "WHETHER", "HELP", "HOW_FAR", "HOW_BIG", "WAY_TO", "WAY", "WHEN", "DONE", "FAILED"}
-    | {"DOING", "BATTERY", "WELL_BEING", "SOURCE", "ASKED", "HOW_LONG", "YOUR_NAME", "DESCRIBE", "LOST", "LOCATION"}
+    | {
+        "DOING",
+        "EXPLORED",
+        "BATTERY",
+        "WELL_BEING",
+        "SOURCE",
+        "ASKED",
+        "HOW_LONG",
+        "YOUR_NAME",
+        "DESCRIBE",
+        "LOST",
+        "LOCATION",
+    }
 )
 """Terminals that begin a question."""
 ASKED = frozenset(

@@ -34,7 +34,7 @@ VERBS: dict[str, tuple[str, ...]] = {
               "place yourself", "stay", "remain"),
     "VISIT": ("visit", "enter", "approach", "join", "head for", "make for", "call on", "look in on", "go see",
         "check in on", "check in with", "pop in on", "drop in on", "call in on", "stop in on", "pass through",
-              "pass by", "go past", "check out", "go and see", "inspect", "check on",
+              "explore", "pass by", "go past", "check out", "go and see", "inspect", "check on",
         "check up on"),
     "COME": ("come", "come over", "come on over", "come closer", "come along"),
     "FIND": ("find", "locate", "look for", "search for", "seek", "hunt for", "look out for", "go find",

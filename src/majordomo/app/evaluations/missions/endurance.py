@@ -162,14 +162,20 @@ async def _tidy_up(runtime: Runtime, house: House) -> None:
 
 
 async def _account(runtime: Runtime, house: House) -> dict[str, Any]:
-    """How right the graph is now."""
+    """How right the graph is now, and what exactly is wrong in it."""
     truth = await runtime.require_robot().truth()
     sizes = {record["id"]: size for record in truth["objects"] if (size := sizes_of(house).get(record["id"]))}
     known = {**truth, "objects": [record for record in truth["objects"] if record["id"] in sizes]}
     graph = graph_contents(runtime.scene_document("map"), house)
     unseen = Sightings(in_view_m={}, renewed_m={}, seconds=runtime.now_s, switches=0)
-    figures = summarize_graph([score_house(house, true_things(house, known, sizes), graph, unseen)])
-    return {"stamp_s": round(runtime.now_s, 1), **{name: figures[name] for name in ("things", "nodes", *_GRAPH)}}
+    scored = score_house(house, true_things(house, known, sizes), graph, unseen)
+    figures = summarize_graph([scored])
+    return {
+        "stamp_s": round(runtime.now_s, 1),
+        **{name: figures[name] for name in ("things", "nodes", *_GRAPH)},
+        "wrong_nodes": [node for node in scored["nodes"] if node["is"] != "named"],
+        "not_found": [thing["id"] for thing in scored["things"] if thing["found"] != "named"],
+    }
 
 
 def _memory(runtime: Runtime) -> dict[str, float]:

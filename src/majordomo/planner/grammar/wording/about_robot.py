@@ -7,7 +7,22 @@ from majordomo.planner.grammar.verbs import PAST
 _NOW = r"(?: (?:now|right now|at the moment|currently|today|yet|already|again|please|then|just now|so far|still))*"
 _END = rf"{_NOW}(?=[?.!]*$)"
 
+_ALL_OF_IT = (
+    r"(?: (?:(?:the|this|my|our) )?(?:(?:rest|whole|entire|remaining) ?(?:of )?(?:(?:the|this|my|our) )?)?"
+    r"(?:house|building|flat|apartment|home|place|rooms|area|surroundings|rest)| everything| everywhere| on| more"
+    r"| further)"
+)
+
 ABOUT_ROBOT: tuple[tuple[str, str], ...] = (
+    (
+        (
+            rf"^(?:(?:go |go and |start |begin |keep |keep on |continue |go on )?"
+            rf"(?:explor(?:e|ing)|mapping|map){_ALL_OF_IT}*"
+            rf"|(?:have|did) you (?:already )?(?:explored?|mapped?|seen?){_ALL_OF_IT}+"
+            rf"|are you (?:still |done |finished |through )?(?:with )?(?:exploring|mapping){_ALL_OF_IT}*){_END}"
+        ),
+        "have you explored everything",
+    ),
     (
         (
             rf"^(?:what (?:is|are) your (?:purpose|job|role|duty|duties|function|mission|use|business|point|work"

@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Sequence
 
+from majordomo.app.node_history import NodeHistory
 from majordomo.app.scheduler import Agent
 from majordomo.planner.arbiter import Arbiter
 from majordomo.planner.crew import Crew
@@ -40,6 +41,7 @@ class RehearsalStack:
 
     def __init__(self, queue, log, script: Script) -> None:
         self.memory = WorkingMemory(rehearsal_graph())
+        self.history = NodeHistory()
         self.stage, self.body = Stage(memory=self.memory), StillBody()
         self._started = time.monotonic()
         skills, look = scripted_skills(self.stage, script), scripted_look(self.stage, script)

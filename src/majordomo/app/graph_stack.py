@@ -8,6 +8,7 @@ from pathlib import Path
 
 from majordomo.app.camera import CameraWindow, Gaze
 from majordomo.app.event_log import EventLog
+from majordomo.app.node_history import NodeHistory
 from majordomo.app.scheduler import Agent
 from majordomo.app.stored_graph import load_graph
 from majordomo.planner.executor import OnEvent
@@ -34,6 +35,7 @@ class GraphStack:
         grammar: CommandGrammar | None = None,
     ) -> None:
         self.memory = memory
+        self.history = NodeHistory()
         self._started = time.monotonic() - memory.snapshot().stamp_s
         self._stopped = False
         skills = load_registry()

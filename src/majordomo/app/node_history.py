@@ -1,11 +1,12 @@
-"""What became of each node while the service ran: found, moved, renamed, missed, seen again."""
+"""What became of each node: found, moved, renamed, missed, seen again."""
 
 from __future__ import annotations
 
 import math
+import threading
 from collections import deque
 from collections.abc import Collection, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, Literal
 
 Record = Mapping[str, Any]
@@ -38,8 +39,13 @@ class Entry:
 
 
 @dataclass(kw_only=True)
-class _Past:
-    """Entries of one node, oldest first, and what was noted of it last."""
+class Past:
+    """Entries of one node, oldest first, and what was noted of it last.
+
+    Attributes:
+        entries: at most ``ENTRIES``; ``dropped``: how many older ones there were.
+        told: what the newest entries say of it. ``last_seen_s``: robot time. ``is_gone``: no longer in the graph.
+    """
 
     entries: deque[Entry] = field(default_factory=lambda: deque(maxlen=ENTRIES))
     dropped: int = 0
@@ -48,28 +54,65 @@ class _Past:
     is_gone: bool = False
 
     def add(self, entry: Entry) -> None:
+        """Note one more."""
         self.dropped += len(self.entries) == ENTRIES
         self.entries.append(entry)
 
+    def copied(self, shift_s: float = 0.0) -> Past:
+        """The same by a clock that is ``shift_s`` ahead."""
+        moved = (replace(entry, stamp_s=entry.stamp_s + shift_s) for entry in self.entries)
+        seen_s = None if self.last_seen_s is None else self.last_seen_s + shift_s
+        return replace(self, entries=deque(moved, maxlen=ENTRIES), told=dict(self.told), last_seen_s=seen_s)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Pasts:
+    """What outlives the service: of every node its past, and since when (robot time) it is written down."""
+
+    since_s: float | None = None
+    nodes: Mapping[str, Past] = field(default_factory=dict)
+
+    def copied(self, shift_s: float = 0.0) -> Pasts:
+        """The same by a clock that is ``shift_s`` ahead."""
+        since_s = None if self.since_s is None else self.since_s + shift_s
+        return Pasts(since_s=since_s, nodes={name: past.copied(shift_s) for name, past in self.nodes.items()})
+
 
 class NodeHistory:
-    """Histories of at most ``nodes`` nodes, of each the newest entries; it begins when the service does.
+    """Histories of at most ``nodes`` nodes, of each the newest entries.
 
-    When full, those of nodes that are gone are forgotten first.
+    When full, those of nodes that are gone are forgotten first. Notes of one thread may be copied by another.
     """
 
-    def __init__(self, *, nodes: int = NODES) -> None:
+    def __init__(self, before: Pasts | None = None, *, nodes: int = NODES) -> None:
+        """``before``: what is known from earlier, by the clock that goes on now; without, it begins here."""
+        before = (before or Pasts()).copied()
         self._limit = nodes
-        self._pasts: dict[str, _Past] = {}
-        self._since_s: float | None = None
+        self._pasts: dict[str, Past] = dict(before.nodes)
+        self._since_s = before.since_s
+        self._begun = False
+        self._noting = threading.Lock()
+
+    def pasts(self) -> Pasts:
+        """A copy of what is to outlive the service."""
+        with self._noting:
+            return Pasts(since_s=self._since_s, nodes=self._pasts).copied()
 
     def note(self, nodes: Records, edges: Records, stamp_s: float, *, changed: Collection[str] | None = None) -> None:
         """Take in the nodes and edges of the scene in the map frame as they are at ``stamp_s``.
 
-        ``changed``: the nodes that were written or removed, or of which an edge was; without, all are looked through.
+        ``changed``: the nodes that were written or removed, or of which an edge was; without, and the first time, all
+        are looked through.
         """
+        with self._noting:
+            first, self._begun = not self._begun, True
+            everything = first or changed is None
+            self._take_in(nodes, edges, stamp_s, None if everything else changed, first=first)
+
+    def _take_in(
+        self, nodes: Records, edges: Records, stamp_s: float, changed: Collection[str] | None, *, first: bool
+    ) -> None:
         changed = nodes.keys() | self._pasts.keys() if changed is None else changed
-        first = self._since_s is None
         self._since_s = stamp_s if self._since_s is None else self._since_s
         places = dict(_places(edges, changed))
         for node_id in changed:
@@ -83,14 +126,14 @@ class NodeHistory:
 
     def document(self, node_id: str, *, exists: bool = False) -> dict[str, Any] | None:
         """What is kept of a node; ``None`` if nothing is, unless it ``exists``."""
-        past = self._pasts.get(node_id, _Past() if exists else None)
+        past = self._pasts.get(node_id, Past() if exists else None)
         if past is None:
             return None
         entries = [entry.document() for entry in past.entries]
         return {"node": node_id, "since_s": self._since_s, "entries": entries, "dropped": past.dropped}
 
     def _note(self, node_id: str, node: Record, place: str | None, stamp_s: float, *, first: bool) -> None:
-        past = self._pasts.setdefault(node_id, _Past())
+        past = self._pasts.setdefault(node_id, Past())
         if not past.told or past.is_gone:
             past.add(Entry(stamp_s=stamp_s, kind="known" if first else "found", after=node["position_m"]))
             past.told, past.is_gone = {"moved": node["position_m"], **_facts(node, place)}, False

@@ -9,6 +9,8 @@ import threading
 from collections.abc import Callable
 from pathlib import Path
 
+from majordomo.app.history_file import HistoryFile
+from majordomo.app.node_history import NodeHistory
 from majordomo.perception.crossing import lose_robot
 from majordomo.scene_graph.identifiers import slug
 from majordomo.scene_graph.long_term.keeping import held_in, rooms_to_keep, take_up
@@ -49,6 +51,7 @@ class Remembering:
     Attributes:
         memory: with everything that the folder held at the start. If that is anything, the robot does not know where
             it is. What cannot be read, or contradicts the rest, is reported and left out.
+        history: what became of each node, also before this start. Whoever shows the graph notes in it.
         held: what was in the hand when the folder was written. It may still be, or not: the fingers will tell.
     """
 
@@ -68,6 +71,8 @@ class Remembering:
         self.period_s = min(period_s, LOOKING_PERIOD_S)
         self._between_s, self._due_s = period_s, 0.0
         self._files = RoomFiles(folder, begun_s=wall_time())
+        self._history_file = HistoryFile(folder)
+        self.history = NodeHistory() if anew else self._history_file.read(wall_s=wall_time())
         self._wall_time = wall_time
         self._writing = threading.Lock()
         self.held: str | None = None
@@ -116,6 +121,7 @@ class Remembering:
             if rooms:
                 now = {"stamp_s": stamp_s, "saved_s": self._wall_time()}
                 self._files.write(rooms, shared=building.of_type(RegionNode), held=held, **now)
+                self._history_file.write(self.history, stamp_s=stamp_s, wall_s=now["saved_s"])
             self._written_held, self._due_s = held, stamp_s + self._between_s
 
     def _taught(self) -> bool:

@@ -15,6 +15,7 @@ import numpy as np
 from majordomo.app.camera import CameraWindow, Gaze
 from majordomo.app.event_log import EventLog
 from majordomo.app.mapping_agents import mapping_agents
+from majordomo.app.node_history import NodeHistory
 from majordomo.app.ranges import ScanRanges
 from majordomo.app.recording.errors import RecordingError
 from majordomo.app.recording.profile import profile_of
@@ -79,6 +80,7 @@ class RobotStack:
         self.robot = robot
         empty_or_given = memory or WorkingMemory(long_term=LongTermStore())
         self.memory = remembering.memory if remembering is not None else empty_or_given
+        self.history = remembering.history if remembering is not None else NodeHistory()
         self._remembering = remembering
         self._settings = settings
         buffer = SensorBuffer(robot)

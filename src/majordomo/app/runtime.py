@@ -25,7 +25,6 @@ from majordomo.app.journal.scrubbing import Scrubber
 from majordomo.app.journal.tasks import TaskJournal
 from majordomo.app.metrics import Standing, metrics_text
 from majordomo.app.model_choice import make_language_model
-from majordomo.app.node_history import NodeHistory
 from majordomo.app.publisher import Publisher
 from majordomo.app.robot_stack import RobotStack
 from majordomo.app.scene_documents import robot_document, scene_document
@@ -92,7 +91,6 @@ class Runtime:
         self._scheduler: Scheduler | None = None
         self._loop_task: asyncio.Task[None] | None = None
         self._lost = ""
-        self._history = NodeHistory()
         self._scene_cache: dict[tuple[str, tuple[str, ...]], tuple[int, bytes]] = {}
         self._changed = asyncio.Condition()
         self._restarting = asyncio.Lock()
@@ -271,8 +269,8 @@ class Runtime:
         return cached[1]
 
     def history_document(self, node_id: str) -> dict[str, Any] | None:
-        """What became of a node since the service started, ``None`` if it is unknown."""
-        return self._history.document(node_id, exists=node_id in self.memory.building())
+        """What became of a node, ``None`` if it is unknown."""
+        return self._require_stack().history.document(node_id, exists=node_id in self.memory.building())
 
     def robot_document(self) -> dict[str, Any]:
         """Pose, room, load and path of the robot, in the map frame."""
@@ -340,7 +338,6 @@ class Runtime:
         settings = self.settings
         self._stack = stack = await self._build(settings, self.queue, self.model, self.log, anew=anew)
         self._scene_cache.clear()
-        self._history = NodeHistory()
         publisher = Publisher(
             stack.memory,
             self.stream,
@@ -348,7 +345,7 @@ class Runtime:
             scene=lambda: self.scene_document("map"),
             robot=self.robot_document,
             status=self.status_document,
-            history=self._history,
+            history=stack.history,
         )
         agents = [*stack.agents, publisher, *(self._witnesses(self) if self._witnesses else ()), _Herald(self._changed)]
         if isinstance(stack, RobotStack) and settings.clock is ClockMode.LOCKSTEP:

@@ -7,6 +7,7 @@ from typing import Protocol
 
 from majordomo.app.camera import CameraWindow, Gaze
 from majordomo.app.event_log import EventLog
+from majordomo.app.node_history import NodeHistory
 from majordomo.app.scheduler import Agent
 from majordomo.app.settings import Settings
 from majordomo.planner.models.protocol import LanguageModel
@@ -20,6 +21,11 @@ class Stack(Protocol):
     @property
     def memory(self) -> WorkingMemory:
         """The scene graph."""
+        ...
+
+    @property
+    def history(self) -> NodeHistory:
+        """What became of each node."""
         ...
 
     @property

@@ -166,7 +166,7 @@ class AsyncMajordomo:
         return await self._send(calls.teach(node_id, {"label": label, "name": name, "region": region}))
 
     async def history(self, node_id: str) -> History:
-        """What became of a node since the service started."""
+        """What became of a node; what was before the last start is of negative times."""
         return await self._send(calls.history(node_id))
 
     async def camera(self) -> View:

@@ -165,7 +165,7 @@ class Majordomo:
         return self._send(calls.teach(node_id, {"label": label, "name": name, "region": region}))
 
     def history(self, node_id: str) -> History:
-        """What became of a node since the service started."""
+        """What became of a node; what was before the last start is of negative times."""
         return self._send(calls.history(node_id))
 
     def camera(self) -> View:

@@ -140,7 +140,7 @@ async def test_what_is_selected_in_the_graph_is_selected_on_the_map_and_told_wit
     assert await page.js(f"{find('.cards [data-id=bottle_1]')}.ariaPressed") == "true"
     assert await page.js(f"{find('.cards [data-id=table_1]')}.classList.contains('near')"), "they share an edge"
     await page.until(f"{find('#map [data-id=bottle_1]')}.classList.contains('selected')")
-    await page.until(f"{find('#details')}.innerText.includes('known when the service started')")
+    await page.until(f"{find('#details')}.innerText.includes('known when this record began')")
     await page.js(f"{find('#details input')}.focus()")
     await page.type("Ada's bottle")
     await page.press("Enter")

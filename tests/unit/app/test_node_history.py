@@ -119,3 +119,31 @@ def test_walls_and_unknown_nodes_have_no_history_but_a_node_that_exists_has_an_e
     history.note({"wall_1_0": {"type": "wall"}}, {}, 1.0)
     assert history.document("wall_1_0") is None
     assert history.document("wall_1_0", exists=True)["entries"] == []
+
+
+def test_what_was_kept_goes_on_by_the_clock_of_the_next_service(history):
+    history.note({"cup_1": thing(name="mine", seen_s=9.0)}, on("table_1"), 10.0)
+    later = NodeHistory(history.pasts().copied(-100.0))
+    later.note({"cup_1": thing(name="mine", seen_s=-91.0)}, on("table_1"), 0.5)
+    assert later.document("cup_1") == {
+        "node": "cup_1",
+        "since_s": -100.0,
+        "entries": [{**entry, "stamp_s": entry["stamp_s"] - 100.0} for entry in history.document("cup_1")["entries"]],
+        "dropped": 0,
+    }
+
+
+def test_a_service_that_starts_again_notes_what_is_no_longer_as_it_was_kept(history):
+    history.note({"cup_1": thing(), "cup_2": thing()}, {}, 1.0)
+    later = NodeHistory(history.pasts())
+    later.note({"cup_1": thing((3.0, 2.0, 0.8)), "cup_3": thing()}, {}, 5.0, changed={"cup_1", "cup_3"})
+    assert told(later)[-1] == ("moved", [1.0, 2.0, 0.8], [3.0, 2.0, 0.8])
+    assert told(later, "cup_2")[-1] == ("gone", None, None)
+    assert told(later, "cup_3")[-1] == ("known", None, [1.0, 2.0, 0.8])
+
+
+def test_a_copy_is_not_touched_by_later_notes(history):
+    copy = history.pasts()
+    history.note({"cup_1": thing(name="mine")}, {}, 1.0)
+    assert len(copy.nodes["cup_1"].entries) == 1
+    assert copy.nodes["cup_1"].told["name"] is None

@@ -100,3 +100,36 @@ def test_a_map_does_not_outlive_the_walls(tmp_path):
     assert flat.parent == office.parent
     assert flat.name.startswith("flat-")
     assert flat != office
+
+
+async def test_what_became_of_things_outlives_the_service(tmp_path):
+    first = begun(tmp_path)
+    first.history.note({"room_1": room()}, {}, 5.0)
+    first.history.note({"room_1": room(name="den")}, {}, 6.0)
+    await first.step(10.0)
+    later = Remembering(tmp_path, wall_time=lambda: 1060.0).history.document("room_1")
+    assert [(entry["kind"], entry["stamp_s"]) for entry in later["entries"]] == [("known", -65.0), ("name", -64.0)]
+
+
+async def test_a_history_that_cannot_be_read_is_set_aside_and_begins_anew(tmp_path, caplog):
+    first = begun(tmp_path)
+    first.history.note({"room_1": room()}, {}, 5.0)
+    await first.step(10.0)
+    (tmp_path / "history.json").write_text('{"version": 7}')
+    later = Remembering(tmp_path, wall_time=lambda: 1060.0)
+    assert later.history.document("room_1") is None
+    assert (tmp_path / "history.json.broken").read_text() == '{"version": 7}'
+    assert "history.json" in caplog.text
+    assert [node.id for node in later.memory.building().of_type(RoomNode)] == ["room_1", "room_2", "room_3"]
+
+
+async def test_a_building_that_is_begun_anew_begins_a_history(tmp_path):
+    first = begun(tmp_path)
+    first.history.note({"room_1": room()}, {}, 5.0)
+    await first.step(10.0)
+    later = Remembering(tmp_path, wall_time=lambda: 1060.0, anew=True)
+    assert later.history.document("room_1") is None
+
+
+def room(name=None):
+    return {"type": "room", "label": "kitchen", "position_m": [1.0, 2.0, 0.0], "attributes": {"name": name}}

@@ -115,8 +115,8 @@ def scene_routes(runtime: Runtime) -> APIRouter:
         responses=shows(HistoryDocument, examples.HISTORY) | told("node_not_found"),
     )
     async def history(node_id: NodeId) -> Any:
-        """When rooms, doors, objects, persons and regions were found, moved, renamed, missed or seen again, since the
-        service started. What is gone is remembered for a while.
+        """When rooms, doors, objects, persons and regions were found, moved, renamed, missed or seen again, also before
+        the last start of the service. What is gone is remembered for a while.
         """
         found = runtime.history_document(node_id)
         if found is None:

@@ -180,8 +180,9 @@ class NodesDocument(Shown):
 class HistoryEntry(Shown):
     """One thing that became of a node.
 
-    ``kind``: ``known`` when the service started, ``found``, ``gone``; ``moved``, with positions in the map; another
-    ``room``, ``place`` (``on table_1``), ``state``, ``label`` or ``name``; ``seen_again`` after more than a minute.
+    ``stamp_s``: robot time, negative before the last start. ``kind``: ``known`` when the record began, ``found``,
+    ``gone``; ``moved``, with positions in the map; another ``room``, ``place`` (``on table_1``), ``state``, ``label``
+    or ``name``; ``seen_again`` after more than a minute.
     """
 
     stamp_s: float

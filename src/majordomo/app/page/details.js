@@ -8,7 +8,7 @@ const MOST_EDGES = 60;
 const AGAIN_MS = 1000;
 const EDGE_ORDER = ["relation", "in", "connects", "has_intention", "match", "has", "rt"];
 const HISTORY = {
-  known: () => "known when the service started",
+  known: () => "known when this record began",
   found: () => "found",
   gone: () => "no longer in the graph",
   moved: ({ before, after }) => `moved by ${Math.hypot(...after.map((value, i) => value - before[i])).toFixed(2)} m`,
@@ -79,7 +79,9 @@ export class NodePanel {
   #showHistory() {
     const { entries, dropped } = this.#loaded, { nodes } = this.#shown, name = (id) => (nodes.has(id) ? title(nodes.get(id)) : spaced(id));
     this.#history.hidden = !entries.length;
-    const lines = entries.toReversed().map((entry) => [clock(Math.max(0, entry.stamp_s)), HISTORY[entry.kind]?.(entry, name) ?? spaced(entry.kind)]);
+    const now_s = this.#shown.robot?.stamp_s ?? 0;
+    const when = (stamp_s) => (stamp_s < 0 ? ago(now_s - stamp_s) : clock(stamp_s));
+    const lines = entries.toReversed().map((entry) => [when(entry.stamp_s), HISTORY[entry.kind]?.(entry, name) ?? spaced(entry.kind)]);
     replaceIfNew(this.#history, JSON.stringify(lines), () => [el("summary", {}, "History"), el("ol", "happenings", lines.map(([time, text]) => el("li", {}, el("time", {}, time), text))), dropped ? el("p", "soft", `and ${dropped} older`) : null].filter(Boolean));
   }
 

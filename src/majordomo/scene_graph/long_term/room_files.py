@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import json
-import logging
-import os
 from collections.abc import Iterable, Mapping
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
@@ -12,11 +10,10 @@ from typing import Any
 
 from majordomo.scene_graph.errors import SceneFormatError
 from majordomo.scene_graph.identifiers import natural_key
+from majordomo.scene_graph.long_term.json_files import replace_file, set_aside
 from majordomo.scene_graph.long_term.records import edge_record, node_record, read_edge, read_node
 from majordomo.scene_graph.long_term.room_parts import RoomParts
 from majordomo.scene_graph.nodes import Node
-
-logger = logging.getLogger(__name__)
 
 VERSION = 2
 """Of the files. Those of version 1 are read too: they do not say what was held, nor by which robot's clock they tell
@@ -25,7 +22,6 @@ time. One of a later version is set aside, since nobody here knows what it would
 _KNOWN = (1, VERSION)
 _BUILDING = "building.json"
 _ROOMS = "rooms"
-_BROKEN = ".broken"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -117,7 +113,7 @@ class RoomFiles:
                 rooms.append(read_room(document))
                 moments[rooms[-1].room_id] = _written(document)
             except (ValueError, OSError) as error:
-                broken.append(self._set_aside(path, error))
+                broken.append((set_aside(path, error), str(error)))
         whole, head, problem = self._read_head()
         if problem is not None:
             broken.append(problem)
@@ -138,29 +134,13 @@ class RoomFiles:
                 raise SceneFormatError("held", "no identifier")
             return _written(head), {"shared": shared, "held": held}, None
         except (KeyError, TypeError, ValueError, OSError) as error:
-            return Written(), {}, self._set_aside(path, error)
+            return Written(), {}, (set_aside(path, error), str(error))
 
     def _path(self, room_id: str) -> Path:
         return self._folder / _ROOMS / f"{room_id}.json"
 
     def _put(self, path: Path, document: Mapping[str, Any]) -> None:
-        """Replace a file as a whole: whoever reads it, at any time, finds the old one or the new one."""
-        draft = path.with_suffix(".tmp")
-        with draft.open("w", encoding="utf-8") as file:
-            json.dump(document, file, allow_nan=False, separators=(",", ":"))
-            file.flush()
-            os.fsync(file.fileno())
-        draft.replace(path)
-
-    def _set_aside(self, path: Path, error: Exception) -> tuple[Path, str]:
-        aside = path.with_name(path.name + _BROKEN)
-        number = 1
-        while aside.exists():
-            number += 1
-            aside = path.with_name(f"{path.name}.{number}{_BROKEN}")
-        path.replace(aside)
-        logger.warning("%s cannot be read and was set aside as %s: %s", path, aside.name, error)
-        return aside, str(error)
+        replace_file(path, json.dumps(document, allow_nan=False, separators=(",", ":")).encode())
 
 
 def room_document(parts: RoomParts) -> dict[str, Any]:

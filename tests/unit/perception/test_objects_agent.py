@@ -285,6 +285,17 @@ def test_a_released_thing_stands_on_its_support_before_and_after_it_is_seen_agai
     assert [n.id for n in graph.of_type(ObjectNode)] == ["bottle_1", "cup_1", "table_1"]
 
 
+def test_what_shows_beside_the_hand_is_no_new_thing_until_the_hand_is_away():
+    story = Story([TABLE, BLUE_BOTTLE, RED_CUP])
+    above = np.array(BLUE_BOTTLE.center) + np.array((0.0, 0.0, 0.2))
+    story.room.joints = joints(story.room.T_room_base.inverse().apply(above))
+    graph = story.run(8)
+    assert [n.id for n in graph.of_type(ObjectNode)] == ["cup_1", "table_1"]
+    story.room.joints = joints((0.1, 0.0, 0.75))
+    graph = story.run(8)
+    assert [n.id for n in graph.of_type(ObjectNode)] == ["bottle_1", "cup_1", "table_1"]
+
+
 def test_a_thing_that_slips_from_the_fingers_is_missing_near_the_robot_until_seen():
     story = grasped()
     story.run(4)

@@ -338,6 +338,23 @@ def two_rooms():
     return memory.commit(door_between("room_1", "room_2"), agent="door_concept", stamp_s=0.0)
 
 
+def looked_at(belief, name, other, sides, frames, weight):
+    for side in sides:
+        for _ in range(frames):
+            belief.update(((name, 0.85), (other, 0.1)), weight, side)
+    return belief
+
+
+def test_glimpses_in_passing_do_not_push_out_what_was_looked_at():
+    belief = looked_at(LabelBelief(), "book", "banana", range(4), 12, 1.0)
+    assert looked_at(belief, "banana", "book", range(10, 18), 1, 0.4).best == "book"
+
+
+def test_as_many_good_looks_that_agree_turn_a_belief():
+    belief = looked_at(LabelBelief(), "book", "banana", range(4), 12, 1.0)
+    assert looked_at(belief, "banana", "book", range(10, 13), 12, 1.0).best == "banana"
+
+
 def test_a_point_behind_the_door_belongs_to_the_room_behind_the_door_and_one_outside_to_none():
     surroundings = Surroundings(two_rooms(), "room_1")
     assert surroundings.room_of(np.array((1.0, 0.0, 0.5))) == "room_1"

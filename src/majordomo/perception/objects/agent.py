@@ -194,6 +194,7 @@ class ObjectMemory:
                 surroundings=surroundings,
                 turning_radps=turning,
                 looked_before=self._inspection.looked(snapshot, stamp_s),
+                hand=view.T_room_base.apply(body.grip) if body is not None else None,
             )
         )
         self._people.update(persons, view, surroundings)

@@ -52,9 +52,10 @@ class LabelBelief:
 
     Frames are not independent: from one side the same mistake repeats. What a thing looked like from one ``view`` is
     therefore the mean over its newest frames, and counts as no more than ``evidence_of_view`` independent ones, however
-    long the robot looks; a view that shows a part only, as less. The newest ``views`` count, those of parts only where
-    no whole ones take their place: a belief can be turned, but not by one view alone when others agree. The network is
-    assumed to be wrong altogether with probability ``noise``.
+    long the robot looks; a view that shows a part only, as less. At most ``views`` count: one more takes the place of
+    the one that says least, such as a glimpse in passing, and among equals of the oldest. So a belief can be turned,
+    but not by one view alone when others agree. The network is assumed to be wrong altogether with probability
+    ``noise``.
 
     What the network does not know it gives no name to speak of: no class is much likelier than the others. That a thing
     has none of the known names is therefore as likely as ``nameless`` in every frame, and a class that gets more than
@@ -96,7 +97,8 @@ class LabelBelief:
         look.add(self._likelihood(distribution), weight, self._noise)
         self._looks[view] = look
         while len(self._looks) > self._views:
-            del self._looks[min(self._looks, key=lambda key: self._looks[key].trust)]
+            before = [key for key in self._looks if key != view]
+            del self._looks[min(before, key=lambda key: round(self._looks[key].evidence(self._evidence_of_view), 1))]
         self.distribution = self._ranked(self._fused())
 
     def measure(self, size_m: Point3) -> None:

@@ -5,6 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
+import numpy as np
+from numpy.typing import NDArray
+
 from majordomo.perception.objects.detection import Detection
 from majordomo.perception.objects.membership import Surroundings
 from majordomo.perception.objects.projection import View
@@ -15,7 +18,7 @@ class Sight:
     """One frame as the tracker sees it.
 
     ``turning_radps``: how fast the robot turns. ``looked_before``: when each room and support
-    was first inspected.
+    was first inspected. ``hand``: (3,) where the fingers are, in the room frame of the view, if that is known.
     """
 
     view: View
@@ -23,3 +26,4 @@ class Sight:
     surroundings: Surroundings
     turning_radps: float = 0.0
     looked_before: Mapping[str, float] = field(default_factory=dict)
+    hand: NDArray[np.float64] | None = None

@@ -56,7 +56,8 @@ class TrackerSettings:
     ``patience_hits``: how many sightings to wait for a look-alike that is just being missed, or until it is clear
     whether what lies in a row of furniture is a piece of its own. ``homeless_life_s``: how long a thing seen through a
     door waits for its room to become known; ``wall_share``: of its points in that room's walls, from which on furniture
-    was one of them.
+    was one of them. ``hand_m``: within what distance of the hand nothing small is found: what the fingers hold or have
+    just put down shows between them in pieces that look like many things.
     """
 
     association: AssociationSettings = field(default_factory=AssociationSettings)
@@ -70,6 +71,7 @@ class TrackerSettings:
     homeless_life_s: float = 300.0
     wall_share: float = 0.85
     furniture_min_px: int = 150
+    hand_m: float = 0.25
 
 
 class Tracker:
@@ -239,13 +241,18 @@ class Tracker:
         """Start a new, tentative thing."""
         furniture = category_of(detection.label, detection.shape.size_m).furniture
         enough = detection.cloud.pixels >= self._settings.furniture_min_px if furniture else detection.measurable
-        if not detection.in_range or not enough:
+        if not detection.in_range or not enough or (not furniture and self._is_at_hand(detection, sight)):
             return
         seen_at = np.median(detection.cloud.points, axis=0) if furniture else detection.shape.center
         room = sight.surroundings.room_of(seen_at)  # how deep furniture is, and so its center, is a guess at first
         track = self.new_track(room or sight.view.room)
         track.homeless = room is None
         self._observe(track, detection, sight)
+
+    def _is_at_hand(self, detection: Detection, sight: Sight) -> bool:
+        if sight.hand is None:
+            return False
+        return float(np.linalg.norm(detection.shape.center - sight.hand)) < self._settings.hand_m
 
     def _settle(self, scope: list[Track], sight: Sight) -> None:
         """Give things seen through a door to their room as soon as it is known, and until then to the robot's; what

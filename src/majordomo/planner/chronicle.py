@@ -17,10 +17,13 @@ from majordomo.skills.failures import Failure
 
 @dataclass(frozen=True, kw_only=True)
 class Ending:
-    """How a task ended, and the sentence that says so; or that it is to be planned anew, in silence."""
+    """How a task ended, and the sentence that says so; or that it is to be planned anew, in silence, while things that
+    are ``displaced`` no longer are where the request may say.
+    """
 
     status: TaskStatus
     explanation: str
+    displaced: frozenset[str] = frozenset()
 
 
 class Chronicle:

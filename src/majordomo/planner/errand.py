@@ -257,7 +257,7 @@ class Errand:
         if isinstance(plan, Impossible):
             return self._despair(plan, snapshot)
         if isinstance(plan, Reread):
-            return Ending(status=TaskStatus.PLANNING, explanation="")
+            return Ending(status=TaskStatus.PLANNING, explanation="", displaced=plan.displaced)
         self._replans += 1
         self._chronicle.replan(str(plan), why, self._stamp_s)
         self._progress.adopt(plan, snapshot, replans=self._replans)

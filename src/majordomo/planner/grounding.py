@@ -63,7 +63,8 @@ class Context:
     to earlier questions, by phrase. ``focus``: the room the request has just gone to. ``noun``: for *the red one*.
     ``origins``: where things were before they were moved. ``earlier``: what was asked before, the newest first.
     ``taken``: things of the steps before, which *one more* is not.
-    ``last``: what the turn before spoke of.
+    ``last``: what the turn before spoke of. ``displaced``: things of which words about their place were true when they
+    were said.
     ``unsettled``: why *it* names nothing, when what was spoken of last is not known.
     """
 
@@ -79,6 +80,7 @@ class Context:
     unsettled: NoReferent | Ambiguous | None = None
     taken: frozenset[str] = frozenset()
     last: tuple[str, ...] = ()
+    displaced: frozenset[str] = frozenset()
 
 
 class Grounding:

@@ -77,6 +77,7 @@ class Intake:
         self._on_event, self._interpret_s, self._paper = on_event, interpret_s, paper
         self._recognizable = recognizable
         self._scouts: dict[str, Scout] = {}
+        self._displaced: dict[str, frozenset[str]] = {}
         self._mentioned: tuple[str, ...] = ()
         self._last: tuple[str, ...] = ()
         self._origins: dict[str, str] = {}
@@ -96,6 +97,7 @@ class Intake:
             earlier=self._earlier(task),
             origins=self._origins,
             last=self._last,
+            displaced=self._displaced.get(task.id, frozenset()),
             task=task.id,
         )
         try:
@@ -112,6 +114,11 @@ class Intake:
             self._queue.move(task.id, TaskStatus.QUEUED, stamp_s=stamp_s, kind=Kind.PLAN.value)
             return None
         return self._follow(task, meaning, stamp_s)
+
+    def displace(self, task_id: str, things: frozenset[str]) -> None:
+        """Take note that things have moved since a request was made: what it says of their place is over."""
+        if things:
+            self._displaced = {task_id: self._displaced.get(task_id, frozenset()) | things}
 
     def end(self, task: Task, status: TaskStatus, explanation: str, stamp_s: float, **changes: Any) -> Task:
         """End a task with a sentence, and tell."""

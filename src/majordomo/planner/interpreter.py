@@ -302,6 +302,7 @@ def _context(dialogue: Dialogue, choices: Choices, snapshot: Snapshot) -> Contex
         origins=dialogue.origins,
         earlier=dialogue.earlier,
         last=dialogue.last,
+        displaced=dialogue.displaced,
     )
 
 

@@ -112,6 +112,7 @@ class Mission:
         elif edge.status is IntentionStatus.GRANTED and not self._crew.executor.stopped:
             ending = self._errand[1].advance(stamp_s, dt_s)
             if ending is not None and ending.status is TaskStatus.PLANNING:
+                self._intake.displace(task.id, ending.displaced)
                 self._queue.move(task.id, TaskStatus.PLANNING, stamp_s=stamp_s)
                 self._clear_away(stamp_s)
             elif ending is not None:

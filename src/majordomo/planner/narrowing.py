@@ -37,6 +37,8 @@ BUILDING = frozenset({"house", "home", "building", "flat", "apartment", "place",
 """Words for all that is known, which narrow nothing."""
 KINDS_OF_BUILDING = frozenset({"school", "hospital", "office", "studio", "villa", "clinic", "ward"})
 """Words for it as well, where no room is called so."""
+_LASTING = frozenset({"color", "state", "is", "kind", "sort", "spoken", "held", "of", "of person", "with"})
+"""Relations that say what a thing is or whose, not where: those hold wherever it has been put."""
 _COMPARATIVE = {
     "bigger": "largest",
     "larger": "largest",
@@ -90,7 +92,10 @@ class Narrowing:
         if restriction.negated:
             fitting = self._fitting(candidates, replace(restriction, negated=False), context)
             return [i for i in candidates if i not in fitting]
-        return self._fitting(candidates, restriction, context)
+        fitting = self._fitting(candidates, restriction, context)
+        if context.displaced.isdisjoint(candidates) or restriction.relation in _LASTING:
+            return fitting
+        return [i for i in candidates if i in fitting or i in context.displaced]
 
     def _fitting(self, candidates: list[str], restriction: Restriction, context: Context) -> list[str]:
         relation, reference = restriction.relation, restriction.reference

@@ -66,7 +66,12 @@ class Impossible:
 
 @dataclass(frozen=True, kw_only=True)
 class Reread:
-    """No plan yet: the request is to be understood again, since what it speaks of may have been seen by now."""
+    """No plan yet: the request is to be understood again, since what it speaks of may have been seen by now.
+
+    ``displaced``: what was lost, and what turned up since and looks like it.
+    """
+
+    displaced: frozenset[str] = frozenset()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -183,8 +188,8 @@ class Dialogue:
     ``answers``: the robot's questions about this very request and what was answered, oldest first. ``mentioned``:
     identifiers spoken of in earlier requests, the newest first. ``speaker``: the person who asks, if known.
     ``earlier``: what was asked before, the newest first. ``origins``: where things were before they were last moved.
-    ``last``: identifiers that the turn before spoke of, which *them* may mean. ``task``: whose request it is, for
-    journals.
+    ``last``: identifiers that the turn before spoke of, which *them* may mean. ``displaced``: things that are no longer
+    where they were when the request was made. ``task``: whose request it is, for journals.
     """
 
     answers: tuple[tuple[str, str], ...] = ()
@@ -193,4 +198,5 @@ class Dialogue:
     earlier: tuple[Exchange, ...] = ()
     origins: Mapping[str, str] = field(default_factory=dict)
     last: tuple[str, ...] = ()
+    displaced: frozenset[str] = frozenset()
     task: str = ""

@@ -61,10 +61,14 @@ class Hunt:
 
     def turned_up(self, snapshot: Snapshot) -> bool:
         """Whether something that looks like it was first seen after it was last seen itself."""
+        return bool(self.look_alikes(snapshot))
+
+    def look_alikes(self, snapshot: Snapshot) -> frozenset[str]:
+        """What looks like it and was first seen after it was last seen itself."""
         lost = snapshot.get(self.object_id)
         if not (self.by_looks and isinstance(lost, ObjectNode) and lost.state is ObjectState.MISSING):
-            return False
-        return any(_is_like(node, lost) for node in snapshot.of_type(ObjectNode))
+            return frozenset()
+        return frozenset(node.id for node in snapshot.of_type(ObjectNode) if _is_like(node, lost))
 
 
 class PlanMaker(Protocol):
@@ -111,7 +115,8 @@ class Replanner:
         if missing is None:
             return self._direct(goals, snapshot)
         hunt = self._begun(missing, stamp_s)
-        return Reread() if hunt.turned_up(snapshot) else self._search(hunt, snapshot)
+        turned_up = hunt.look_alikes(snapshot)
+        return Reread(displaced=turned_up | {missing}) if turned_up else self._search(hunt, snapshot)
 
     def _direct(self, goals: Sequence[Goal], snapshot: Snapshot) -> Plan | Impossible:
         self._hunts.clear()

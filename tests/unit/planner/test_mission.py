@@ -13,6 +13,7 @@ from majordomo.planner.arbiter import Arbiter
 from majordomo.planner.crew import Crew, MissionSettings
 from majordomo.planner.executor import Executor
 from majordomo.planner.goals import goal
+from majordomo.planner.grammar.parser import CommandGrammar
 from majordomo.planner.mission import Mission
 from majordomo.planner.paper import PaperMission
 from majordomo.planner.plan import Interpretation, Kind
@@ -20,6 +21,7 @@ from majordomo.planner.queue import TaskQueue
 from majordomo.planner.rehearsal import GRIPPER, Stage, StillBody, rehearsal_graph
 from majordomo.planner.scripted import PHANTOM, Script, ScriptedInterpreter, scripted_look, scripted_skills
 from majordomo.planner.skill_planner import SkillPlanner
+from majordomo.planner.task_planner import TaskPlanner
 from majordomo.planner.tasks import Approval, StepStatus, TaskStatus
 from majordomo.planner.verifier import Verifier
 from majordomo.scene_graph.edges import (
@@ -737,6 +739,13 @@ class ByName:
         return Interpretation(kind=Kind.PLAN, goals=(goal("on", there[-1], "desk_1"),))
 
 
+def talked_to():
+    """A show whose robot reads what is asked."""
+    show = Show()
+    show.mission = Mission(show.crew, TaskPlanner(CommandGrammar(), show.crew.verifier, None))
+    return show
+
+
 def turn_up(show, *, color="blue", first_seen_s=None):
     """Another bottle is seen on the shelf."""
     snapshot = show.memory.snapshot()
@@ -762,6 +771,30 @@ def test_what_looks_like_a_lost_thing_and_turned_up_later_is_taken_for_it(color,
     show.run_until(lambda: show.task.status.ended, limit=20_000)
     assert show.task.status is status
     assert (show.stage.places["bottle_2"] == "desk_1") is (status is TaskStatus.SUCCEEDED)
+
+
+@pytest.mark.parametrize("where", ["from the table", "on the table"])
+def test_a_request_that_says_where_a_thing_was_means_it_where_it_has_been_put_since(where):
+    show = talked_to()
+    show.ask(f"bring the bottle {where} to the desk")
+    show.until_step("GOTO")
+    show.stage.places["bottle_1"] = None
+    show.run_until(lambda: show.task.plan.source == "search" and show.stage.robot_at == "desk_1")
+    turn_up(show)
+    show.run_until(lambda: show.task.status.ended, limit=20_000)
+    assert show.task.status is TaskStatus.SUCCEEDED, show.task.explanation
+    assert show.stage.places["bottle_2"] == "desk_1"
+
+
+def test_what_was_not_lost_is_held_to_the_words_about_its_place():
+    show = talked_to()
+    turn_up(show, color="red", first_seen_s=-5.0)
+    show.ask("bring the bottle from the table to the desk")
+    show.until_step("GOTO")
+    show.stage.places["bottle_1"] = None
+    show.run_until(lambda: show.task.status.ended, limit=20_000)
+    assert show.task.status is TaskStatus.FAILED
+    assert show.stage.places["bottle_2"] == "shelf_1"
 
 
 def test_who_means_the_very_thing_that_is_lost_has_it_looked_for_whatever_looks_like_it():

@@ -138,6 +138,18 @@ async def test_a_person_in_the_gap_is_named_and_a_box_is_not(flat):
         assert rehearsal.least_clearance_m > 0.25
 
 
+async def test_a_person_who_fills_the_gap_is_no_closed_door_and_one_before_a_panel_does_not_hide_it(flat):
+    for person_x_m, thing, code in (
+        (3.1, Box2(Pose2(3.1, 0.0), 0.3, 0.75), FailureCode.PERSON_IN_WAY),
+        (2.5, Box2(Pose2(3.1, 0.0), 0.05, 0.9), FailureCode.DOOR_CLOSED),
+    ):
+        built = flat()
+        built.person(person_x_m, 0.0)
+        rehearsal = Rehearsal(memory=built.memory, world=wall(0.9, thing), body=FakeBody(pose=Pose2(2.0, 0.0)))
+        failure = await rehearsal.run([CrossDoor(await rehearsal.prepare(), "door_1_1_0")])
+        assert failure.code is code
+
+
 def with_second_door(built):
     """Another door between the rooms, 1.7 m beside the first."""
     with built.memory.edit("test", 0.0) as tx:

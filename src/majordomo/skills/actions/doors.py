@@ -34,6 +34,8 @@ ASIDE_M = (0.0, 0.08, -0.08)
 THRESHOLDS_M = (0.3, 0.15)
 """From where it may be, at last, when something lies where a robot lines up: within the gap, reached from beside."""
 PANEL_BIN_M = 0.05
+PERSON_M = 0.4
+"""So far around the middle of somebody reaches what the LiDAR sees of them, from near and while they walk."""
 PANEL_HEIGHTS = (0.5, 0.95)
 """Between these shares of a door's height a panel shows, but no crate, and no lintel."""
 LANE_SPARE_M = 0.03
@@ -243,15 +245,22 @@ class CrossDoor(Action):
         return footprint_radius_m(self.context) - (SQUEEZE_M if self._squeezes else 0.0)
 
     def _panel_share(self) -> float:
-        """Share of the gap's width that the newest scan's high points fill within the wall."""
+        """Share of the gap's width that the newest scan's high points fill within the wall, but for those on people."""
         door = self.context.snapshot.door(self.door_id)
         points, (low, high) = self.context.obstacles_base, PANEL_HEIGHTS
         tall = (points[:, 2] > low * door.height_m) & (points[:, 2] < high * door.height_m)
-        on_axis = self._base_on_axis().apply(points[tall, :2])
+        on_axis = self._base_on_axis().apply(self._beside_people(points[tall, :2]))
         within = on_axis[(on_axis[:, 0] > -0.10) & (on_axis[:, 0] < WALL_M + 0.10)]
         half_m = door.width_m / 2 - PANEL_BIN_M
         edges = np.arange(-half_m, half_m + 1e-9, PANEL_BIN_M)
         return float((np.histogram(within[:, 1], edges)[0] > 0).mean())
+
+    def _beside_people(self, points: Points) -> Points:
+        """Those of ``points`` (N, 2) in the base's frame that are not on somebody whom the robot knows."""
+        people = [in_base(self.context, person.id) for person in self.context.snapshot.of_type(PersonNode)]
+        for T_base_person in people:
+            points = points[np.hypot(points[:, 0] - T_base_person.x_m, points[:, 1] - T_base_person.y_m) > PERSON_M]
+        return points
 
     def _person_in_gap(self) -> str | None:
         snapshot = self.context.snapshot

@@ -188,15 +188,22 @@ class ApproachForReach(DriveTo):
         node = self.context.snapshot.get(resolved(self._where).node_id)
         if isinstance(node, ObjectNode) and node.graspable:
             return underside_m(node.size_m, z_m)
-        return z_m + HOVER_M - HELD_MARGIN_M
+        return underside_of_held_m(z_m)
 
     def _spared(self) -> set[str]:
-        """Nodes that are no obstacle to the arm: the target, what it stands on, and what is held."""
-        snapshot = self.context.snapshot
-        spared = {self.target, resolved(self._where).node_id}
-        support = snapshot.support_of(self.target) if isinstance(snapshot.get(self.target), ObjectNode) else None
-        robot = snapshot.robot
-        return spared | {node for node in (support, robot.holding if robot is not None else None) if node is not None}
+        return spared_nodes(self.context.snapshot, self.target, resolved(self._where).node_id)
+
+
+def underside_of_held_m(z_m: float) -> float:
+    """Height over which the hand passes with what it holds on its way to a spot at ``z_m``."""
+    return z_m + HOVER_M - HELD_MARGIN_M
+
+
+def spared_nodes(snapshot: Snapshot, *targets: str) -> set[str]:
+    """Nodes that are no obstacle to the arm: the targets, what the first stands on, and what is held."""
+    support = snapshot.support_of(targets[0]) if isinstance(snapshot.get(targets[0]), ObjectNode) else None
+    held = snapshot.robot.holding if snapshot.robot is not None else None
+    return {*targets, *(node for node in (support, held) if node is not None)}
 
 
 def reaches_m(context: RobotContext, pitch_rad: float) -> tuple[float, ...]:

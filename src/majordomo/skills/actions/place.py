@@ -4,13 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from math import dist, hypot
+from math import dist, hypot, isfinite
 
 import numpy as np
 from py_trees.common import Status
 
 from majordomo.skills.action import Action, RobotContext
-from majordomo.skills.actions.approach import reaches_m, ring
+from majordomo.skills.actions.approach import (
+    BARRED_COST_M,
+    passing_over,
+    reaches_m,
+    ring,
+    spared_nodes,
+    underside_of_held_m,
+)
 from majordomo.skills.actions.arm import STOWED, ArmAction, ArmProgress
 from majordomo.skills.actions.spot_reach import ABOVE_RIM_M, Placement, above_bottom_m, admitted, is_within_lift
 from majordomo.skills.boards import TURN_RAD
@@ -71,36 +78,57 @@ class ChooseSpot(Action):
         return Status.SUCCESS
 
     def _cheapest(self, spots: Sequence[Spot]) -> Spot | None:
-        """The one that is cheapest to reach from here; ``None`` where none can be."""
+        """The one that is cheapest to reach from here, if any with nothing high in the arm's way; ``None`` where none
+        can be reached.
+        """
         within = [spot for spot in spots if is_within_lift(self.context, spot)]
         if len(within) > MOST_SPOTS:
             within = [within[int(i)] for i in np.linspace(0, len(within) - 1, MOST_SPOTS)]
-        costs = self._costs(within) if within else np.array([np.inf])
-        best = int(np.argmin(costs))
-        return within[best] if np.isfinite(costs[best]) else None
+        if not within:
+            return None
+        routes = self._routes(within)
+        costs = [(self._cost_m(routes, spot), i) for i, spot in enumerate(within)]
+        barred: Spot | None = None
+        for spot in (within[i] for cost_m, i in sorted(costs) if isfinite(cost_m)):
+            over_m = self._over_m(routes, spot)
+            if over_m < BARRED_COST_M:
+                return spot
+            barred = barred or (spot if isfinite(over_m) else None)
+        return barred
 
-    def _costs(self, spots: Sequence[Spot]) -> Points:
-        """Way to the best place to stand for each spot, plus a little for tight ones, (N,)."""
+    def _routes(self, spots: Sequence[Spot]) -> Routes:
+        """The ways from here on a map that shows all the spots."""
         snapshot = self.context.snapshot
         frame = robot_frame(snapshot)
         pose = planar_pose(self.context, frame)
-        centers = np.array([spot.anchor.position(snapshot, frame)[:2] for spot in spots])
-        points = [pose.point, *((float(x), float(y)) for x, y in centers)]
+        centers = [spot.anchor.position(snapshot, frame) for spot in spots]
+        points = [pose.point, *((float(x), float(y)) for x, y, _ in centers)]
         around = self.context.surroundings.points()
         grid = draw_map(snapshot, frame, around, points, walls=Walls.of(snapshot, frame), stamp_s=self.context.stamp_s)
-        routes = find_routes(grid, pose.point, footprint_radius_m(self.context))
-        radii_m = reaches_m(self.context, self.context.body.arm.wrist_pitch_rad)[:-1]
-        best = np.array(
-            [self._way_m(routes, spot, center, radii_m) for spot, center in zip(spots, centers, strict=True)]
-        )
-        tight = np.array([0.0 if spot.inside else max(TIGHT_M - spot.room_m, 0.0) for spot in spots])
-        return np.asarray(best + TIGHT_WEIGHT * tight + [self._hidden_m(spot) for spot in spots])
+        return find_routes(grid, pose.point, footprint_radius_m(self.context))
 
-    def _way_m(self, routes: Routes, spot: Spot, center: Points, radii_m: Sequence[float]) -> float:
-        """Cost of the way to the best of the places from which the hand gets to a spot."""
-        places = ring(center, radii_m)[0]
-        costs = routes.cost_at(places)
-        return float(np.where(admitted(self.context, spot, places), costs, np.inf).min())
+    def _cost_m(self, routes: Routes, spot: Spot) -> float:
+        """Way to the best place to stand for a spot, plus a little for a tight one."""
+        tight_m = 0.0 if spot.inside else max(TIGHT_M - spot.room_m, 0.0)
+        way_m = float(self._ways_m(routes, spot)[1].min())
+        return way_m + TIGHT_WEIGHT * tight_m + self._hidden_m(spot)
+
+    def _ways_m(self, routes: Routes, spot: Spot) -> tuple[Points, Points]:
+        """Places (N, 2) from which the hand gets to a spot, and the cost (N,) of the way to each."""
+        snapshot = self.context.snapshot
+        center = spot.anchor.position(snapshot, robot_frame(snapshot))[:2]
+        places = ring(center, reaches_m(self.context, self.context.body.arm.wrist_pitch_rad)[:-1])[0]
+        return places, np.where(admitted(self.context, spot, places), routes.cost_at(places), np.inf)
+
+    def _over_m(self, routes: Routes, spot: Spot) -> float:
+        """The least cost, from any place that the robot gets to, of what stands between there and a spot."""
+        snapshot = self.context.snapshot
+        frame = robot_frame(snapshot)
+        places, ways_m = self._ways_m(routes, spot)
+        target = spot.anchor.position(snapshot, frame)
+        spared = spared_nodes(snapshot, self._placement.target, spot.anchor.node_id)
+        low_m = underside_of_held_m(float(target[2]))
+        return float(passing_over(snapshot, frame, target, low_m, places[np.isfinite(ways_m)], spared).min())
 
     def _hidden_m(self, spot: Spot) -> float:
         """The lower a board, the more of it the one above hides from the camera: a price, in meters of way."""

@@ -59,6 +59,19 @@ class Story:
         self.now_s += seconds
 
 
+def test_what_lies_near_is_not_taken_for_the_thing_that_slipped_from_the_fingers():
+    story = grasped()
+    story.run(4)
+    story.room.joints = joints((0.4, 0.0, 0.9), (False, False), 0.0)
+    story.run(3)
+    story.room.eye, story.room.target = (-2.4, 0.0), (-1.2, 0.2, 0.0)
+    ball = Solid(label="ball", center=(-1.2, 0.2, 0.04), size_m=(0.08, 0.08, 0.08), color=(220.0, 30.0, 30.0))
+    story.room.solids = [TABLE, RED_CUP, ball]
+    graph = story.run(8)
+    assert graph.object("bottle_1").state is ObjectState.MISSING
+    assert "ball" in [n.label for n in graph.of_type(ObjectNode)]
+
+
 def test_things_on_a_table_become_nodes_with_their_place_color_size_and_support():
     graph = Story([TABLE, BLUE_BOTTLE, RED_CUP]).run(8)
     assert [n.id for n in graph.of_type(ObjectNode)] == ["bottle_1", "cup_1", "table_1"]

@@ -2,6 +2,7 @@
 
 The masks of the previous frame are moved by the camera's motion and compared by intersection over union. Things that
 were not in the previous frame are found again by position. The cheapest assignment of all pairs at once is taken.
+Where a thing has gone that slipped from the hand is a guess: it is not found by position, but recognized.
 """
 
 from __future__ import annotations
@@ -136,6 +137,8 @@ def _furniture_costs(track: Track, frame: _Frame, iou: Array, settings: Associat
 
 def _thing_costs(track: Track, frame: _Frame, iou: Array, settings: AssociationSettings) -> Array:
     """(M,) by the distance of centers, in standard deviations; furniture only if the mask overlaps as well."""
+    if track.fell:
+        return np.full(len(iou), np.inf)
     spread = float(np.trace(track.covariance)) / 3.0 + frame.spread
     slack_m = 0.02 + 0.1 * min(track.box.size_m[:2]) + frame.slack_m
     distances = np.linalg.norm(frame.centers[track.room] - track.position, axis=1)

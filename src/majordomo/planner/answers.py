@@ -292,7 +292,9 @@ class Answers:
 
     def _color(self, node: ObjectNode) -> str:
         thing = f"The {node.name or node.label.replace('_', ' ')} {place_phrase(node.id, self._snapshot)}"
-        return f"{thing} is {node.color}." if node.color else f"{thing}: I could not tell its color."
+        if not node.color:
+            return f"{thing}: I could not tell its color."
+        return f"{thing} is {node.color}{f', and partly {listed(list(node.accents))}' if node.accents else ''}."
 
     def _robot_room(self) -> str:
         room = self._snapshot.current_room

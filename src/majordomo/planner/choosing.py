@@ -62,7 +62,7 @@ def _fits(word: str, node_id: str, grounding: Grounding) -> bool:
 def _words_for(node_id: str, snapshot: Snapshot) -> set[str]:
     node = snapshot.get(node_id)
     if isinstance(node, ObjectNode):
-        told = f"{node.color} {node.label} {node.name or ''}"
+        told = " ".join((node.color, *node.accents, node.label, node.name))
     elif isinstance(node, RoomNode):
         told = node.label or ""
     else:

@@ -135,7 +135,8 @@ class Interpreter:
         """Nouns and names of the graph; those of the last graph asked for are kept."""
         if self._lexicon is None or self._lexicon[0] is not snapshot:
             names = [person.name for person in snapshot.of_type(PersonNode) if person.name]
-            colors = {thing.color for thing in snapshot.of_type(ObjectNode) if thing.color}
+            things = snapshot.of_type(ObjectNode)
+            colors = {color for thing in things for color in (thing.color, *thing.accents) if color}
             self._lexicon = (snapshot, Lexicon.of(nouns_of(snapshot), names, self._verbs, colors))
         return self._lexicon[1]
 

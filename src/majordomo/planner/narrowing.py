@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from math import hypot, inf, prod
 from typing import TYPE_CHECKING
@@ -57,8 +57,7 @@ class Narrowing:
 
     def narrow(self, found: tuple[str, ...], phrase: NounPhrase, context: Context) -> tuple[str, ...]:
         """Those of ``found`` that fit color, restriction, size and superlative, in this order."""
-        has = any if phrase.either else all
-        kept = [i for i in found if not phrase.colors or has(self._has_color(i, color) for color in phrase.colors)]
+        kept = self._colored(found, phrase.colors, any_of_them=phrase.either) if phrase.colors else list(found)
         if phrase.quantity == "this":
             kept = [i for i in kept if self._state.room_of(i) == self._snapshot.current_room] or kept
         for restriction in sorted(phrase.restrictions, key=lambda each: each.relation != "color"):
@@ -133,7 +132,7 @@ class Narrowing:
         here = self._snapshot.current_room
         match restriction.relation:
             case "color":
-                return [i for i in candidates if self._has_color(i, restriction.word)]
+                return self._colored(candidates, (restriction.word,))
             case "state":
                 return [i for i in candidates if self._is_state(i, restriction.word)]
             case "floor":
@@ -251,9 +250,14 @@ class Narrowing:
         distances = [(self._distance_m(self._state.robot_at, i), natural_key(i), i) for i in found]
         return [i for distance_m, _, i in sorted(distances) if distance_m < inf]
 
-    def _has_color(self, node_id: str, color: str) -> bool:
-        node = self._snapshot.node(node_id)
-        return isinstance(node, ObjectNode) and _color(node.color) == color
+    def _colored(self, found: Sequence[str], colors: Sequence[str], *, any_of_them: bool = False) -> list[str]:
+        """Those of these colors; where none is, those that have them too: a phone is called by the color of its case,
+        and what is seen of it is its screen.
+        """
+        has = any if any_of_them else all
+        nodes = [(i, node) for i in found if isinstance(node := self._snapshot.node(i), ObjectNode)]
+        mainly = [i for i, node in nodes if has(_color(node.color) == color for color in colors)]
+        return mainly or [i for i, node in nodes if has(color in _colors(node) for color in colors)]
 
     def is_at(self, node_id: str, place: str) -> bool:
         """Whether a node is in a room or region, or on or in a thing, perhaps with others in between."""
@@ -376,6 +380,10 @@ class Narrowing:
 
 def _color(color: str) -> str:
     return {"grey": "gray"}.get(color.casefold(), color.casefold())
+
+
+def _colors(node: ObjectNode) -> frozenset[str]:
+    return frozenset(map(_color, (node.color, *node.accents)))
 
 
 def _area_m2(polygon: tuple[tuple[float, float], ...]) -> float:

@@ -107,10 +107,14 @@ def _rooms(words: frozenset[str], snapshot: Snapshot) -> set[str]:
 def _meant(named: Sequence[ObjectNode], words: frozenset[str], snapshot: Snapshot) -> set[str]:
     """Of each kind of thing those whose color or room is in the request too; all of a kind where none is."""
     rooms = _rooms(words, snapshot)
-    told = {node.id for node in named if node.id in words or normal(node.color) in words}
+    told = {node.id for node in named if node.id in words or not words.isdisjoint(_colors(node))}
     told |= {node.id for node in named if snapshot.room_of(node.id) in rooms}
     kinds = {node.label for node in named if node.id in told}
     return {node.id for node in named if node.id in told or node.label not in kinds}
+
+
+def _colors(node: ObjectNode) -> set[str]:
+    return {normal(color) for color in (node.color, *node.accents)}
 
 
 def _is_furniture(node: ObjectNode) -> bool:
@@ -154,7 +158,7 @@ def _tree(snapshot: Snapshot, objects: Sequence[ObjectNode], room: str) -> list[
 
 def _object_line(node: ObjectNode) -> str:
     marks = [_quoted(node.name)] if node.name else []
-    marks += [node.color] if node.color else []
+    marks += [" and ".join((node.color, *node.accents))] if node.color else []
     marks += ["furniture"] if _is_furniture(node) else []
     marks += ["fixed"] if not node.support and not node.graspable else []
     marks += ["not where it was"] if node.state is ObjectState.MISSING else []

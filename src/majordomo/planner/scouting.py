@@ -70,10 +70,10 @@ class Scout:
 
 
 def sightings(kind: str, snapshot: Snapshot) -> frozenset[Sighting]:
-    """Things that are there and are, or most probably are, called so: identifier, color, and what carries them."""
+    """Things that are there and are, or most probably are, called so: identifier, colors, and what carries them."""
     called = kinds_called(kind)
     return frozenset(
-        (node.id, node.color, snapshot.support_of(node.id))
+        (node.id, " ".join((node.color, *sorted(node.accents))), snapshot.support_of(node.id))
         for node in snapshot.of_type(ObjectNode)
         if node.state is not ObjectState.MISSING and (likely_label(node) or normal(node.label)) in called
     )

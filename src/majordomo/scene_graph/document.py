@@ -99,6 +99,7 @@ class Attributes(_Record):
     """What an object looks like and what it is called."""
 
     color: str | None = None
+    accents: tuple[str, ...] | None = None
     categories: tuple[str, ...] | None = None
     name: str | None = None
 

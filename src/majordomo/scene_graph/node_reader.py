@@ -148,6 +148,7 @@ def _object(record: ObjectRecord, places: Places, stamp_s: float) -> ObjectNode:
         confidence=record.confidence,
         label_distribution=((label, 1.0),) if record.label_distribution is None else record.label_distribution,
         color=record.attributes.color or "",
+        accents=record.attributes.accents or (),
         categories=record.attributes.categories or (),
         name=record.attributes.name or "",
         size_m=record.size_m,

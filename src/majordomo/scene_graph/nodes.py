@@ -157,6 +157,7 @@ class ObjectNode:
     along its own x, y, z. ``label_distribution`` holds (label, probability), most likely first. ``existence``
     is the probability that it still is where it is said to be. ``surfaces_m``: heights above its own bottom on which
     things can stand, such as the boards of a shelf, as measured, lowest first; empty where none was measured.
+    ``color`` is the main color, ``accents`` are those of smaller parts, such as the case around a phone's screen.
     """
 
     id: str
@@ -164,6 +165,7 @@ class ObjectNode:
     confidence: float = 1.0
     label_distribution: tuple[tuple[str, float], ...] = ()
     color: str = ""
+    accents: tuple[str, ...] = ()
     categories: tuple[str, ...] = ()
     name: str = ""
     size_m: Point3 = (0.0, 0.0, 0.0)

@@ -236,7 +236,12 @@ class SceneWriter:
 
 def _object_details(node: ObjectNode) -> Record:
     return {
-        "attributes": {"color": node.color, "categories": list(node.categories), "name": node.name},
+        "attributes": {
+            "color": node.color,
+            "accents": list(node.accents),
+            "categories": list(node.categories),
+            "name": node.name,
+        },
         "label_distribution": [[label, probability] for label, probability in node.label_distribution],
         "size_m": list(node.size_m),
         "state": node.state.value,

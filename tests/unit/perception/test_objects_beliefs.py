@@ -5,9 +5,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from majordomo.perception.objects.beliefs import ColorBelief, LabelBelief, agreement, share_agreement
+from majordomo.perception.objects.beliefs import AccentBelief, ColorBelief, LabelBelief, agreement, share_agreement
 from majordomo.perception.objects.center import CenterBelief, CenterSettings
-from majordomo.perception.objects.color import PALETTE, color_votes, named_color
+from majordomo.perception.objects.color import PALETTE, accents, color_votes, named_color
 from majordomo.perception.objects.confirmation import is_double, is_fragment, known_as, turned_up
 from majordomo.perception.objects.identity import IdentitySettings, departed, likeness, same_thing_moved
 from majordomo.perception.objects.membership import Outline, Surroundings
@@ -196,6 +196,50 @@ def test_a_handful_of_pixels_of_the_neighbor_does_not_change_the_color():
     assert max(votes, key=votes.get) == "blue"
     assert sum(votes.values()) == pytest.approx(1.0)
     assert color_votes(rgb, np.zeros((40, 40), dtype=bool)) == {}
+
+
+def phone_on_table(case, table, rows=slice(30, 60), columns=slice(20, 80)):
+    """A picture of a phone with a blue screen that fills all but the edges of its case, and the phone's mask."""
+    rgb = np.zeros((90, 120, 3), dtype=np.uint8)
+    rgb[:] = table
+    rgb[rows, columns] = case
+    rgb[rows.start + 3 : rows.stop - 3, columns.start + 3 : columns.stop - 3] = (20, 50, 200)
+    mask = np.zeros(rgb.shape[:2], dtype=bool)
+    mask[rows, columns] = True
+    return rgb, mask
+
+
+def test_the_case_around_a_screen_is_an_accent():
+    rgb, mask = phone_on_table(case=(240, 130, 20), table=(245, 245, 245))
+    assert accents(rgb, mask) == {"orange"}
+    rgb, mask = phone_on_table(case=(20, 20, 20), table=(120, 70, 30))
+    assert accents(rgb, mask) == {"black"}
+
+
+def test_what_shines_in_from_around_is_no_accent():
+    rgb, mask = phone_on_table(case=(20, 50, 200), table=(200, 20, 20))
+    loose = np.zeros_like(mask)
+    loose[26:64, 16:84] = True
+    assert accents(rgb, mask) == frozenset()
+    assert accents(rgb, loose) == frozenset()
+
+
+def test_a_thing_that_is_small_in_the_picture_tells_nothing_of_accents():
+    rgb, mask = phone_on_table(case=(240, 130, 20), table=(245, 245, 245), rows=slice(30, 38), columns=slice(20, 28))
+    assert accents(rgb, mask) is None
+    assert accents(rgb, np.zeros_like(mask)) is None
+
+
+def test_an_accent_shows_in_a_good_part_of_the_frames_that_can_tell():
+    belief = AccentBelief()
+    belief.update({"orange"})
+    assert belief.colors == ()
+    for frame in range(20):
+        belief.update((None, {"orange"}, {"gray"} if frame == 2 else set())[frame % 3])
+    assert belief.colors == ("orange",)
+    for _ in range(40):
+        belief.update(set())
+    assert belief.colors == ()
 
 
 def thing(number, label="bottle", color="blue", size_m=(0.07, 0.07, 0.24), seen=(0.0, 10.0), state=ObjectState.PRESENT):

@@ -262,3 +262,19 @@ def test_a_definite_topic_is_one_thing():
     reading = PLANNER.read("my medicine, please, I have to take it", snapshot, Dialogue())
     assert reading.interpretation.kind is Kind.CLARIFY
     assert set(reading.interpretation.candidates) == {"medicine_1", "medicine_2"}
+
+
+def test_a_thing_is_also_called_by_the_color_of_its_case():
+    sketch = home().thing("tablet_1", "tablet", on="desk_1", color="blue", accents=("orange",), at=(4.4, 5.6))
+    snapshot = sketch.thing("tablet_2", "tablet", on="bed_1", color="blue").snapshot(robot_in="room_2", at=(4.2, 0))
+    reading = PLANNER.read("put the orange tablet on the bed", snapshot, Dialogue())
+    assert [str(goal) for goal in reading.interpretation.goals] == ["on(tablet_1, bed_1)"]
+    told = PLANNER.read("what color is the tablet on the desk?", snapshot, Dialogue())
+    assert told.interpretation.reply == "The tablet on the desk in the office is blue, and partly orange."
+
+
+def test_what_is_mainly_of_a_color_goes_before_what_has_it_too():
+    sketch = home().thing("tablet_1", "tablet", on="desk_1", color="blue", accents=("orange",), at=(4.4, 5.6))
+    snapshot = sketch.thing("tablet_2", "tablet", on="bed_1", color="orange").snapshot(robot_in="room_2", at=(4.2, 0))
+    reading = PLANNER.read("put the orange tablet on the desk", snapshot, Dialogue())
+    assert [str(goal) for goal in reading.interpretation.goals] == ["on(tablet_2, desk_1)"]

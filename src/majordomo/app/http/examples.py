@@ -78,7 +78,7 @@ NODE: dict[str, Any] = {
     "position_m": [3.65, 1.65, 0.86],
     "yaw_rad": 0.0,
     "confidence": 0.98,
-    "attributes": {"color": "blue", "categories": ["drink"], "name": None},
+    "attributes": {"color": "blue", "accents": ["white"], "categories": ["drink"], "name": None},
     "position_std_m": [0.01, 0.01, 0.01],
     "size_m": [0.07, 0.07, 0.22],
     "state": "present",

@@ -118,7 +118,7 @@ function factsOf(node, { nodes, edges, robot }) {
     joins: node.rooms && node.type === "door" ? [node.rooms[0], node.rooms[1]].map(room).join(" – ") : undefined,
     holds: node.holding ? room(node.holding) : undefined,
     region: node.region ? room(node.region) : undefined,
-    color: node.attributes?.color,
+    color: [node.attributes?.color, ...(node.attributes?.accents ?? [])].filter(Boolean).join(", ") || undefined,
     kind: node.attributes?.categories?.join(", "),
     state: [node.state, node.status !== "permanent" ? node.status : "", node.provisional ? "not sure yet" : "", { uncrossed: "not crossed yet", given_up: `given up: ${node.crossing_reason}` }[node.crossing]].filter(Boolean).join(", "),
     "position (m)": numbers(node.position_m, ", "),

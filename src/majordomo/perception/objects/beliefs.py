@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Mapping
+from collections.abc import Collection, Hashable, Mapping
 
 import numpy as np
 
@@ -184,6 +184,32 @@ class ColorBelief:
         """Share of each color in all votes."""
         total = sum(self._votes.values())
         return {name: votes / total for name, votes in sorted(self._votes.items())} if total > 0.0 else {}
+
+
+class AccentBelief:
+    """Which colors a thing has besides its main one: those that show in enough of the frames that can tell."""
+
+    def __init__(self, *, memory: float = 0.98, share: float = 0.35, frames: float = 2.0) -> None:
+        """``share``: of the frames, weighted by how good they are. ``frames``: so much weight is enough to tell."""
+        self._memory, self._share, self._enough = memory, share, frames
+        self._votes: dict[str, float] = {}
+        self._total = 0.0
+
+    def update(self, colors: Collection[str] | None, weight: float = 1.0) -> None:
+        """Add what one frame shows; nothing where it cannot tell."""
+        if colors is None:
+            return
+        self._total = self._memory * self._total + weight
+        for name in {*self._votes, *colors}:
+            self._votes[name] = self._memory * self._votes.get(name, 0.0) + (weight if name in colors else 0.0)
+
+    @property
+    def colors(self) -> tuple[str, ...]:
+        """The colors, surest first."""
+        if self._total < self._enough:
+            return ()
+        sure = [name for name, votes in self._votes.items() if votes >= self._share * self._total]
+        return tuple(sorted(sure, key=lambda name: (-self._votes[name], name)))
 
 
 def agreement(a: LabelDistribution, b: LabelDistribution) -> float:

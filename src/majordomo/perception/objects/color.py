@@ -17,40 +17,95 @@ _HUE_EDGES_DEG = (13.0, 42.0, 68.0, 165.0, 198.0, 258.0, 298.0, 342.0)
 _HUE_NAMES = ("red", "orange", "yellow", "green", "cyan", "blue", "purple", "pink", "red")
 _MINIMUM_PIXELS = 6
 _MAXIMUM_PIXELS = 400
+_ACCENT_PIXELS, _ACCENT_SHARE = 60, 0.04
+_AROUND_SHARE = 0.1
+_RING_PX = 3
 
-Array = NDArray[np.float64]
+Image = NDArray[np.uint8]
+Mask = NDArray[np.bool_]
+Pixels = NDArray[np.uint8]
+_NO_PIXELS: Pixels = np.empty((0, 3), dtype=np.uint8)
 
 
-def color_votes(rgb: NDArray[np.uint8], mask: NDArray[np.bool_]) -> dict[str, float]:
+def color_votes(rgb: Image, mask: Mask) -> dict[str, float]:
     """Share of each palette color among the pixels of ``mask``; empty where there are too few.
 
     Args:
         rgb: (H, W, 3) image.
         mask: (H, W); its rim is left out because neighbors shine in there.
     """
+    pixels = _core(rgb, mask)
+    return _shares(_names(pixels)) if len(pixels) else {}
+
+
+def accents(rgb: Image, mask: Mask) -> frozenset[str] | None:
+    """What colors a part of the thing has that is not of its main color: the case around a phone's screen, a tag;
+    ``None`` where it is too small in the picture to tell.
+
+    A color that is all around the thing is none of them: it may shine in where the mask is not exact.
+
+    Args:
+        rgb: (H, W, 3) image.
+        mask: (H, W), as for ``color_votes``.
+    """
+    pixels = _core(rgb, mask)
+    if len(pixels) < _ACCENT_PIXELS:
+        return None
+    names = _names(pixels)
+    shares = _shares(names)
+    main = max(shares, key=lambda name: shares[name])
+    rest = pixels[names != main]
+    if len(rest) < max(_MINIMUM_PIXELS, _ACCENT_SHARE * len(pixels)):
+        return frozenset()
+    parts = _shares(_names(rest))
+    around = _shares(_names(_surroundings(rgb, mask)))
+    return frozenset(
+        name
+        for name, share in parts.items()
+        if name != main and share * len(rest) >= _ACCENT_SHARE * len(pixels) and around.get(name, 0.0) < _AROUND_SHARE
+    )
+
+
+def named_color(red: float, green: float, blue: float) -> str:
+    """The palette name of one color, channels 0 to 255."""
+    pixel = np.array(((red, green, blue),), dtype=np.uint8)
+    return str(_names(pixel)[0])
+
+
+def _core(rgb: Image, mask: Mask) -> Pixels:
+    """Pixels of the mask without its rim, (N, 3), every so many of a large one; none where there are too few."""
     x, y, width, height = cv2.boundingRect(mask.astype(np.uint8))
     if width * height < _MINIMUM_PIXELS:
-        return {}
+        return _NO_PIXELS
     rows, columns = slice(y, y + height), slice(x, x + width)
     inside = np.ascontiguousarray(mask[rows, columns]).view(np.uint8)
     core = cv2.erode(inside, np.ones((3, 3), np.uint8), borderType=cv2.BORDER_CONSTANT, borderValue=0) > 0
     if np.count_nonzero(core) < _MINIMUM_PIXELS:
         core = inside > 0
     pixels = rgb[rows, columns][core]
-    if len(pixels) < _MINIMUM_PIXELS:
-        return {}
-    pixels = pixels[:: -(-len(pixels) // _MAXIMUM_PIXELS)]
-    return _shares(pixels)
+    return pixels[:: -(-len(pixels) // _MAXIMUM_PIXELS)] if len(pixels) >= _MINIMUM_PIXELS else _NO_PIXELS
 
 
-def named_color(red: float, green: float, blue: float) -> str:
-    """The palette name of one color, channels 0 to 255."""
-    pixel = np.array(((red, green, blue),), dtype=np.uint8)
-    votes = _shares(np.repeat(pixel, _MINIMUM_PIXELS, axis=0))
-    return max(votes, key=lambda name: votes[name])
+def _surroundings(rgb: Image, mask: Mask) -> Pixels:
+    """Pixels close around the mask, (N, 3)."""
+    x, y, width, height = cv2.boundingRect(mask.astype(np.uint8))
+    rows = slice(max(y - _RING_PX, 0), y + height + _RING_PX)
+    columns = slice(max(x - _RING_PX, 0), x + width + _RING_PX)
+    inside = np.ascontiguousarray(mask[rows, columns]).view(np.uint8)
+    side = 2 * _RING_PX + 1
+    near = cv2.dilate(inside, np.ones((side, side), np.uint8)) > inside
+    return rgb[rows, columns][near]
 
 
-def _shares(pixels: NDArray[np.uint8]) -> dict[str, float]:
+def _shares(names: NDArray[np.str_]) -> dict[str, float]:
+    found, counts = np.unique(names, return_counts=True)
+    return {str(name): float(count) / len(names) for name, count in zip(found, counts, strict=True)}
+
+
+def _names(pixels: Pixels) -> NDArray[np.str_]:
+    """The palette color of each pixel (N, 3), as the light on all of them lets it seem."""
+    if not len(pixels):
+        return np.empty(0, dtype=np.str_)
     hsv = cv2.cvtColor(pixels.astype(np.float32)[None] / 255.0, cv2.COLOR_RGB2HSV)[0].astype(np.float64)
     hue_deg, saturation, value = hsv[:, 0], hsv[:, 1], hsv[:, 2]
     lit = float(np.quantile(value, 0.8))
@@ -67,8 +122,8 @@ def _shares(pixels: NDArray[np.uint8]) -> dict[str, float]:
     names[(hue_deg > 18.0) & (hue_deg < 65.0) & (saturation < 0.35) & (lit > 0.55)] = "beige"
     colorless = (saturation < 0.15) | (value < 0.08) | ((saturation < 0.3) & (value < 0.15))
     names[colorless] = _shade(lit)
-    found, counts = np.unique(names.astype(str), return_counts=True)
-    return {str(name): float(count) / len(names) for name, count in zip(found, counts, strict=True)}
+    named: NDArray[np.str_] = names.astype(np.str_)
+    return named
 
 
 def _shade(lit: float) -> str:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from majordomo.perception.objects.beliefs import LabelDistribution
 from majordomo.perception.objects.body import OwnBody
-from majordomo.perception.objects.color import color_votes
+from majordomo.perception.objects.color import accents, color_votes
 from majordomo.perception.objects.projection import Building, Cloud, ProjectionSettings, View, cloud_of
 from majordomo.perception.objects.shape import Shape, measure_shape
 from majordomo.perception.panoptic import Instance, PanopticScene
@@ -35,7 +35,8 @@ class Detection:
     """An instance with its points and measures, in the room frame of the view.
 
     ``index`` is its place in the scene's instance list. ``measurable``: near, not cut by the image
-    border and not mostly hidden, so that its center counts.
+    border and not mostly hidden, so that its center counts. ``accents``: colors besides the main one, where that can
+    be told.
     """
 
     index: int
@@ -46,6 +47,7 @@ class Detection:
     shape: Shape
     colors: Mapping[str, float]
     in_range: bool
+    accents: frozenset[str] | None = None
 
     @property
     def measurable(self) -> bool:
@@ -102,6 +104,7 @@ def _measure(
         shape=shape,
         colors=color_votes(rgb, instance.mask),
         in_range=cloud.range_m <= settings.range_limit_m,
+        accents=accents(rgb, instance.mask),
     )
 
 

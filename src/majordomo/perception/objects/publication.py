@@ -47,6 +47,7 @@ def node_of(node_id: str, track: Track, before: ObjectNode | None, inspected_s: 
         confidence=track.label.confidence,
         label_distribution=track.label.distribution,
         color=track.color.best,
+        accents=tuple(color for color in track.accents.colors if color != track.color.best),
         categories=category_of(label, size_m).tags,
         name=before.name if before is not None else "",
         size_m=size_m,
@@ -179,14 +180,19 @@ def relation_edits(
 
 def _worth_writing(before: ObjectNode, after: ObjectNode, settings: PublicationSettings) -> bool:
     return (
-        (before.label, before.color, before.state, before.graspable, before.support, before.inspected_s)
-        != (after.label, after.color, after.state, after.graspable, after.support, after.inspected_s)
+        _told(before) != _told(after)
         or abs(before.confidence - after.confidence) > settings.probability
         or abs(before.existence - after.existence) > settings.probability
         or after.last_seen_s - before.last_seen_s > settings.seen_s
         or float(np.abs(np.subtract(before.size_m, after.size_m)).max()) > settings.size_m
         or _differ(before.surfaces_m, after.surfaces_m, settings.size_m)
     )
+
+
+def _told(node: ObjectNode) -> tuple[object, ...]:
+    """What is no measure: any change of it is worth writing."""
+    looks = (node.label, node.color, frozenset(node.accents))
+    return (*looks, node.state, node.graspable, node.support, node.inspected_s)
 
 
 def _differ(before: tuple[float, ...], after: tuple[float, ...], tolerance_m: float) -> bool:

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.random import Generator
 from numpy.typing import NDArray
 
-from majordomo.perception.objects.beliefs import ColorBelief, LabelBelief, is_taught
+from majordomo.perception.objects.beliefs import AccentBelief, ColorBelief, LabelBelief, is_taught
 from majordomo.perception.objects.center import CenterBelief, CenterSettings
 from majordomo.perception.objects.detection import Detection
 from majordomo.perception.objects.levels import LevelMemory
@@ -31,6 +31,7 @@ _PART_TRUST = 0.25
 _STORED_FRAMES = 5
 """A stored label counts as much as so many frames of a view that say the same."""
 _STORED_VIEWS = (0.5, 3.0)
+_STORED_ACCENTS = 2.0
 _KNOWN_HITS, _KNOWN_LABEL = 10, 0.5
 _BEYOND_M, _AT_OTHER_M = 0.05, 0.06
 _OBSERVATIONS_OF_VIEW = 12.0
@@ -66,6 +67,7 @@ class Track:
         self.node_id: str | None = None
         self.label = LabelBelief()
         self.color = ColorBelief()
+        self.accents = AccentBelief()
         self.place: CenterBelief | SurfaceBelief | None = None
         self.levels = LevelMemory()
         self.state = ObjectState.PRESENT
@@ -138,6 +140,7 @@ class Track:
         self.label.update(detection.distribution, detection.weight, (*side, trust), trust=trust)
         self.awaited = self.fell = False
         self.color.update(detection.colors, detection.weight)
+        self.accents.update(detection.accents, detection.weight)
         self.hits += 1
         self.seen_whole |= detection.shape.complete
         self.misses = 0
@@ -230,7 +233,8 @@ class Track:
 
     def become(self, other: Track) -> None:
         """Take over the place of ``other``, a newer sighting of this very thing; identity and history stay."""
-        self.room, self.place, self.color, self.levels = other.room, other.place, other.color, other.levels
+        self.room, self.place, self.levels = other.room, other.place, other.levels
+        self.color, self.accents = other.color, other.accents
         self.state, self.log_odds = ObjectState.PRESENT, other.log_odds
         self.awaited = self.fell = False
         self.label.update(other.label.distribution, view=other.number)
@@ -259,6 +263,7 @@ class Track:
             self.label.update(node.label_distribution or ((node.label, 0.9),), view="stored", trust=views)
         if node.color:
             self.color.update({node.color: 1.0})
+        self.accents.update(node.accents, _STORED_ACCENTS)
         self.state = node.state
         existence = float(np.clip(node.existence, 0.01, 0.99))
         self.log_odds = float(np.log(existence / (1.0 - existence)))

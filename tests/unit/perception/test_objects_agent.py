@@ -454,6 +454,29 @@ def test_what_looks_like_a_leg_below_a_desk_is_nobody_and_takes_nobody_there():
     assert np.linalg.norm(graph.position("person_1", "room_1")[:2] - (1.0, 0.8)) < 0.2
 
 
+def test_what_has_no_name_where_somebody_stands_is_a_part_of_them():
+    body = Solid(label="person", center=(1.0, 0.5, 0.85), size_m=(0.4, 0.4, 1.7), cylinder=True)
+    apron = Solid(label="unknown", center=(0.85, 0.45, 0.9), size_m=(0.25, 0.25, 0.3), cylinder=True)
+    bag = Solid(label="unknown", center=(0.8, -0.4, 0.2), size_m=(0.3, 0.25, 0.3))
+    story = Story([body, apron, bag], eye=(-1.2, 0.0), target=(1.0, 0.0, 0.7))
+    graph = story.run(15)
+    (node,) = graph.of_type(ObjectNode)
+    assert np.linalg.norm(graph.position(node.id, "room_1") - bag.center) < 0.15
+
+
+def test_what_had_no_name_is_gone_once_it_is_seen_as_a_piece_of_a_thing():
+    yellow = {"color": (200.0, 180.0, 30.0)}
+    corner = Solid(label="unknown", center=(-0.24, 0.0, 0.78), size_m=(0.1, 0.16, 0.06), **yellow)
+    rest = Solid(label="book", center=(-0.09, 0.0, 0.78), size_m=(0.2, 0.16, 0.06), **yellow)
+    whole = Solid(label="book", center=(-0.14, 0.0, 0.78), size_m=(0.3, 0.16, 0.06), **yellow)
+    story = Story([TABLE, corner, rest])
+    assert story.run(12).object("unknown_1").state is ObjectState.PRESENT
+    story.room.solids = [TABLE, whole]
+    graph = story.run(10)
+    assert graph.object("unknown_1").state is ObjectState.MISSING
+    assert graph.object("book_1").state is ObjectState.PRESENT
+
+
 def test_a_bottle_seen_again_elsewhere_after_a_while_is_the_same_bottle_where_one_had_looked_before():
     desk = Solid(label="desk", center=(0.0, 2.2, 0.375), size_m=(1.2, 0.6, 0.75), color=(90.0, 90.0, 90.0))
     story = Story([TABLE, desk, BLUE_BOTTLE], eye=(-1.2, 0.0))

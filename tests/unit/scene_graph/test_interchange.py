@@ -44,7 +44,7 @@ def test_every_node_carries_the_promised_fields(house):
 
 def test_objects_carry_their_attributes_and_uncertainty(house):
     bottle = by_id(to_json(house))["bottle_2"]
-    assert bottle["attributes"] == {"color": "blue", "categories": ["drink", "fragile"], "name": ""}
+    assert bottle["attributes"] == {"color": "blue", "accents": [], "categories": ["drink", "fragile"], "name": ""}
     assert bottle["label_distribution"] == [["bottle", 0.9], ["vase", 0.1]]
     assert bottle["position_m"] == [1.5, 1.2, 0.85]
     assert bottle["position_std_m"] == [0.01, 0.01, 0.01]

@@ -183,6 +183,7 @@ class ObjectMemory:
         )
         self._held_in = frozenset(thing.index for thing in things if self._in_hand(thing, view))
         turning = turning_radps(self._buffer)
+        self._people.update(persons, view, surroundings)
         self._tracker.update(
             Sight(
                 view=view,
@@ -195,9 +196,9 @@ class ObjectMemory:
                 turning_radps=turning,
                 looked_before=self._inspection.looked(snapshot, stamp_s),
                 hand=view.T_room_base.apply(body.grip) if body is not None else None,
+                persons=self._people.spots(surroundings),
             )
         )
-        self._people.update(persons, view, surroundings)
         self._relate(surroundings, placed, scene)
         self._inspection.watch(self._tracker.tracks, view, surroundings, turning, snapshot)
 

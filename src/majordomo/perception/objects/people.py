@@ -122,6 +122,11 @@ class People:
             self._doubt(track, view, surroundings)
         self.tracks = [t for t in self.tracks if t.node_id is not None or view.stamp_s - t.last_seen_s < 1.0]
 
+    def spots(self, surroundings: Surroundings) -> Array:
+        """Where they stand, (P, 2), in the room frame of the view; those in rooms that it does not reach left out."""
+        here = [_here(track, surroundings) for track in self.tracks if track.room in surroundings.T_here_room]
+        return np.array(here).reshape(-1, 2)
+
     def _same_person(
         self,
         spot: Array,

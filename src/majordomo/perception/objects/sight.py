@@ -18,7 +18,8 @@ class Sight:
     """One frame as the tracker sees it.
 
     ``turning_radps``: how fast the robot turns. ``looked_before``: when each room and support
-    was first inspected. ``hand``: (3,) where the fingers are, in the room frame of the view, if that is known.
+    was first inspected. ``hand``: (3,) where the fingers are, in the room frame of the view, if that is known;
+    ``persons``: (P, 2) where people stand, in the same frame.
     """
 
     view: View
@@ -27,3 +28,4 @@ class Sight:
     turning_radps: float = 0.0
     looked_before: Mapping[str, float] = field(default_factory=dict)
     hand: NDArray[np.float64] | None = None
+    persons: NDArray[np.float64] = field(default_factory=lambda: np.empty((0, 2)))

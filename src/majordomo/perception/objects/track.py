@@ -55,10 +55,11 @@ class Track:
         number: running number; order of birth. node_id: its node, once confirmed. room: room whose frame holds it.
             place: a ``CenterBelief`` for what can be carried, a ``SurfaceBelief`` for furniture, ``None`` before the
             first sight. levels: how high the boards or the seat of furniture are. state, log_odds: whether it still is
-            where it is said to be. hits: frames that saw it; seen_whole: whether one of them showed all of it;
-            ``misses``: frames in a row that should have and did not. homeless: whether it is in none of the rooms known
-            so far; ``room`` then is the one it was seen from. awaited: whether the hand has put it down and it was not
-            seen since; fell: whether it slipped from the hand and was not seen since.
+            where it is said to be. hits: frames that saw it; seen_from: the sides and distances from which they did;
+            seen_whole: whether one of them showed all of it; ``misses``: frames in a row that should have and did not.
+            homeless: whether it is in none of the rooms known so far; ``room`` then is the one it was seen from.
+            awaited: whether the hand has put it down and it was not seen since; fell: whether it slipped from the hand
+            and was not seen since.
     """
 
     def __init__(self, number: int, room: str, *, settings: TrackSettings, random: Generator) -> None:
@@ -68,6 +69,7 @@ class Track:
         self.label = LabelBelief()
         self.color = ColorBelief()
         self.accents = AccentBelief()
+        self.seen_from: set[tuple[int, int]] = set()
         self.place: CenterBelief | SurfaceBelief | None = None
         self.levels = LevelMemory()
         self.state = ObjectState.PRESENT
@@ -141,6 +143,7 @@ class Track:
         self.awaited = self.fell = False
         self.color.update(detection.colors, detection.weight)
         self.accents.update(detection.accents, detection.weight)
+        self.seen_from.add(side)
         self.hits += 1
         self.seen_whole |= detection.shape.complete
         self.misses = 0
@@ -238,6 +241,7 @@ class Track:
         self.state, self.log_odds = ObjectState.PRESENT, other.log_odds
         self.awaited = self.fell = False
         self.label.update(other.label.distribution, view=other.number)
+        self.seen_from |= other.seen_from
         self.hits += other.hits
         self.seen_whole |= other.seen_whole
         self.misses = 0

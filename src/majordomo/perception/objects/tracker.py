@@ -42,22 +42,29 @@ from majordomo.perception.objects.taken_names import TakenNames
 from majordomo.perception.objects.track import Track, TrackSettings
 from majordomo.perception.vocabulary import category_of
 from majordomo.scene_graph.identifiers import next_id
-from majordomo.scene_graph.nodes import ObjectState
+from majordomo.scene_graph.nodes import UNKNOWN_LABEL, ObjectState
+from majordomo.scene_graph.se3 import SE3
 
 Array = NDArray[np.float64]
 _BORDER = np.ones((7, 7), np.uint8)
 """Masks are wrong by a few pixels at their borders."""
+_FULL, _FULL_M = 1.1, 0.01
+"""Two parts that are not larger together than this share of the size of their kind, and this more, are of one thing."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class TrackerSettings:
-    """``confirm_hits`` sightings with ``confirm_label`` certainty (or twice as many sightings) make a thing a node.
+    """``confirm_hits`` sightings with ``confirm_label`` certainty make a thing a node; so do twice as many of what
+    remains doubtful, of a small thing from ``confirm_places`` different places, or from ``nameless_places`` if it has
+    no name: from one place, a part of a thing or of the clutter may look like anything for long.
 
     ``patience_hits``: how many sightings to wait for a look-alike that is just being missed, or until it is clear
-    whether what lies in a row of furniture is a piece of its own. ``homeless_life_s``: how long a thing seen through a
-    door waits for its room to become known; ``wall_share``: of its points in that room's walls, from which on furniture
+    whether what lies in a row of furniture is a piece of its own. ``doubtful_life_s``: how long what was seen often
+    enough waits to be seen from another place; ``homeless_life_s``: how long a thing seen through a door waits for its
+    room to become known; ``wall_share``: of its points in that room's walls, from which on furniture
     was one of them. ``hand_m``: within what distance of the hand nothing small is found: what the fingers hold or have
-    just put down shows between them in pieces that look like many things.
+    just put down shows between them in pieces that look like many things. ``person_m``: within what distance of where
+    somebody stands what has no name is a part of them.
     """
 
     association: AssociationSettings = field(default_factory=AssociationSettings)
@@ -67,11 +74,15 @@ class TrackerSettings:
     confirm_hits: int = 3
     confirm_label: float = 0.6
     patience_hits: int = 15
+    confirm_places: int = 2
+    nameless_places: int = 3
     tentative_life_s: float = 2.0
+    doubtful_life_s: float = 300.0
     homeless_life_s: float = 300.0
     wall_share: float = 0.85
     furniture_min_px: int = 150
     hand_m: float = 0.25
+    person_m: float = 0.3
 
 
 class Tracker:
@@ -185,6 +196,8 @@ class Tracker:
                 center = T_room_view.apply(detection.shape.center[None])
                 if track.number in seen and not track.category.container and bool(track.box.contains(center)[0]):
                     return True
+                if track.number in seen and _completes(track, detection, T_room_view):
+                    return True
             elif float(track.box.contains(T_room_view.apply(detection.cloud.points), 0.1).mean()) > 0.6:
                 self._observe(track, detection, sight)
                 return True
@@ -222,6 +235,8 @@ class Tracker:
     def _absence(self, track: Track, sight: Sight) -> float:
         T_here_room = sight.surroundings.T_here_room[track.room]
         settings = self._settings.existence
+        if _has_no_name(track) and self._is_of_somebody(track, sight):
+            return -settings.through_limit
         if track.is_furniture:
             points = T_here_room.apply(track.surface_points)
             share = surface_absent(points, sight.view, settings)
@@ -235,7 +250,29 @@ class Tracker:
             and bool(box.contains(detection.shape.center[None])[0])
             for detection in sight.detections
         )
+        replaced = replaced or (_has_no_name(track) and self._is_part(track, sight, seen.center_px))
         return absence_evidence(seen, replaced=replaced, settings=settings)
+
+    def _is_of_somebody(self, track: Track, sight: Sight) -> bool:
+        """Whether it is where somebody stands."""
+        x_m, y_m, _ = sight.surroundings.T_here_room[track.room].apply(track.position).tolist()
+        return bool((np.hypot(*(sight.persons - (x_m, y_m)).T) < self._settings.person_m).any())
+
+    def _is_part(self, track: Track, sight: Sight, center_px: tuple[float, float] | None = None) -> bool:
+        """Whether what has no name is a part of a small thing that is seen: it is within that, or ``center_px``, where
+        its middle is in the picture, is.
+        """
+        T_here_room = sight.surroundings.T_here_room
+        for detection in sight.detections:
+            other = self.matches.get(detection.index)
+            if other is None or other is track or other.is_furniture or other.category.container or _has_no_name(other):
+                continue
+            T_other_track = T_here_room[other.room].inverse() @ T_here_room[track.room]
+            if bool(other.box.contains(T_other_track.apply(track.position)[None])[0]):
+                return True
+            if center_px is not None and _shows(detection.mask, center_px):
+                return True
+        return False
 
     def _found(self, detection: Detection, sight: Sight) -> None:
         """Start a new, tentative thing."""
@@ -274,6 +311,9 @@ class Tracker:
         """Name what has been seen often enough, or recognize it."""
         identity = self._settings.identity
         for track in [t for t in self.tracks if t.node_id is None and not t.homeless and self._is_stable(t)]:
+            if _has_no_name(track) and self._is_nothing(track, sight):
+                self.drop(track)
+                continue
             known = [t for t in self.tracks if t.node_id is not None]
             same = known_as(
                 track,
@@ -291,10 +331,21 @@ class Tracker:
                 track.node_id = next_id(self.taken, track.label.best)
                 self.taken.add(track.node_id)
 
+    def _is_nothing(self, track: Track, sight: Sight) -> bool:
+        """Whether what has no name is none of the things: somebody, or a piece of a thing that is seen."""
+        return self._is_of_somebody(track, sight) or (not track.is_furniture and self._is_part(track, sight))
+
     def _is_stable(self, track: Track) -> bool:
-        hits = self._settings.confirm_hits
-        sure = track.label.confidence >= self._settings.confirm_label or track.hits >= 2 * hits
-        return track.hits >= hits and sure
+        settings = self._settings
+        sure = track.label.confidence >= settings.confirm_label
+        if track.is_furniture or sure:
+            return track.hits >= (settings.confirm_hits if sure else 2 * settings.confirm_hits)
+        places = settings.nameless_places if _has_no_name(track) else settings.confirm_places
+        return self._is_doubtful(track) and len(track.seen_from) >= places
+
+    def _is_doubtful(self, track: Track) -> bool:
+        """Whether it was seen often enough to wait for sights from other places."""
+        return track.hits >= 2 * self._settings.confirm_hits
 
     def _recognize(self, sighting: Track, known: Track) -> None:
         """The sighting is a thing we know: it goes on under that name."""
@@ -334,6 +385,29 @@ class Tracker:
 
     def _may_come_true(self, track: Track, stamp_s: float) -> bool:
         """Whether to wait for further sights of a tentative thing, or for its room to become known."""
-        awaits_room = track.homeless and self._is_stable(track)
-        patience_s = self._settings.homeless_life_s if awaits_room else self._settings.tentative_life_s
+        settings = self._settings
+        patience_s = settings.doubtful_life_s if self._is_doubtful(track) else settings.tentative_life_s
+        if track.homeless and self._is_stable(track):
+            patience_s = settings.homeless_life_s
         return track.state is ObjectState.PRESENT and stamp_s - track.last_seen_s <= patience_s
+
+
+def _completes(track: Track, detection: Detection, T_room_view: SE3) -> bool:
+    """Whether a detection is a further part of a small thing: both together are no larger than its kind is."""
+    usual_m = sorted(track.category.size_m)
+    if not track.category.known or min(usual_m) <= 0.0:
+        return False
+    points = T_room_view.apply(detection.cloud.points)
+    half_m = np.array(track.box.size_m) / 2.0
+    ends = np.vstack((track.box.local(points), half_m, -half_m))
+    return bool(np.all(np.sort(np.ptp(ends, axis=0)) <= _FULL * np.array(usual_m) + _FULL_M))
+
+
+def _has_no_name(track: Track) -> bool:
+    return track.label.best == UNKNOWN_LABEL
+
+
+def _shows(mask: NDArray[np.bool_], pixel: tuple[float, float]) -> bool:
+    """Whether a pixel (u, v) is of a mask."""
+    u, v = (round(each) for each in pixel)
+    return 0 <= v < mask.shape[0] and 0 <= u < mask.shape[1] and bool(mask[v, u])

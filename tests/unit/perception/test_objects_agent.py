@@ -477,6 +477,14 @@ def test_what_had_no_name_is_gone_once_it_is_seen_as_a_piece_of_a_thing():
     assert graph.object("book_1").state is ObjectState.PRESENT
 
 
+def test_what_stays_doubtful_from_one_place_is_a_node_once_it_was_seen_from_another():
+    blob = Solid(label="apple", center=(0.1, 0.0, 0.8), size_m=(0.09, 0.09, 0.09), confidence=0.21)
+    story = Story([TABLE, blob])
+    assert [n.label for n in story.run(20).of_type(ObjectNode)] == ["table"]
+    story.room.eye = (0.0, -1.3)
+    assert [n.id for n in story.run(8).of_type(ObjectNode)] == ["apple_1", "table_1"]
+
+
 def test_a_bottle_seen_again_elsewhere_after_a_while_is_the_same_bottle_where_one_had_looked_before():
     desk = Solid(label="desk", center=(0.0, 2.2, 0.375), size_m=(1.2, 0.6, 0.75), color=(90.0, 90.0, 90.0))
     story = Story([TABLE, desk, BLUE_BOTTLE], eye=(-1.2, 0.0))

@@ -26,6 +26,9 @@ from majordomo.scene_graph.se3 import SE3
 
 Array = NDArray[np.float64]
 _SIDE_RAD = math.pi / 4.0
+_PLACES = 4
+_APART = 0.5
+"""Two places lie apart as a thing sees them, if they are farther from each other than this share of the way to it."""
 _PART_TRUST = 0.25
 """What a view of a part counts, cut by the picture's border or by what stands before it: networks name parts badly."""
 _STORED_FRAMES = 5
@@ -55,7 +58,8 @@ class Track:
         number: running number; order of birth. node_id: its node, once confirmed. room: room whose frame holds it.
             place: a ``CenterBelief`` for what can be carried, a ``SurfaceBelief`` for furniture, ``None`` before the
             first sight. levels: how high the boards or the seat of furniture are. state, log_odds: whether it still is
-            where it is said to be. hits: frames that saw it; seen_from: the sides and distances from which they did;
+            where it is said to be. hits: frames that saw it; seen_from: where the camera was then, (2,) each,
+            from the thing along its room's axes: a few places that are well apart as the thing sees them.
             seen_whole: whether one of them showed all of it; ``misses``: frames in a row that should have and did not.
             homeless: whether it is in none of the rooms known so far; ``room`` then is the one it was seen from.
             awaited: whether the hand has put it down and it was not seen since; fell: whether it slipped from the hand
@@ -69,7 +73,7 @@ class Track:
         self.label = LabelBelief()
         self.color = ColorBelief()
         self.accents = AccentBelief()
-        self.seen_from: set[tuple[int, int]] = set()
+        self.seen_from: list[Array] = []
         self.place: CenterBelief | SurfaceBelief | None = None
         self.levels = LevelMemory()
         self.state = ObjectState.PRESENT
@@ -143,7 +147,7 @@ class Track:
         self.awaited = self.fell = False
         self.color.update(detection.colors, detection.weight)
         self.accents.update(detection.accents, detection.weight)
-        self.seen_from.add(side)
+        self._note_place(T_room_view.apply(view.T_room_camera.translation_m), detection, T_room_view)
         self.hits += 1
         self.seen_whole |= detection.shape.complete
         self.misses = 0
@@ -156,6 +160,13 @@ class Track:
             self._observe_surface(detection, view, T_room_view, pose_covariance, others)
         else:
             self._observe_center(detection, view, T_room_view, pose_covariance)
+
+    def _note_place(self, camera: Array, detection: Detection, T_room_view: SE3) -> None:
+        """Remember from where it is seen, unless it was seen from much the same side and distance before."""
+        thing = T_room_view.apply(detection.shape.center) if self.place is None else self.position
+        place = (camera - thing)[:2]
+        if len(self.seen_from) < _PLACES and all(_lie_apart(place, other) for other in self.seen_from):
+            self.seen_from.append(place)
 
     def _side_of(self, detection: Detection, view: View, T_room_view: SE3) -> tuple[int, int]:
         """From which side and how near the thing is seen: frames of one such view repeat each other's mistakes."""
@@ -241,7 +252,7 @@ class Track:
         self.state, self.log_odds = ObjectState.PRESENT, other.log_odds
         self.awaited = self.fell = False
         self.label.update(other.label.distribution, view=other.number)
-        self.seen_from |= other.seen_from
+        self.seen_from = [*self.seen_from, *other.seen_from][-_PLACES:]
         self.hits += other.hits
         self.seen_whole |= other.seen_whole
         self.misses = 0
@@ -280,6 +291,11 @@ class Track:
             self.levels = LevelMemory.of(tuple(bottom_m + height_m for height_m in node.surfaces_m))
         else:
             self.place = self._center(box, covariance + np.eye(3) * 1e-6)
+
+
+def _lie_apart(one: Array, other: Array) -> bool:
+    away_m = max(float(np.linalg.norm(one)), float(np.linalg.norm(other)))
+    return float(np.linalg.norm(one - other)) > _APART * away_m
 
 
 def _trust_in(detection: Detection) -> float:

@@ -43,13 +43,10 @@ from majordomo.perception.objects.track import Track, TrackSettings
 from majordomo.perception.vocabulary import category_of
 from majordomo.scene_graph.identifiers import next_id
 from majordomo.scene_graph.nodes import UNKNOWN_LABEL, ObjectState
-from majordomo.scene_graph.se3 import SE3
 
 Array = NDArray[np.float64]
 _BORDER = np.ones((7, 7), np.uint8)
 """Masks are wrong by a few pixels at their borders."""
-_FULL, _FULL_M = 1.1, 0.01
-"""Two parts that are not larger together than this share of the size of their kind, and this more, are of one thing."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -195,8 +192,6 @@ class Tracker:
             if not track.is_furniture:
                 center = T_room_view.apply(detection.shape.center[None])
                 if track.number in seen and not track.category.container and bool(track.box.contains(center)[0]):
-                    return True
-                if track.number in seen and _completes(track, detection, T_room_view):
                     return True
             elif float(track.box.contains(T_room_view.apply(detection.cloud.points), 0.1).mean()) > 0.6:
                 self._observe(track, detection, sight)
@@ -390,17 +385,6 @@ class Tracker:
         if track.homeless and self._is_stable(track):
             patience_s = settings.homeless_life_s
         return track.state is ObjectState.PRESENT and stamp_s - track.last_seen_s <= patience_s
-
-
-def _completes(track: Track, detection: Detection, T_room_view: SE3) -> bool:
-    """Whether a detection is a further part of a small thing: both together are no larger than its kind is."""
-    usual_m = sorted(track.category.size_m)
-    if not track.category.known or min(usual_m) <= 0.0:
-        return False
-    points = T_room_view.apply(detection.cloud.points)
-    half_m = np.array(track.box.size_m) / 2.0
-    ends = np.vstack((track.box.local(points), half_m, -half_m))
-    return bool(np.all(np.sort(np.ptp(ends, axis=0)) <= _FULL * np.array(usual_m) + _FULL_M))
 
 
 def _has_no_name(track: Track) -> bool:

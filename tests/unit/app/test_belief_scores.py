@@ -236,9 +236,10 @@ def test_a_scene_is_laid_upon_the_house_room_by_room():
     }  # fmt: skip
     room = {"id": "room_1", "type": "room", "label": "kitchen", "polygon_m": on_map(corners).tolist()}
     gone = {**cup, "id": "cup_2", "state": "missing"}
-    scene = {"nodes": [room, cup, gone], "edges": []}
+    held = {**cup, "id": "cup_3", "state": "held"}
+    scene = {"nodes": [room, cup, gone, held], "edges": []}
     laid = graph_contents(scene, HOUSE)
-    assert [node.id for node in laid.things] == ["cup_1"]
+    assert [node.id for node in laid.things] == ["cup_1", "cup_3"]
     assert laid.things[0].position_m == pytest.approx((2.0, 1.0, 0.8), abs=1e-6)
     assert laid.rooms == {"k": "room_1"}
     assert graph_contents(scene, HOUSE, lay=False).things[0].position_m == pytest.approx((2.1, 1.1, 0.8))

@@ -24,6 +24,7 @@ Size3 = tuple[float, float, float]
 Relation = tuple[str, str, str]
 """Subject, predicate, object, by identifier."""
 
+_THERE = ("present", "held")
 _ANYWHERE = Seen(box_px=(0.0, 0.0, 1.0, 1.0), distance_m=1.0)
 """Where all stand equally far away, nothing stands in front of anything: that relation depends on the viewer."""
 
@@ -62,7 +63,7 @@ class TrueThing:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class GraphThing:
-    """An object node that is held to be present. ``label`` is the simulator's name of what it is called.
+    """An object node that is said to be at its place or in the hand. ``label`` is the simulator's name of what it is called.
 
     ``room``: identifier of its room's node. ``position_m`` (3,) is in the house, laid upon it room by room.
     """
@@ -151,7 +152,7 @@ def graph_contents(scene: Mapping[str, Any], house: House, *, lay: bool = True) 
     found, true = plan_of_scene(scene, start), plan_of_house(house)
     same = compare(found, true).found if lay else {}
     places = _placements(found, true, same)
-    nodes = [node for node in scene["nodes"] if node["type"] == "object" and node["state"] == "present"]
+    nodes = [node for node in scene["nodes"] if node["type"] == "object" and node["state"] in _THERE]
     return GraphContents(
         things=tuple(_graph_thing(node, start, places) for node in nodes),
         relations=tuple(

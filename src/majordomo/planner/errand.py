@@ -2,22 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from enum import StrEnum
 from functools import partial
 
 from majordomo.planner.chronicle import Chronicle, Ending
 from majordomo.planner.crew import Crew
 from majordomo.planner.explainer import give_up_reason, unseen_sentence
-from majordomo.planner.goals import Goal
+from majordomo.planner.intake import Ready
 from majordomo.planner.job import Job, Watch, actions_or_refusal
 from majordomo.planner.ledger import Ledger
 from majordomo.planner.lookout import Lookout
 from majordomo.planner.naming import humanize
-from majordomo.planner.plan import Impossible, Plan, Reread, Step
+from majordomo.planner.plan import Impossible, Reread, Step
 from majordomo.planner.progress import Progress
 from majordomo.planner.recovery import Recoveries
-from majordomo.planner.replanner import Hunt, PlanMaker
+from majordomo.planner.replanner import Hunt
 from majordomo.planner.taken_for import TakenFor
 from majordomo.planner.tasks import TaskStatus
 from majordomo.planner.whereabouts import capital
@@ -55,16 +55,15 @@ class Errand:
     ``advance`` is called while the task runs and has the robot; time in between does not count.
     """
 
-    def __init__(
-        self, task_id: str, goals: Sequence[Goal], plan: Plan, replanner: PlanMaker, crew: Crew, stamp_s: float
-    ) -> None:
-        self._task_id, self._crew, self._replanner = task_id, crew, replanner
+    def __init__(self, ready: Ready, crew: Crew, stamp_s: float) -> None:
+        task_id, goals, building = ready.task.id, ready.goals, crew.memory.building()
+        self._task_id, self._crew, self._replanner, self._sought = task_id, crew, ready.replanner, ready.sought
         self._ledger = Ledger(goals, stamp_s)
         self._recoveries = Recoveries(max_failures=crew.settings.max_failures)
-        self._progress = Progress(task_id, goals, plan, crew.queue, crew.memory.building())
-        self._lookout = Lookout(crew, self._progress, replanner)
+        self._progress = Progress(task_id, goals, ready.plan, crew.queue, building)
+        self._lookout = Lookout(crew, self._progress, ready.replanner)
         self._chronicle = Chronicle(task_id, self._ledger, crew)
-        self._taken_for = TakenFor(crew.queue.task(task_id).request, goals, crew.memory.building())
+        self._taken_for = TakenFor(crew.queue.task(task_id).request, goals, building)
         self._job: Job | None = None
         self._phase, self._phase_s, self._wait_s = Phase.READY, 0.0, 0.0
         self._looked, self._after_look = False, Phase.READY
@@ -84,9 +83,9 @@ class Errand:
         if self._hunt is not None and self._hunt.found(snapshot) and self._phase is not Phase.WAITING:
             return self._replan(snapshot, "found")
         mistake = self._taken_for.mistake(snapshot)
-        if mistake is not None:
+        if mistake is not None and not self._sought:
             return self._admit(mistake, snapshot)
-        refuted = self._taken_for.refuted(snapshot)
+        refuted = mistake or self._taken_for.refuted(snapshot)
         if refuted is not None:
             return self._think_again(refuted, snapshot)
         ending = self._handlers[self._phase](context, snapshot)

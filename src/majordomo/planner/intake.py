@@ -37,13 +37,16 @@ class Interpreter(Protocol):
 
 @dataclass(frozen=True, kw_only=True)
 class Ready:
-    """A task that may run now: its goals, the first plan, and what makes the next ones. ``intent`` says it aloud."""
+    """A task that may run now: its goals, the first plan, and what makes the next ones. ``intent`` says it aloud.
+    ``sought``: what it is about was not known at first, and has been looked for.
+    """
 
     task: Task
     goals: tuple[Goal, ...]
     plan: Plan
     replanner: PlanMaker
     intent: str
+    sought: bool = False
 
 
 class Intake:
@@ -194,7 +197,8 @@ class Intake:
             asked = {"approved": False, "explanation": f"{intent} Shall I?"}
             self._queue.move(task.id, TaskStatus.AWAITING_APPROVAL, stamp_s=stamp_s, **asked)
         else:
-            return Ready(task=task, goals=goals, plan=plan, replanner=replanner, intent=intent)
+            sought = task.id in self._scouts
+            return Ready(task=task, goals=goals, plan=plan, replanner=replanner, intent=intent, sought=sought)
         return None
 
     def _earlier(self, task: Task) -> tuple[Exchange, ...]:

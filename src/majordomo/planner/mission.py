@@ -95,8 +95,7 @@ class Mission:
             self._queue.amend(task.id, explanation=LOST)
         if ready is not None:
             self._queue.move(task.id, TaskStatus.RUNNING, stamp_s=stamp_s, explanation=ready.intent)
-            errand = Errand(task.id, ready.goals, ready.plan, ready.replanner, self._crew, stamp_s)
-            self._errand = (task.id, errand)
+            self._errand = (task.id, Errand(ready, self._crew, stamp_s))
 
     def _run(self, task: Task, stamp_s: float, dt_s: float) -> None:
         """Let the errand go on while the arbiter grants its intention and the stop is not latched."""

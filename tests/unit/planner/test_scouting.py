@@ -46,7 +46,8 @@ def show_of(place="table_1", recognizable=("bottle",)):
 
 
 def call(show, label):
-    node = replace(show.memory.snapshot().object("bottle_1"), label=label)
+    distribution = ((label, 0.95),)
+    node = replace(show.memory.snapshot().object("bottle_1"), label=label, label_distribution=distribution)
     show.memory.commit([PutNode(node)], agent="objects", stamp_s=show.stamp_s)
 
 
@@ -203,6 +204,22 @@ def test_what_was_guessed_to_be_the_thing_and_is_not_is_never_said_to_be_it(step
     if status is not TaskStatus.SUCCEEDED:
         assert show.codes == ["object_gone"]
         assert "what might have been a bottle" in show.task.failures[0].message
+
+
+def test_when_what_was_found_turns_out_to_be_something_else_the_search_goes_on():
+    show = show_of()
+    show.ask()
+    show.run_until(lambda: show.task.plan is not None and show.task.plan.source == "search")
+    show.run_until(lambda: show.stage.robot_at == "table_1")
+    call(show, "bottle")
+    show.run_until(lambda: show.task.plan.source != "search")
+    call(show, MISTAKEN)
+    show.run_until(lambda: show.task.plan.source == "search" or show.task.status.ended)
+    assert show.codes == ["object_gone"]
+    assert "what I took for a bottle is a vase" in show.task.failures[0].message
+    show.run_until(lambda: show.task.status.ended, limit=20_000)
+    assert show.task.status is TaskStatus.REFUSED
+    assert "I looked at" in show.task.explanation
 
 
 def test_what_loses_its_name_when_it_is_seen_from_near_is_not_said_to_be_it():

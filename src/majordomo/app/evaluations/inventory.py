@@ -63,7 +63,8 @@ class TrueThing:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class GraphThing:
-    """An object node that is said to be at its place or in the hand. ``label`` is the simulator's name of what it is called.
+    """An object node that is said to be at its place or in the hand. ``label`` is the simulator's name of what it
+    is called.
 
     ``room``: identifier of its room's node. ``position_m`` (3,) is in the house, laid upon it room by room.
     """

@@ -409,6 +409,28 @@ async def test_the_end_of_something_long_bars_the_arm_if_it_is_higher_than_the_h
     assert costs.tolist() == [cost_m, 0.0]
 
 
+@pytest.mark.parametrize(("aside_m", "cost_m"), [(0.1, inf), (0.25, inf), (0.4, 0.0)])
+async def test_the_arm_does_not_pass_where_somebody_stands(flat, aside_m, cost_m):
+    snapshot = flat().person(0.4, aside_m).memory.snapshot()
+    places = np.array(((0.8, 0.0), (-0.8, 0.0)))
+    costs = passing_over(snapshot, "room_1", np.zeros(3), 0.5, places, set())
+    assert costs.tolist() == [cost_m, 0.0]
+
+
+async def test_somebody_who_steps_before_the_arm_is_not_touched_and_the_arm_waits(kitchen):
+    built = []
+    rehearsal = kitchen(lambda flat: built.append(flat) or flat)
+    context = await rehearsal.prepare()
+    actions = SKILLS["PICK"].actions(context, ["bottle_1"])
+    assert await rehearsal.run(actions[:5], 900.0) is None
+    base, bottle = rehearsal.body.pose.point, rehearsal.memory.snapshot().position("bottle_1", "room_1")
+    between = 0.3 * np.array(base) + 0.7 * bottle[:2]
+    built[0].person(*(float(each) for each in between))
+    failure = await rehearsal.run(actions[5:], 900.0)
+    assert failure.code is FailureCode.PERSON_IN_WAY
+    assert rehearsal.body.arm.extension_m < 0.05
+
+
 async def test_a_hand_that_let_go_rises_over_the_arm_of_a_sofa_before_it_is_drawn_back(flat):
     arm = ArmTarget(lift_m=0.6, extension_m=0.5, wrist_pitch_rad=DOWN_RAD, wrist_roll_rad=0.0)
     rehearsal = Rehearsal(memory=flat().memory, body=FakeBody(arm=arm))

@@ -9,10 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 from py_trees.common import Status
 
-from majordomo.scene_graph.nodes import ObjectNode, ObjectState
+from majordomo.scene_graph.nodes import ObjectNode, ObjectState, PersonNode
 from majordomo.scene_graph.se3 import SE3
 from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.skills.action import RobotContext
+from majordomo.skills.actions.arm import PERSON_CLEARANCE_M
 from majordomo.skills.actions.driving import DriveTo
 from majordomo.skills.anchor import Anchor, AnchorSource, resolved
 from majordomo.skills.boards import board_under, is_before
@@ -226,7 +227,7 @@ def passing_over(
 ) -> Points:
     """For each place, (N,), what it costs that things which reach up to ``low_m`` lie on the way of the hand from there
     straight to the target: small ones may be pushed, furniture bars it; no place will do from which the hand is sure to
-    meet that.
+    meet that, or comes near to a person.
     """
     costs = np.zeros(len(points))
     farthest_m = float(np.hypot(*(points - target[:2]).T).max())
@@ -245,4 +246,8 @@ def passing_over(
         costs += np.where(nearest_m < ARM_HALF_WIDTH_M, cost_m, 0.0)
         if not node.graspable:
             costs += np.where(nearest_m < SURELY_MET_M, np.inf, 0.0)
+    for person in snapshot.of_type(PersonNode):
+        if snapshot.room_of(person.id) == frame:
+            away_m = np.linalg.norm(way - snapshot.position(person.id, frame)[:2], axis=2)
+            costs += np.where(away_m.min(axis=0) < PERSON_CLEARANCE_M, np.inf, 0.0)
     return costs

@@ -5,14 +5,16 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from enum import Enum, auto
+from math import cos, hypot
 
 from py_trees.common import Status
 
+from majordomo.scene_graph.nodes import PersonNode
 from majordomo.skills.action import Action, RobotContext
 from majordomo.skills.boards import is_among_boards
 from majordomo.skills.failures import FailureCode
 from majordomo.skills.grasping import DOWN_RAD
-from majordomo.skills.navigation.pose import base_pose, robot_frame
+from majordomo.skills.navigation.pose import base_pose, in_base, robot_frame
 from majordomo.skills.ports import ArmTarget, BodyState
 
 STOWED = ArmTarget(lift_m=0.75, extension_m=0.0, wrist_pitch_rad=DOWN_RAD, wrist_roll_rad=0.0)
@@ -26,6 +28,8 @@ ANGLE_TOLERANCE_RAD = 0.05
 STALL_S = 0.8
 EMPTY_OPENING_M = 0.004
 SLIP_S = 0.3
+PERSON_CLEARANCE_M = 0.32
+"""So far from the middle of a person the middle of the arm keeps."""
 
 
 class ArmProgress(Enum):
@@ -71,6 +75,27 @@ class ArmAction(Action):
             self._last, self._moved_s = arm, self.context.stamp_s
         stalled = self.context.stamp_s - self._moved_s > STALL_S
         return ArmProgress.STALLED if stalled else ArmProgress.MOVING
+
+    def meets_person(self) -> str | None:
+        """A person whom the arm would come too near to on its way out."""
+        context, arm = self.context, self.context.body.arm
+        out = [target for target in self._targets if target.extension_m > arm.extension_m + LENGTH_TOLERANCE_M]
+        if not out:
+            return None
+        farthest_m = max(_hand_x_m(context, target) for target in out)
+        for person in context.snapshot.of_type(PersonNode):
+            if context.snapshot.room_of(person.id) == robot_frame(context.snapshot):
+                T_base_person = in_base(context, person.id)
+                beyond_m = max(T_base_person.x_m - farthest_m, 0.0)
+                if T_base_person.x_m > 0.0 and hypot(beyond_m, T_base_person.y_m) < PERSON_CLEARANCE_M:
+                    return person.id
+        return None
+
+    def wait_for(self, person: str, what: str) -> Status:
+        """Fail because of a person in the arm's way, who may move on; the arm stays where it is."""
+        self.context.commands.arm = self.context.body.arm
+        message = f"{person} is where my arm would go to reach {what}."
+        return self.fail(FailureCode.PERSON_IN_WAY, message, (person,))
 
     def slipped(self) -> bool:
         """Whether the fingers have been without contact for a moment."""
@@ -209,6 +234,11 @@ def _reached(arm: ArmTarget, target: ArmTarget) -> bool:
         and abs(arm.wrist_pitch_rad - target.wrist_pitch_rad) < ANGLE_TOLERANCE_RAD
         and abs(arm.wrist_roll_rad - target.wrist_roll_rad) < ANGLE_TOLERANCE_RAD
     )
+
+
+def _hand_x_m(context: RobotContext, target: ArmTarget) -> float:
+    geometry = context.geometry
+    return geometry.wrist_x_m + target.extension_m + geometry.hand_length_m * cos(target.wrist_pitch_rad)
 
 
 def _moved(arm: ArmTarget, last: ArmTarget) -> bool:

@@ -61,6 +61,8 @@ class Reach(ArmAction):
             return self.fail(FailureCode.OBJECT_GONE, f"{self.object_id} is no longer on my map.")
         if self._grasp is None or self._why:
             return self.fail(FailureCode.UNREACHABLE, f"{self.object_id}: {self._why}.", (self.object_id,))
+        if (person := self.meets_person()) is not None:
+            return self.wait_for(person, self.object_id)
         self.context.commands.grip = (self._grasp.opening_m, CLOSE_EFFORT_N)
         progress = self.move_arm()
         if progress is ArmProgress.STALLED:

@@ -201,6 +201,8 @@ class LowerToPlace(ArmAction):
             return self.fail(
                 FailureCode.UNREACHABLE, f"{self._placement.target}: {self._why}.", (self._placement.target,)
             )
+        if (person := self.meets_person()) is not None:
+            return self.wait_for(person, self._placement.target)
         progress = self.move_arm()
         if self.slipped():
             self.context.grip = None

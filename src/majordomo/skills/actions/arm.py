@@ -28,8 +28,8 @@ ANGLE_TOLERANCE_RAD = 0.05
 STALL_S = 0.8
 EMPTY_OPENING_M = 0.004
 SLIP_S = 0.3
-PERSON_CLEARANCE_M = 0.32
-"""So far from the middle of a person the middle of the arm keeps."""
+PERSON_CLEARANCE_M, DRIFT_M = 0.32, 0.04
+"""So far from the middle of a person the middle of the arm keeps, from a place that is as far off as a drive may be."""
 
 
 class ArmProgress(Enum):
@@ -87,7 +87,7 @@ class ArmAction(Action):
             if context.snapshot.room_of(person.id) == robot_frame(context.snapshot):
                 T_base_person = in_base(context, person.id)
                 beyond_m = max(T_base_person.x_m - farthest_m, 0.0)
-                if T_base_person.x_m > 0.0 and hypot(beyond_m, T_base_person.y_m) < PERSON_CLEARANCE_M:
+                if T_base_person.x_m > 0.0 and hypot(beyond_m, T_base_person.y_m) < PERSON_CLEARANCE_M - DRIFT_M:
                     return person.id
         return None
 

@@ -32,7 +32,7 @@ RUN_LANGUAGES = frozenset({"sh", "python"})
 PORTS = ("8642", "9090", "8000")
 """Ports that guides name; each reading of a guide gets free ones in their place."""
 CTRL_C = "# Ctrl-C"
-START_LIMIT_S, COMMAND_LIMIT_S = 120.0, 180.0
+START_LIMIT_S, COMMAND_LIMIT_S, GLANCE_S = 120.0, 180.0, 8.0
 _MARKER = re.compile(r"<!--\s*(not run|file|printed)(?::\s*(.*?))?\s*-->")
 _STAYS = re.compile(r"^majordomo serve\b|^python examples/\S+")
 
@@ -91,6 +91,17 @@ def own_commands(block: Block) -> list[tuple[str, list[str]]]:
         elif words[:3] == ["python", "-m", "training"]:
             found.append(("training", words[3:]))
     return found
+
+
+def _look_at_the_map(address: str, token: str) -> None:
+    """Nobody types on before the robot knows what to call the room that it is in, if it ever does."""
+    deadline = time.monotonic() + GLANCE_S
+    while time.monotonic() < deadline:
+        with contextlib.suppress(httpx.HTTPError, ValueError):
+            scene = httpx.get(f"{address}/v1/scene?frame=map", headers={"Authorization": f"Bearer {token}"}).json()
+            if any(node["type"] == "room" and node["label"] for node in scene.get("nodes", ())):
+                return
+        time.sleep(0.1)
 
 
 @dataclass(kw_only=True)
@@ -191,9 +202,10 @@ class Reader:
         while True:
             with contextlib.suppress(httpx.HTTPError):
                 if httpx.get(f"{address}/readyz", headers={"Authorization": f"Bearer {token}"}).status_code == 200:
-                    return
+                    break
             assert time.monotonic() < deadline, f"not ready: {log.read_text()}"
             time.sleep(0.1)
+        _look_at_the_map(address, token)
 
     def _end_all(self, how: signal.Signals) -> None:
         for name in list(self._running):

@@ -69,8 +69,8 @@ class RobotContext:
     path being followed, for display, current room's frame. ``surroundings`` remembers obstacle points, ``grip`` what
     the fingers hold, ``blocked_doors`` in which doors something stood, and when, ``blocked_spots`` over which
     points of which node the arm was stopped as it put something down, and when, ``blocked_reaches`` from which side
-    of which node (the base's bearing from it, in its room) it was stopped as it reached for it, and when; they outlive
-    a single action.
+    of which node (the base's bearing from it, in its room) it was stopped as it reached for it, or did not see it, and
+    when; they outlive a single action.
     """
 
     memory: WorkingMemory

@@ -12,7 +12,7 @@ import pytest
 from majordomo.scene_graph.edges import RtEdge
 from majordomo.scene_graph.nodes import ObjectState
 from majordomo.scene_graph.se3 import SE3
-from majordomo.skills.actions.approach import BARRED_COST_M, passing_over
+from majordomo.skills.actions.approach import BARRED_COST_M, STOPPED_RAD, passing_over
 from majordomo.skills.actions.arm import CARRY_LIFT_M, Retract
 from majordomo.skills.actions.grasp import CloseGripper
 from majordomo.skills.actions.place import ChooseSpot, LowerToPlace, Placement
@@ -165,11 +165,17 @@ async def test_an_object_that_perception_misses_is_gone(kitchen, onlooker):
     assert failure.code is FailureCode.OBJECT_GONE
 
 
-async def test_an_object_that_is_not_seen_again_is_gone(kitchen, onlooker):
+async def test_an_object_that_is_not_seen_again_is_gone_and_looked_at_from_another_side_next_time(kitchen, onlooker):
     onlooker.blind_to.add("bottle_1")
-    failure = await carry_out(kitchen(), ("PICK", "bottle_1"))
+    rehearsal = kitchen()
+    failure = await carry_out(rehearsal, ("PICK", "bottle_1"))
     assert failure.code is FailureCode.OBJECT_GONE
     assert "not seen for 8 s" in failure.message
+    context = await rehearsal.prepare()
+    first_rad = bearing_rad(context, "bottle_1")
+    onlooker.blind_to.clear()
+    assert await rehearsal.run(SKILLS["PICK"].actions(context, ["bottle_1"])[:5], 900.0) is None
+    assert abs(np.angle(np.exp(1j * (bearing_rad(context, "bottle_1") - first_rad)))) > STOPPED_RAD
 
 
 def moved_to(x, y):

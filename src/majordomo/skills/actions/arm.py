@@ -14,7 +14,7 @@ from majordomo.skills.action import Action, RobotContext
 from majordomo.skills.boards import is_among_boards
 from majordomo.skills.failures import FailureCode
 from majordomo.skills.grasping import DOWN_RAD
-from majordomo.skills.navigation.pose import base_pose, in_base, robot_frame
+from majordomo.skills.navigation.pose import base_pose, bearing_rad, in_base, robot_frame
 from majordomo.skills.ports import ArmTarget, BodyState
 
 STOWED = ArmTarget(lift_m=0.75, extension_m=0.0, wrist_pitch_rad=DOWN_RAD, wrist_roll_rad=0.0)
@@ -220,6 +220,11 @@ def is_holding(context: RobotContext) -> bool:
     """Whether the hand holds something, by the grip just made or by the graph."""
     robot = context.snapshot.robot
     return context.grip is not None or (robot is not None and robot.holding is not None)
+
+
+def avoid_side(context: RobotContext, node_id: str) -> None:
+    """Remember that a thing was not got hold of from the side on which the base stands: others are tried first."""
+    context.blocked_reaches[node_id, bearing_rad(context, node_id)] = context.stamp_s
 
 
 def is_firm(body: BodyState) -> bool:

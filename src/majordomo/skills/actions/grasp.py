@@ -10,12 +10,12 @@ from py_trees.common import Status
 
 from majordomo.scene_graph.se3 import SE3
 from majordomo.skills.action import Action, Grip, RobotContext
-from majordomo.skills.actions.arm import EMPTY_OPENING_M, ArmAction, ArmProgress, is_firm
+from majordomo.skills.actions.arm import EMPTY_OPENING_M, ArmAction, ArmProgress, avoid_side, is_firm
 from majordomo.skills.containers import is_open_container
 from majordomo.skills.errors import Unreachable
 from majordomo.skills.failures import FailureCode
 from majordomo.skills.grasping import Grasp, choose_grasp, prefers_level
-from majordomo.skills.navigation.pose import bearing_rad, in_base
+from majordomo.skills.navigation.pose import in_base
 from majordomo.skills.place_spot import surface_m
 
 HAND_TOLERANCE_M = 0.02
@@ -68,9 +68,7 @@ class Reach(ArmAction):
         if progress is ArmProgress.STALLED:
             if self._hand_error_m(self._grasp) < HAND_TOLERANCE_M:
                 return Status.SUCCESS
-            self.context.blocked_reaches[self.object_id, bearing_rad(self.context, self.object_id)] = (
-                self.context.stamp_s
-            )
+            avoid_side(self.context, self.object_id)
             return self.stalled(self.object_id)
         if progress is ArmProgress.MOVING:
             return Status.RUNNING

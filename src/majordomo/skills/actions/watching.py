@@ -10,7 +10,7 @@ from py_trees.common import Status
 from majordomo.scene_graph.nodes import ObjectNode, ObjectState
 from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.skills.action import Action, RobotContext
-from majordomo.skills.actions.arm import is_firm
+from majordomo.skills.actions.arm import avoid_side, is_firm
 from majordomo.skills.actions.looking import Gaze, aim
 from majordomo.skills.anchor import Anchor
 from majordomo.skills.failures import Failure, FailureCode
@@ -26,7 +26,7 @@ class Refine(Action):
     """Looks at an object until perception has seen it ``fresh`` times since the action began.
 
     Fails with OBJECT_GONE when it becomes missing or is not seen in time, with OBJECT_MOVED when it turns out more
-    than 15 cm from ``planned`` and out of the arm's reach.
+    than 15 cm from ``planned`` and out of the arm's reach. Where it was not seen, other sides go first next time.
     """
 
     timeout_s = 30.0
@@ -56,6 +56,7 @@ class Refine(Action):
         if node.observations - self._before >= self._fresh and node.last_seen_s > self.started_s and settled:
             return self._judge()
         if self.elapsed_s > self._patience_s:
+            avoid_side(self.context, self.object_id)
             return self._gone(
                 f"{self.object_id} was not seen for {self._patience_s:.0f} s although the camera looked there."
             )

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from majordomo.perception.objects.beliefs import AccentBelief, ColorBelief, LabelBelief, agreement, share_agreement
 from majordomo.perception.objects.center import CenterBelief, CenterSettings
-from majordomo.perception.objects.color import PALETTE, accents, color_votes, named_color
+from majordomo.perception.objects.color import PALETTE, colors_of, named_color
 from majordomo.perception.objects.confirmation import is_double, is_fragment, known_as, turned_up
 from majordomo.perception.objects.identity import IdentitySettings, departed, likeness, same_thing_moved
 from majordomo.perception.objects.membership import Outline, Surroundings
@@ -184,7 +184,7 @@ def test_a_color_keeps_its_name_on_shaded_faces(name, rgb):
     belief = ColorBelief()
     for eye in ((-1.5, 0.0, 1.2), (0.0, -1.5, 1.2), (1.0, 1.0, 1.2)):
         rendering = render([thing], look_at(eye, (0.0, 0.0, 0.3)))
-        belief.update(color_votes(rendering.rgb, rendering.ids == 0))
+        belief.update(colors_of(rendering.rgb, rendering.ids == 0)[0])
     assert belief.best == name
 
 
@@ -192,10 +192,10 @@ def test_a_handful_of_pixels_of_the_neighbor_does_not_change_the_color():
     rgb = np.zeros((40, 40, 3), dtype=np.uint8)
     rgb[:] = (20, 50, 200)
     rgb[:, :8] = (200, 20, 20)
-    votes = color_votes(rgb, np.ones((40, 40), dtype=bool))
+    votes = colors_of(rgb, np.ones((40, 40), dtype=bool))[0]
     assert max(votes, key=votes.get) == "blue"
     assert sum(votes.values()) == pytest.approx(1.0)
-    assert color_votes(rgb, np.zeros((40, 40), dtype=bool)) == {}
+    assert colors_of(rgb, np.zeros((40, 40), dtype=bool))[0] == {}
 
 
 def phone_on_table(case, table, rows=slice(30, 60), columns=slice(20, 80)):
@@ -211,23 +211,23 @@ def phone_on_table(case, table, rows=slice(30, 60), columns=slice(20, 80)):
 
 def test_the_case_around_a_screen_is_an_accent():
     rgb, mask = phone_on_table(case=(240, 130, 20), table=(245, 245, 245))
-    assert accents(rgb, mask) == {"orange"}
+    assert colors_of(rgb, mask)[1] == {"orange"}
     rgb, mask = phone_on_table(case=(20, 20, 20), table=(120, 70, 30))
-    assert accents(rgb, mask) == {"black"}
+    assert colors_of(rgb, mask)[1] == {"black"}
 
 
 def test_what_shines_in_from_around_is_no_accent():
     rgb, mask = phone_on_table(case=(20, 50, 200), table=(200, 20, 20))
     loose = np.zeros_like(mask)
     loose[26:64, 16:84] = True
-    assert accents(rgb, mask) == frozenset()
-    assert accents(rgb, loose) == frozenset()
+    assert colors_of(rgb, mask)[1] == frozenset()
+    assert colors_of(rgb, loose)[1] == frozenset()
 
 
 def test_a_thing_that_is_small_in_the_picture_tells_nothing_of_accents():
     rgb, mask = phone_on_table(case=(240, 130, 20), table=(245, 245, 245), rows=slice(30, 38), columns=slice(20, 28))
-    assert accents(rgb, mask) is None
-    assert accents(rgb, np.zeros_like(mask)) is None
+    assert colors_of(rgb, mask)[1] is None
+    assert colors_of(rgb, np.zeros_like(mask))[1] is None
 
 
 def test_an_accent_shows_in_a_good_part_of_the_frames_that_can_tell():

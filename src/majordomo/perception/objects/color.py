@@ -27,43 +27,31 @@ Pixels = NDArray[np.uint8]
 _NO_PIXELS: Pixels = np.empty((0, 3), dtype=np.uint8)
 
 
-def color_votes(rgb: Image, mask: Mask) -> dict[str, float]:
-    """Share of each palette color among the pixels of ``mask``; empty where there are too few.
+def colors_of(rgb: Image, mask: Mask) -> tuple[dict[str, float], frozenset[str] | None]:
+    """Share of each palette color among the pixels of ``mask``, empty where there are too few; and its accents.
+
+    Accents are what colors a part of the thing has that is not of its main color: the case around a phone's screen, a
+    tag; ``None`` where it is too small in the picture to tell. A color that is all around the thing is none of them:
+    it may shine in where the mask is not exact.
 
     Args:
         rgb: (H, W, 3) image.
         mask: (H, W); its rim is left out because neighbors shine in there.
     """
     pixels = _core(rgb, mask)
-    return _shares(_names(pixels)) if len(pixels) else {}
-
-
-def accents(rgb: Image, mask: Mask) -> frozenset[str] | None:
-    """What colors a part of the thing has that is not of its main color: the case around a phone's screen, a tag;
-    ``None`` where it is too small in the picture to tell.
-
-    A color that is all around the thing is none of them: it may shine in where the mask is not exact.
-
-    Args:
-        rgb: (H, W, 3) image.
-        mask: (H, W), as for ``color_votes``.
-    """
-    pixels = _core(rgb, mask)
-    if len(pixels) < _ACCENT_PIXELS:
-        return None
+    if not len(pixels):
+        return {}, None
     names = _names(pixels)
     shares = _shares(names)
+    if len(pixels) < _ACCENT_PIXELS:
+        return shares, None
     main = max(shares, key=lambda name: shares[name])
-    rest = pixels[names != main]
-    if len(rest) < max(_MINIMUM_PIXELS, _ACCENT_SHARE * len(pixels)):
-        return frozenset()
-    parts = _shares(_names(rest))
+    rest, least = pixels[names != main], _ACCENT_SHARE * len(pixels)
+    if len(rest) < max(_MINIMUM_PIXELS, least):
+        return shares, frozenset()
     around = _shares(_names(_surroundings(rgb, mask)))
-    return frozenset(
-        name
-        for name, share in parts.items()
-        if name != main and share * len(rest) >= _ACCENT_SHARE * len(pixels) and around.get(name, 0.0) < _AROUND_SHARE
-    )
+    parts = {name for name, share in _shares(_names(rest)).items() if share * len(rest) >= least}
+    return shares, frozenset(name for name in parts - {main} if around.get(name, 0.0) < _AROUND_SHARE)
 
 
 def named_color(red: float, green: float, blue: float) -> str:

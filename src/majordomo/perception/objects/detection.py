@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from majordomo.perception.objects.beliefs import LabelDistribution
 from majordomo.perception.objects.body import OwnBody
-from majordomo.perception.objects.color import accents, color_votes
+from majordomo.perception.objects.color import colors_of
 from majordomo.perception.objects.projection import Building, Cloud, ProjectionSettings, View, cloud_of
 from majordomo.perception.objects.shape import Shape, measure_shape
 from majordomo.perception.panoptic import Instance, PanopticScene
@@ -94,6 +94,7 @@ def _measure(
     cloud = _without_body(cloud, view, own_body) if cloud is not None and own_body is not None else cloud
     if cloud is None:
         return None
+    colors, accents = colors_of(rgb, instance.mask)
     shape = measure_shape(cloud, view, category, depth_noise_per_m=settings.projection.depth_noise_per_m)
     return Detection(
         index=index,
@@ -102,9 +103,9 @@ def _measure(
         mask=instance.mask,
         cloud=cloud,
         shape=shape,
-        colors=color_votes(rgb, instance.mask),
+        colors=colors,
         in_range=cloud.range_m <= settings.range_limit_m,
-        accents=accents(rgb, instance.mask),
+        accents=accents,
     )
 
 

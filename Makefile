@@ -35,7 +35,7 @@ install: $(STAMP)
 
 $(STAMP): constraints.txt pyproject.toml
 	@scripts/make_venv $(VENV)
-	$(BIN)/python -m pip install --quiet --require-hashes --requirement constraints.txt
+	$(BIN)/python -m pip install --quiet --require-hashes --no-deps --requirement constraints.txt
 	$(BIN)/python -m pip install --quiet --no-build-isolation --no-deps --editable .
 	@touch $@
 

@@ -88,6 +88,33 @@ def iou_matrix(labels: Labels, count: int, masks: Sequence[NDArray[np.bool_]]) -
     return matrix
 
 
+class MaskMemory:
+    """The masks of the newest frame, and which thing each of them was."""
+
+    def __init__(self) -> None:
+        self._newest: tuple[View, Labels, list[int]] | None = None
+
+    def overlap(self, numbers: Sequence[int], detections: Sequence[Detection], view: View) -> Array:
+        """(T, M) IoU of the remembered mask of each thing of ``numbers``, moved by the camera's motion, with each new
+        one.
+        """
+        iou = np.zeros((len(numbers), len(detections)))
+        if self._newest is None or not detections or self._newest[0].room != view.room:
+            return iou
+        seen_from, labels, remembered = self._newest
+        by_label = iou_matrix(warp_labels(labels, seen_from, view), len(remembered), [d.mask for d in detections])
+        row_of = {number: row for row, number in enumerate(remembered)}
+        for i, number in enumerate(numbers):
+            if number in row_of:
+                iou[i] = by_label[row_of[number]]
+        return iou
+
+    def remember(self, seen: Sequence[tuple[NDArray[np.bool_], int]], view: View) -> None:
+        """Keep the masks of a frame, each with the number of the thing that it shows."""
+        labels = label_image([mask for mask, _ in seen], view.depth_m.shape)
+        self._newest = (view, labels, [number for _, number in seen])
+
+
 def cost_matrix(
     tracks: Sequence[Track],
     detections: Sequence[Detection],

@@ -11,11 +11,9 @@ from numpy.typing import NDArray
 
 from majordomo.perception.objects.association import (
     AssociationSettings,
+    MaskMemory,
     assign,
     cost_matrix,
-    iou_matrix,
-    label_image,
-    warp_labels,
 )
 from majordomo.perception.objects.beliefs import agreement
 from majordomo.perception.objects.confirmation import (
@@ -35,14 +33,21 @@ from majordomo.perception.objects.existence import (
     visibility,
 )
 from majordomo.perception.objects.identity import IdentitySettings
-from majordomo.perception.objects.projection import View
+from majordomo.perception.objects.pieces import (
+    PieceSettings,
+    has_no_name,
+    is_at_hand,
+    is_of_somebody,
+    is_part,
+    is_piece,
+)
 from majordomo.perception.objects.sight import Sight
 from majordomo.perception.objects.surface import Box, SurfaceBelief
 from majordomo.perception.objects.taken_names import TakenNames
 from majordomo.perception.objects.track import Track, TrackSettings
 from majordomo.perception.vocabulary import category_of
 from majordomo.scene_graph.identifiers import next_id
-from majordomo.scene_graph.nodes import UNKNOWN_LABEL, ObjectState
+from majordomo.scene_graph.nodes import ObjectState
 
 Array = NDArray[np.float64]
 _BORDER = np.ones((7, 7), np.uint8)
@@ -58,15 +63,13 @@ class TrackerSettings:
     ``patience_hits``: how many sightings to wait for a look-alike that is just being missed, or until it is clear
     whether what lies in a row of furniture is a piece of its own. ``doubtful_life_s``: how long what was seen often
     enough waits to be seen from another place; ``homeless_life_s``: how long a thing seen through a door waits for its
-    room to become known; ``wall_share``: of its points in that room's walls, from which on furniture
-    was one of them. ``hand_m``: within what distance of the hand nothing small is found: what the fingers hold or have
-    just put down shows between them in pieces that look like many things. ``person_m``: within what distance of where
-    somebody stands what has no name is a part of them.
+    room to become known; ``wall_share``: of its points in that room's walls, from which on furniture was one of them.
     """
 
     association: AssociationSettings = field(default_factory=AssociationSettings)
     existence: ExistenceSettings = field(default_factory=ExistenceSettings)
     identity: IdentitySettings = field(default_factory=IdentitySettings)
+    pieces: PieceSettings = field(default_factory=PieceSettings)
     track: TrackSettings = field(default_factory=TrackSettings)
     confirm_hits: int = 3
     confirm_label: float = 0.6
@@ -78,8 +81,6 @@ class TrackerSettings:
     homeless_life_s: float = 300.0
     wall_share: float = 0.85
     furniture_min_px: int = 150
-    hand_m: float = 0.25
-    person_m: float = 0.3
 
 
 class Tracker:
@@ -97,7 +98,7 @@ class Tracker:
         self._settings = settings
         self._random = random
         self._born = 0
-        self._previous: tuple[View, NDArray[np.int16], list[int]] | None = None
+        self._masks = MaskMemory()
         self.tracks: list[Track] = []
         self.taken = TakenNames()
         self.matches: dict[int, Track] = {}
@@ -123,7 +124,7 @@ class Tracker:
     def update(self, sight: Sight) -> None:
         """One frame."""
         scope = [t for t in self.tracks if t.room in sight.surroundings.T_here_room and t.state is not ObjectState.HELD]
-        iou = self._mask_overlap(scope, sight)
+        iou = self._masks.overlap([track.number for track in scope], sight.detections, sight.view)
         costs = cost_matrix(scope, sight.detections, iou, sight.surroundings.T_here_room, self._settings.association)
         pairs = assign(costs, self._settings.association.limit)
         self.matches = {}
@@ -141,26 +142,8 @@ class Tracker:
         self._find_missing_again(sight)
         self._unite()
         self._forget_tentative(sight.view.stamp_s)
-        self._remember_masks(sight)
-
-    def _mask_overlap(self, scope: list[Track], sight: Sight) -> Array:
-        """(T, M) IoU of each track's previous mask, moved by the camera's motion, with each new mask."""
-        iou = np.zeros((len(scope), len(sight.detections)))
-        if self._previous is None or not sight.detections or self._previous[0].room != sight.view.room:
-            return iou
-        view, labels, numbers = self._previous
-        warped = warp_labels(labels, view, sight.view)
-        by_label = iou_matrix(warped, len(numbers), [d.mask for d in sight.detections])
-        row_of = {number: row for row, number in enumerate(numbers)}
-        for i, track in enumerate(scope):
-            if track.number in row_of:
-                iou[i] = by_label[row_of[track.number]]
-        return iou
-
-    def _remember_masks(self, sight: Sight) -> None:
         seen = [(d.mask, self.matches[d.index].number) for d in sight.detections if d.index in self.matches]
-        labels = label_image([mask for mask, _ in seen], sight.view.depth_m.shape)
-        self._previous = (sight.view, labels, [number for _, number in seen])
+        self._masks.remember(seen, sight.view)
 
     def _observe(self, track: Track, detection: Detection, sight: Sight) -> None:
         others = [
@@ -230,7 +213,7 @@ class Tracker:
     def _absence(self, track: Track, sight: Sight) -> float:
         T_here_room = sight.surroundings.T_here_room[track.room]
         settings = self._settings.existence
-        if _has_no_name(track) and self._is_of_somebody(track, sight):
+        if has_no_name(track) and is_of_somebody(track, sight, self._settings.pieces):
             return -settings.through_limit
         if track.is_furniture:
             points = T_here_room.apply(track.surface_points)
@@ -245,46 +228,24 @@ class Tracker:
             and bool(box.contains(detection.shape.center[None])[0])
             for detection in sight.detections
         )
-        replaced = replaced or (_has_no_name(track) and self._is_part(track, sight, seen.center_px))
+        replaced = replaced or (has_no_name(track) and is_part(track, sight, self.matches, seen.center_px))
         return absence_evidence(seen, replaced=replaced, settings=settings)
-
-    def _is_of_somebody(self, track: Track, sight: Sight) -> bool:
-        """Whether it is where somebody stands."""
-        x_m, y_m, _ = sight.surroundings.T_here_room[track.room].apply(track.position).tolist()
-        return bool((np.hypot(*(sight.persons - (x_m, y_m)).T) < self._settings.person_m).any())
-
-    def _is_part(self, track: Track, sight: Sight, center_px: tuple[float, float] | None = None) -> bool:
-        """Whether what has no name is a part of a small thing that is seen: it is within that, or ``center_px``, where
-        its middle is in the picture, is.
-        """
-        T_here_room = sight.surroundings.T_here_room
-        for detection in sight.detections:
-            other = self.matches.get(detection.index)
-            if other is None or other is track or other.is_furniture or other.category.container or _has_no_name(other):
-                continue
-            T_other_track = T_here_room[other.room].inverse() @ T_here_room[track.room]
-            if bool(other.box.contains(T_other_track.apply(track.position)[None])[0]):
-                return True
-            if center_px is not None and _shows(detection.mask, center_px):
-                return True
-        return False
 
     def _found(self, detection: Detection, sight: Sight) -> None:
         """Start a new, tentative thing."""
         furniture = category_of(detection.label, detection.shape.size_m).furniture
         enough = detection.cloud.pixels >= self._settings.furniture_min_px if furniture else detection.measurable
-        if not detection.in_range or not enough or (not furniture and self._is_at_hand(detection, sight)):
+        if (
+            not detection.in_range
+            or not enough
+            or (not furniture and is_at_hand(detection, sight, self._settings.pieces))
+        ):
             return
         seen_at = np.median(detection.cloud.points, axis=0) if furniture else detection.shape.center
         room = sight.surroundings.room_of(seen_at)  # how deep furniture is, and so its center, is a guess at first
         track = self.new_track(room or sight.view.room)
         track.homeless = room is None
         self._observe(track, detection, sight)
-
-    def _is_at_hand(self, detection: Detection, sight: Sight) -> bool:
-        if sight.hand is None:
-            return False
-        return float(np.linalg.norm(detection.shape.center - sight.hand)) < self._settings.hand_m
 
     def _settle(self, scope: list[Track], sight: Sight) -> None:
         """Give things seen through a door to their room as soon as it is known, and until then to the robot's; what
@@ -306,7 +267,7 @@ class Tracker:
         """Name what has been seen often enough, or recognize it."""
         identity = self._settings.identity
         for track in [t for t in self.tracks if t.node_id is None and not t.homeless and self._is_stable(t)]:
-            if _has_no_name(track) and self._is_nothing(track, sight):
+            if has_no_name(track) and is_piece(track, sight, self.matches, self._settings.pieces):
                 self.drop(track)
                 continue
             known = [t for t in self.tracks if t.node_id is not None]
@@ -326,16 +287,12 @@ class Tracker:
                 track.node_id = next_id(self.taken, track.label.best)
                 self.taken.add(track.node_id)
 
-    def _is_nothing(self, track: Track, sight: Sight) -> bool:
-        """Whether what has no name is none of the things: somebody, or a piece of a thing that is seen."""
-        return self._is_of_somebody(track, sight) or (not track.is_furniture and self._is_part(track, sight))
-
     def _is_stable(self, track: Track) -> bool:
         settings = self._settings
         sure = track.label.confidence >= settings.confirm_label
         if track.is_furniture or sure:
             return track.hits >= (settings.confirm_hits if sure else 2 * settings.confirm_hits)
-        places = settings.nameless_places if _has_no_name(track) else settings.confirm_places
+        places = settings.nameless_places if has_no_name(track) else settings.confirm_places
         return self._is_doubtful(track) and len(track.seen_from) >= places
 
     def _is_doubtful(self, track: Track) -> bool:
@@ -385,13 +342,3 @@ class Tracker:
         if track.homeless and self._is_stable(track):
             patience_s = settings.homeless_life_s
         return track.state is ObjectState.PRESENT and stamp_s - track.last_seen_s <= patience_s
-
-
-def _has_no_name(track: Track) -> bool:
-    return track.label.best == UNKNOWN_LABEL
-
-
-def _shows(mask: NDArray[np.bool_], pixel: tuple[float, float]) -> bool:
-    """Whether a pixel (u, v) is of a mask."""
-    u, v = (round(each) for each in pixel)
-    return 0 <= v < mask.shape[0] and 0 <= u < mask.shape[1] and bool(mask[v, u])

@@ -1,0 +1,76 @@
+"""What is no thing of its own, however often it is seen: a piece of somebody or of a thing, or what is in the hand."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from majordomo.perception.objects.detection import Detection
+from majordomo.perception.objects.sight import Sight
+from majordomo.perception.objects.track import Track
+from majordomo.scene_graph.nodes import UNKNOWN_LABEL
+
+
+@dataclass(frozen=True, kw_only=True)
+class PieceSettings:
+    """``hand_m``: within what distance of the hand nothing small is found: what the fingers hold or have just put down
+    shows between them in pieces that look like many things. ``person_m``: within what distance of where somebody stands
+    what has no name is a part of them.
+    """
+
+    hand_m: float = 0.25
+    person_m: float = 0.3
+
+
+def has_no_name(track: Track) -> bool:
+    """Whether nobody can say what it is."""
+    return track.label.best == UNKNOWN_LABEL
+
+
+def is_piece(track: Track, sight: Sight, matches: Mapping[int, Track], settings: PieceSettings) -> bool:
+    """Whether what has no name is none of the things: somebody, or a part of a thing that is seen.
+
+    ``matches``: which thing each detection is, by its index.
+    """
+    return is_of_somebody(track, sight, settings) or (not track.is_furniture and is_part(track, sight, matches))
+
+
+def is_of_somebody(track: Track, sight: Sight, settings: PieceSettings) -> bool:
+    """Whether it is where somebody stands."""
+    x_m, y_m, _ = sight.surroundings.T_here_room[track.room].apply(track.position).tolist()
+    return bool((np.hypot(*(sight.persons - (x_m, y_m)).T) < settings.person_m).any())
+
+
+def is_part(
+    track: Track, sight: Sight, matches: Mapping[int, Track], center_px: tuple[float, float] | None = None
+) -> bool:
+    """Whether what has no name is a part of a small thing that is seen: it is within that, or ``center_px``, where its
+    middle is in the picture, is.
+    """
+    T_here_room = sight.surroundings.T_here_room
+    for detection in sight.detections:
+        other = matches.get(detection.index)
+        if other is None or other is track or other.is_furniture or other.category.container or has_no_name(other):
+            continue
+        T_other_track = T_here_room[other.room].inverse() @ T_here_room[track.room]
+        if bool(other.box.contains(T_other_track.apply(track.position)[None])[0]):
+            return True
+        if center_px is not None and _shows(detection.mask, center_px):
+            return True
+    return False
+
+
+def is_at_hand(detection: Detection, sight: Sight, settings: PieceSettings) -> bool:
+    """Whether a small thing seems to be where the fingers are."""
+    if sight.hand is None:
+        return False
+    return float(np.linalg.norm(detection.shape.center - sight.hand)) < settings.hand_m
+
+
+def _shows(mask: NDArray[np.bool_], pixel: tuple[float, float]) -> bool:
+    """Whether a pixel (u, v) is of a mask."""
+    u, v = (round(each) for each in pixel)
+    return 0 <= v < mask.shape[0] and 0 <= u < mask.shape[1] and bool(mask[v, u])

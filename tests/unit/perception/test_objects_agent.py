@@ -464,6 +464,27 @@ def test_what_has_no_name_where_somebody_stands_is_a_part_of_them():
     assert np.linalg.norm(graph.position(node.id, "room_1") - bag.center) < 0.15
 
 
+def test_legs_that_were_taken_for_furniture_are_no_node_once_it_is_seen_whose_they_are():
+    body = Solid(label="person", center=(1.0, 0.5, 1.2), size_m=(0.4, 0.4, 0.9), cylinder=True)
+    legs = Solid(label="unknown", center=(1.0, 0.5, 0.4), size_m=(0.34, 0.24, 0.8))
+    bin_ = Solid(label="unknown", center=(0.8, -0.6, 0.4), size_m=(0.34, 0.24, 0.8))
+    story = Story([legs, bin_], eye=(-1.2, 0.0), target=(1.0, 0.0, 0.7))
+    assert len(story.run(30).of_type(ObjectNode)) == 2
+    story.room.solids = [legs, bin_, body]
+    graph = story.run(10)
+    (node,) = graph.of_type(ObjectNode)
+    assert np.linalg.norm(graph.position(node.id, "room_1") - bin_.center) < 0.2
+
+
+def test_furniture_of_a_doubtful_name_where_somebody_stands_is_a_part_of_them():
+    body = Solid(label="person", center=(1.0, 0.5, 1.2), size_m=(0.4, 0.4, 0.9), cylinder=True)
+    legs = Solid(label="desk", center=(1.0, 0.5, 0.4), size_m=(0.34, 0.24, 0.8), confidence=0.42)
+    desk = Solid(label="desk", center=(1.0, -0.9, 0.4), size_m=(0.6, 1.2, 0.75), confidence=0.42)
+    graph = Story([body, legs, desk], eye=(-1.2, 0.0), target=(1.0, 0.0, 0.7)).run(30)
+    (node,) = graph.of_type(ObjectNode)
+    assert np.linalg.norm(graph.position(node.id, "room_1") - desk.center) < 0.3
+
+
 def test_what_had_no_name_is_gone_once_it_is_seen_as_a_piece_of_a_thing():
     yellow = {"color": (200.0, 180.0, 30.0)}
     corner = Solid(label="unknown", center=(-0.24, 0.0, 0.78), size_m=(0.1, 0.16, 0.06), **yellow)

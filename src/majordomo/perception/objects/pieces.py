@@ -18,11 +18,13 @@ from majordomo.scene_graph.nodes import UNKNOWN_LABEL
 class PieceSettings:
     """``hand_m``: within what distance of the hand nothing small is found: what the fingers hold or have just put down
     shows between them in pieces that look like many things. ``person_m``: within what distance of where somebody stands
-    what has no name is a part of them.
+    what has no name is a part of them, and so is furniture whose name is less likely than ``sure``: of legs alone the
+    network makes the end of a desk or a narrow wardrobe.
     """
 
     hand_m: float = 0.25
     person_m: float = 0.3
+    sure: float = 0.9
 
 
 def has_no_name(track: Track) -> bool:
@@ -31,16 +33,22 @@ def has_no_name(track: Track) -> bool:
 
 
 def is_piece(track: Track, sight: Sight, matches: Mapping[int, Track], settings: PieceSettings) -> bool:
-    """Whether what has no name is none of the things: somebody, or a part of a thing that is seen.
+    """Whether what has no name, or is furniture of a doubtful one, is none of the things: somebody, or a part of a
+    thing that is seen.
 
     ``matches``: which thing each detection is, by its index.
     """
-    return is_of_somebody(track, sight, settings) or (not track.is_furniture and is_part(track, sight, matches))
+    if track.is_furniture:
+        doubtful = has_no_name(track) or track.label.confidence < settings.sure
+        return doubtful and is_of_somebody(track, sight, settings)
+    return has_no_name(track) and (is_of_somebody(track, sight, settings) or is_part(track, sight, matches))
 
 
 def is_of_somebody(track: Track, sight: Sight, settings: PieceSettings) -> bool:
-    """Whether it is where somebody stands."""
-    x_m, y_m, _ = sight.surroundings.T_here_room[track.room].apply(track.position).tolist()
+    """Whether it is where somebody stands: of furniture, the middle of what is seen, for its depth is a guess."""
+    points = track.surface_points
+    middle = np.median(points, axis=0) if len(points) else track.position
+    x_m, y_m, _ = sight.surroundings.T_here_room[track.room].apply(middle).tolist()
     return bool((np.hypot(*(sight.persons - (x_m, y_m)).T) < settings.person_m).any())
 
 

@@ -139,6 +139,7 @@ class Tracker:
         for detection in unmatched:
             self._found(detection, sight)
         self._confirm(sight)
+        self._let_go_of_somebody(sight)
         self._find_missing_again(sight)
         self._unite()
         self._forget_tentative(sight.view.stamp_s)
@@ -267,7 +268,7 @@ class Tracker:
         """Name what has been seen often enough, or recognize it."""
         identity = self._settings.identity
         for track in [t for t in self.tracks if t.node_id is None and not t.homeless and self._is_stable(t)]:
-            if has_no_name(track) and is_piece(track, sight, self.matches, self._settings.pieces):
+            if is_piece(track, sight, self.matches, self._settings.pieces):
                 self.drop(track)
                 continue
             known = [t for t in self.tracks if t.node_id is not None]
@@ -286,6 +287,15 @@ class Tracker:
             else:
                 track.node_id = next_id(self.taken, track.label.best)
                 self.taken.add(track.node_id)
+
+    def _let_go_of_somebody(self, sight: Sight) -> None:
+        """Forget what was given a node before it was known that somebody stands there: furniture without a name."""
+        near = [t for t in self.tracks if t.room in sight.surroundings.T_here_room]
+        for track in [t for t in near if t.node_id is not None and t.is_furniture and has_no_name(t)]:
+            if is_of_somebody(track, sight, self._settings.pieces):
+                self.removed.update({track.node_id} if track.node_id is not None else ())
+                self.matches = {index: other for index, other in self.matches.items() if other is not track}
+                self.drop(track)
 
     def _is_stable(self, track: Track) -> bool:
         settings = self._settings

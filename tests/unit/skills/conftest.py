@@ -73,10 +73,10 @@ class Flat:
         """Put a bottle on a table."""
         return self.thing(node_id, (x, y, 0.87), (0.07, 0.07, 0.24), on=on, graspable=True)
 
-    def person(self, x: float, y: float, room: str = "room_1") -> Flat:
-        """Put a person."""
-        with self.memory.edit("test", 0.0) as tx:
-            tx.put(PersonNode(id="person_1"))
+    def person(self, x: float, y: float, room: str = "room_1", stamp_s: float = 0.0) -> Flat:
+        """Put a person, seen at ``stamp_s``."""
+        with self.memory.edit("test", stamp_s) as tx:
+            tx.put(PersonNode(id="person_1", last_seen_s=stamp_s))
             tx.put(RtEdge(source=room, target="person_1", T_source_target=SE3.from_xyz_yaw(x, y, 0.0, 0.0)))
             tx.put(InEdge(source="person_1", target=room))
         return self

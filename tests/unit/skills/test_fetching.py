@@ -12,8 +12,9 @@ import pytest
 from majordomo.scene_graph.edges import RtEdge
 from majordomo.scene_graph.nodes import ObjectState
 from majordomo.scene_graph.se3 import SE3
-from majordomo.skills.actions.approach import BARRED_COST_M, STOPPED_RAD, passing_over
+from majordomo.skills.actions.approach import STOPPED_RAD
 from majordomo.skills.actions.arm import CARRY_LIFT_M, Retract
+from majordomo.skills.actions.arm_way import BARRED_COST_M, passing_over
 from majordomo.skills.actions.grasp import CloseGripper
 from majordomo.skills.actions.place import ChooseSpot, LowerToPlace, Placement
 from majordomo.skills.anchor import Anchor
@@ -411,16 +412,42 @@ async def test_the_end_of_something_long_bars_the_arm_if_it_is_higher_than_the_h
     built.thing("cabinet_1", (-0.31, -0.64 + aside_m, height_m / 2), (0.98, 0.44, height_m), yaw=-2.08, support=True)
     places = np.array(((-0.70, -0.13), (0.70, 0.13)))  # past the end of the cabinet, whose middle is far, and opposite
     snapshot = built.memory.snapshot()
-    costs = passing_over(snapshot, "room_1", np.zeros(3), 0.5, places, {"bottle_1", "stool_1"})
+    costs = passing_over(snapshot, "room_1", np.zeros(3), 0.5, places, {"bottle_1", "stool_1"}, stamp_s=0.0)
     assert costs.tolist() == [cost_m, 0.0]
 
 
-@pytest.mark.parametrize(("aside_m", "cost_m"), [(0.1, inf), (0.25, inf), (0.4, 0.0)])
-async def test_the_arm_does_not_pass_where_somebody_stands(flat, aside_m, cost_m):
+@pytest.mark.parametrize(
+    ("aside_m", "stamp_s", "cost_m"),
+    [(0.1, 0.0, inf), (0.25, 0.0, inf), (0.4, 0.0, 0.0), (0.25, 60.0, BARRED_COST_M), (0.4, 60.0, 0.0)],
+)
+async def test_the_arm_does_not_pass_where_somebody_stands_or_was_seen(flat, aside_m, stamp_s, cost_m):
     snapshot = flat().person(0.4, aside_m).memory.snapshot()
     places = np.array(((0.8, 0.0), (-0.8, 0.0)))
-    costs = passing_over(snapshot, "room_1", np.zeros(3), 0.5, places, set())
+    costs = passing_over(snapshot, "room_1", np.zeros(3), 0.5, places, set(), stamp_s=stamp_s)
     assert costs.tolist() == [cost_m, 0.0]
+
+
+async def test_who_stands_at_a_thing_is_the_reason_why_nothing_gets_there(kitchen):
+    built = []
+    rehearsal = kitchen(lambda flat: built.append(flat) or flat)
+    bottle = rehearsal.memory.snapshot().position("bottle_1", "room_1")
+    built[0].person(bottle[0] + 0.2, bottle[1])
+    failure = await carry_out(rehearsal, ("PICK", "bottle_1"))
+    assert failure.code is FailureCode.PERSON_IN_WAY
+    assert failure.evidence.nodes[0] == "person_1"
+
+
+async def test_who_stands_at_the_only_free_spot_is_the_reason_why_nothing_is_put_there(kitchen):
+    built = []
+    rehearsal = kitchen(lambda flat: built.append(flat) or flat)
+    context = await rehearsal.prepare()
+    assert await carry_out(rehearsal, ("PICK", "bottle_1"), ("GOTO", "table_2")) is None
+    spot = free_spots(context, "bottle_1", "table_2")[0]
+    x_m, y_m, _ = spot.anchor.position(rehearsal.memory.snapshot(), "room_1")
+    built[0].person(float(x_m) + 0.1, float(y_m), stamp_s=context.stamp_s)
+    placement = Placement(object_id="bottle_1", target="table_2", spots=lambda: [spot])
+    failure = await rehearsal.run([ChooseSpot(context, placement)])
+    assert (failure.code, failure.evidence.nodes) == (FailureCode.PERSON_IN_WAY, ("person_1", "table_2"))
 
 
 async def test_somebody_who_steps_before_the_arm_is_not_touched_and_the_arm_waits(kitchen):

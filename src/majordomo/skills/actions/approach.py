@@ -2,26 +2,32 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from math import atan2, cos, hypot, pi
 
 import numpy as np
 from numpy.typing import NDArray
 from py_trees.common import Status
 
-from majordomo.scene_graph.nodes import ObjectNode, ObjectState, PersonNode
+from majordomo.scene_graph.nodes import ObjectNode
 from majordomo.scene_graph.se3 import SE3
-from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.skills.action import RobotContext
-from majordomo.skills.actions.arm import PERSON_CLEARANCE_M
+from majordomo.skills.actions.arm_way import (
+    BARRED_COST_M,
+    nearest_to,
+    passing_over,
+    people_here,
+    routes_around,
+    spared_nodes,
+    underside_of_held_m,
+)
 from majordomo.skills.actions.driving import DriveTo
 from majordomo.skills.anchor import Anchor, AnchorSource, resolved
 from majordomo.skills.boards import board_under, is_before
 from majordomo.skills.failures import FailureCode
 from majordomo.skills.geometry import Point2, Points
-from majordomo.skills.grasping import DOWN_RAD, HOVER_M, can_grasp, is_tall, underside_m
+from majordomo.skills.grasping import DOWN_RAD, can_grasp, is_tall, underside_m
 from majordomo.skills.navigation.driver import DriverConfig
-from majordomo.skills.navigation.local_map import footprint
 from majordomo.skills.navigation.plan import Goal
 from majordomo.skills.navigation.pose import planar_pose, robot_frame
 from majordomo.skills.navigation.route import Routes
@@ -36,18 +42,9 @@ STRETCH_COST_M = 2.0
 ANGLES = 36
 RADIUS_WEIGHT = 1.5
 CLEARANCE_WEIGHT = 1.0
-IN_THE_WAY_COST_M = 3.0
 STOPPED_COST_M, STOPPED_RAD, STOPPED_S = 5.0, 0.35, 120.0
 """Sides as near as this to one from which the arm was stopped lately are tried again where no other is free."""
-BARRED_COST_M = 20.0
-"""More than any other: the arm would meet furniture that is higher than the hand, or the end of a shelf."""
-SAMPLE_M = 0.06
-"""How finely the arm's way is looked at."""
-ARM_HALF_WIDTH_M = 0.09
-SURELY_MET_M = 0.06
-"""So near to the middle of its way, the hand meets what is higher, however well that was measured."""
 TRIES = 3
-HELD_MARGIN_M = 0.06
 
 
 Admission = Callable[[Points], NDArray[np.bool_]]
@@ -93,13 +90,30 @@ class ApproachForReach(DriveTo):
             return Status.RUNNING
         if not no_way:
             return super().blocked(obstacle, no_way=no_way)
+        if (person := self._who_bars()) is not None:
+            message = f"{person} stands where I would have to be, or to reach, to get at {self.target}."
+            return self.fail(FailureCode.PERSON_IN_WAY, message, (person, self.target))
         x_m, y_m, _ = resolved(self._where).position(self.context.snapshot, robot_frame(self.context.snapshot))
         message = f"there is no free place from which the arm reaches {self.target}."
         tried = len(self._reaches_m()) * ANGLES
         where = f"point ({x_m:.2f}, {y_m:.2f}) m, {tried} places tried"
         return self.fail(FailureCode.UNREACHABLE, message, (self.target,), where)
 
-    def _goals_around(self, routes: Routes | None) -> list[Goal]:
+    def _who_bars(self) -> str | None:
+        """The person without whom there would be a place: one of those who were just seen here."""
+        context, people = self.context, people_here(self.context)
+        if not people:
+            return None
+        frame = robot_frame(context.snapshot)
+        target = resolved(self._where).position(context.snapshot, frame)
+        here = planar_pose(context, frame).point
+        routes = routes_around(context, here, [(float(target[0]), float(target[1]))], spared=people)
+        goals = self._goals_around(routes, spared=people)
+        free = goals and np.isfinite(routes.cost_at(np.array([goal.point for goal in goals]))).any()
+        return nearest_to(context.snapshot, people, target, frame) if free else None
+
+    def _goals_around(self, routes: Routes | None, *, spared: Collection[str] = ()) -> list[Goal]:
+        """Places to stand; ``spared``: people who are thought away."""
         snapshot = self.context.snapshot
         frame = robot_frame(snapshot)
         target = resolved(self._where).position(snapshot, frame)
@@ -110,7 +124,8 @@ class ApproachForReach(DriveTo):
         costs += np.where(radii > EASY_RADIUS_M + 1e-6, STRETCH_COST_M, 0.0)
         costs += CLEARANCE_WEIGHT * np.clip(0.6 - routes.grid.clearance_at(points), 0.0, None)
         low_m = self._underside_m(float(target[2]))
-        costs += passing_over(snapshot, frame, target, low_m, points, self._spared())
+        spared_here = self._spared() | set(spared)
+        costs += passing_over(snapshot, frame, target, low_m, points, spared_here, stamp_s=self.context.stamp_s)
         bearings = np.arctan2(points[:, 1] - target[1], points[:, 0] - target[0])
         costs += np.where(self._stopped_lately(bearings), STOPPED_COST_M, 0.0)
         fits = self._fits(points, target)
@@ -138,8 +153,10 @@ class ApproachForReach(DriveTo):
         fits = self._fits(here, target)[0]
         stopped = self._stopped_lately(np.arctan2(here[:, 1] - target[1], here[:, 0] - target[0]))[0]
         low_m = self._underside_m(float(target[2]))
-        free = passing_over(self.context.snapshot, frame, target, low_m, here, self._spared())[0] < BARRED_COST_M
-        faces = free and self._faces_board(frame, here)[0] and self._admits(here)[0]
+        over_m = passing_over(
+            self.context.snapshot, frame, target, low_m, here, self._spared(), stamp_s=self.context.stamp_s
+        )[0]
+        faces = over_m < BARRED_COST_M and self._faces_board(frame, here)[0] and self._admits(here)[0]
         return bool(nearest_m < float(np.hypot(x_m, y_m)) < farthest_m and fits and faces and not stopped)
 
     def _stopped_lately(self, bearings_rad: Points) -> NDArray[np.bool_]:
@@ -195,18 +212,6 @@ class ApproachForReach(DriveTo):
         return spared_nodes(self.context.snapshot, self.target, resolved(self._where).node_id)
 
 
-def underside_of_held_m(z_m: float) -> float:
-    """Height over which the hand passes with what it holds on its way to a spot at ``z_m``."""
-    return z_m + HOVER_M - HELD_MARGIN_M
-
-
-def spared_nodes(snapshot: Snapshot, *targets: str) -> set[str]:
-    """Nodes that are no obstacle to the arm: the targets, what the first stands on, and what is held."""
-    support = snapshot.support_of(targets[0]) if isinstance(snapshot.get(targets[0]), ObjectNode) else None
-    held = snapshot.robot.holding if snapshot.robot is not None else None
-    return {*targets, *(node for node in (support, held) if node is not None)}
-
-
 def reaches_m(context: RobotContext, pitch_rad: float) -> tuple[float, ...]:
     """How far before the base a hand with that pitch can be, in steps and with a little to spare."""
     hand_m = context.geometry.hand_length_m * cos(pitch_rad)
@@ -220,34 +225,3 @@ def ring(center: Points, radii_m: Sequence[float], angles: int = ANGLES) -> tupl
     radius, angle = np.meshgrid(np.array(radii_m), np.arange(angles) * 2 * pi / angles, indexing="ij")
     offsets = np.stack([radius.ravel() * np.cos(angle.ravel()), radius.ravel() * np.sin(angle.ravel())], axis=1)
     return center + offsets, radius.ravel()
-
-
-def passing_over(
-    snapshot: Snapshot, frame: str, target: Points, low_m: float, points: Points, spared: set[str]
-) -> Points:
-    """For each place, (N,), what it costs that things which reach up to ``low_m`` lie on the way of the hand from there
-    straight to the target: small ones may be pushed, furniture bars it; no place will do from which the hand is sure to
-    meet that, or comes near to a person.
-    """
-    costs = np.zeros(len(points))
-    farthest_m = float(np.hypot(*(points - target[:2]).T).max())
-    along = np.linspace(0.0, 1.0, max(int(farthest_m / SAMPLE_M), 2))[:, None, None]
-    way = target[:2] + along * (points - target[:2])
-    for node in snapshot.of_type(ObjectNode):
-        if node.id in spared or node.state is not ObjectState.PRESENT or snapshot.room_of(node.id) != frame:
-            continue
-        x_m, y_m, z_m = snapshot.position(node.id, frame)
-        reach_m = float(np.hypot(x_m - target[0], y_m - target[1]))
-        if z_m + node.size_m[2] / 2 < low_m or reach_m > farthest_m + max(node.size_m[:2]):
-            continue
-        away_m = footprint(snapshot, node, frame).distance_m(way.reshape(-1, 2)).reshape(way.shape[:2])
-        nearest_m = away_m.min(axis=0)
-        cost_m = IN_THE_WAY_COST_M if node.graspable else BARRED_COST_M
-        costs += np.where(nearest_m < ARM_HALF_WIDTH_M, cost_m, 0.0)
-        if not node.graspable:
-            costs += np.where(nearest_m < SURELY_MET_M, np.inf, 0.0)
-    for person in snapshot.of_type(PersonNode):
-        if snapshot.room_of(person.id) == frame:
-            away_m = np.linalg.norm(way - snapshot.position(person.id, frame)[:2], axis=2)
-            costs += np.where(away_m.min(axis=0) < PERSON_CLEARANCE_M, np.inf, 0.0)
-    return costs

@@ -11,6 +11,7 @@ from py_trees.common import Status
 
 from majordomo.scene_graph.nodes import PersonNode
 from majordomo.skills.action import Action, RobotContext
+from majordomo.skills.actions.arm_way import DRIFT_M, PERSON_CLEARANCE_M
 from majordomo.skills.boards import is_among_boards
 from majordomo.skills.failures import FailureCode
 from majordomo.skills.grasping import DOWN_RAD
@@ -28,8 +29,6 @@ ANGLE_TOLERANCE_RAD = 0.05
 STALL_S = 0.8
 EMPTY_OPENING_M = 0.004
 SLIP_S = 0.3
-PERSON_CLEARANCE_M, DRIFT_M = 0.32, 0.04
-"""So far from the middle of a person the middle of the arm keeps, from a place that is as far off as a drive may be."""
 
 
 class ArmProgress(Enum):

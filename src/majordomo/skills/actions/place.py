@@ -10,15 +10,17 @@ import numpy as np
 from py_trees.common import Status
 
 from majordomo.skills.action import Action, RobotContext
-from majordomo.skills.actions.approach import (
+from majordomo.skills.actions.approach import reaches_m, ring
+from majordomo.skills.actions.arm import STOWED, ArmAction, ArmProgress
+from majordomo.skills.actions.arm_way import (
     BARRED_COST_M,
+    nearest_to,
     passing_over,
-    reaches_m,
-    ring,
+    people_here,
+    routes_around,
     spared_nodes,
     underside_of_held_m,
 )
-from majordomo.skills.actions.arm import STOWED, ArmAction, ArmProgress
 from majordomo.skills.actions.spot_reach import ABOVE_RIM_M, Placement, above_bottom_m, admitted, is_within_lift
 from majordomo.skills.boards import TURN_RAD
 from majordomo.skills.errors import Unreachable
@@ -26,10 +28,8 @@ from majordomo.skills.failures import FailureCode
 from majordomo.skills.geometry import Points
 from majordomo.skills.grasping import TIP_M
 from majordomo.skills.kinematics import arm_target
-from majordomo.skills.navigation.local_map import draw_map
-from majordomo.skills.navigation.pose import footprint_radius_m, look_around, planar_pose, robot_frame
-from majordomo.skills.navigation.route import Routes, find_routes
-from majordomo.skills.navigation.walls import Walls
+from majordomo.skills.navigation.pose import look_around, planar_pose, robot_frame
+from majordomo.skills.navigation.route import Routes
 from majordomo.skills.place_spot import GAP_M, Spot
 from majordomo.skills.ports import ArmTarget
 
@@ -52,7 +52,8 @@ TIGHT_WEIGHT = 3.0
 class ChooseSpot(Action):
     """Chooses, among the free spots, the one that is cheapest to reach from here.
 
-    Fails with SUPPORT_FULL where there is none, or where other things leave only such as cannot be reached.
+    Fails with SUPPORT_FULL where there is none, or where other things leave only such as cannot be reached, and with
+    PERSON_IN_WAY where one could be reached were it not for somebody who is there.
     """
 
     def __init__(self, context: RobotContext, placement: Placement) -> None:
@@ -67,45 +68,53 @@ class ChooseSpot(Action):
         spots = list(self._placement.spots())
         if not spots:
             return _full(self, self._placement)
-        found = len(spots)
         spot = self._cheapest(spots)
         if spot is None:
-            if self._cheapest(self._placement.spots_if_empty()) is not None:
-                return _full(self, self._placement)
-            message = f"there is no free place from which the arm reaches {self._placement.target}."
-            return self.fail(FailureCode.UNREACHABLE, message, (self._placement.target,), f"{found} spots tried")
+            return self._out_of_reach(spots)
         self._placement.spot = spot
         return Status.SUCCESS
 
-    def _cheapest(self, spots: Sequence[Spot]) -> Spot | None:
+    def _out_of_reach(self, spots: Sequence[Spot]) -> Status:
+        """Fail because of what keeps the robot from all of them: things on the support, people, or the building."""
+        target, if_empty, people = self._placement.target, self._placement.spots_if_empty(), people_here(self.context)
+        if self._cheapest(if_empty) is not None:
+            return _full(self, self._placement)
+        if people and self._cheapest(spots, spared=people) is not None:
+            snapshot, frame = self.context.snapshot, robot_frame(self.context.snapshot)
+            person = nearest_to(snapshot, people, spots[0].anchor.position(snapshot, frame), frame)
+            message = f"{person} stands where I would have to be, or to reach, to put something down at {target}."
+            return self.fail(FailureCode.PERSON_IN_WAY, message, (person, target))
+        if people and self._cheapest(if_empty, spared=people) is not None:
+            return _full(self, self._placement)
+        message = f"there is no free place from which the arm reaches {target}."
+        return self.fail(FailureCode.UNREACHABLE, message, (target,), f"{len(spots)} spots tried")
+
+    def _cheapest(self, spots: Sequence[Spot], *, spared: Sequence[str] = ()) -> Spot | None:
         """The one that is cheapest to reach from here, if any with nothing high in the arm's way; ``None`` where none
-        can be reached.
+        can be reached. ``spared``: people who are thought away.
         """
         within = [spot for spot in spots if is_within_lift(self.context, spot)]
         if len(within) > MOST_SPOTS:
             within = [within[int(i)] for i in np.linspace(0, len(within) - 1, MOST_SPOTS)]
         if not within:
             return None
-        routes = self._routes(within)
+        routes = self._routes(within, spared)
         costs = [(self._cost_m(routes, spot), i) for i, spot in enumerate(within)]
         barred: Spot | None = None
         for spot in (within[i] for cost_m, i in sorted(costs) if isfinite(cost_m)):
-            over_m = self._over_m(routes, spot)
+            over_m = self._over_m(routes, spot, spared)
             if over_m < BARRED_COST_M:
                 return spot
             barred = barred or (spot if isfinite(over_m) else None)
         return barred
 
-    def _routes(self, spots: Sequence[Spot]) -> Routes:
+    def _routes(self, spots: Sequence[Spot], spared: Sequence[str]) -> Routes:
         """The ways from here on a map that shows all the spots."""
         snapshot = self.context.snapshot
         frame = robot_frame(snapshot)
-        pose = planar_pose(self.context, frame)
         centers = [spot.anchor.position(snapshot, frame) for spot in spots]
-        points = [pose.point, *((float(x), float(y)) for x, y, _ in centers)]
-        around = self.context.surroundings.points()
-        grid = draw_map(snapshot, frame, around, points, walls=Walls.of(snapshot, frame), stamp_s=self.context.stamp_s)
-        return find_routes(grid, pose.point, footprint_radius_m(self.context))
+        points = [(float(x), float(y)) for x, y, _ in centers]
+        return routes_around(self.context, planar_pose(self.context, frame).point, points, spared=spared)
 
     def _cost_m(self, routes: Routes, spot: Spot) -> float:
         """Way to the best place to stand for a spot, plus a little for a tight one."""
@@ -120,15 +129,16 @@ class ChooseSpot(Action):
         places = ring(center, reaches_m(self.context, self.context.body.arm.wrist_pitch_rad)[:-1])[0]
         return places, np.where(admitted(self.context, spot, places), routes.cost_at(places), np.inf)
 
-    def _over_m(self, routes: Routes, spot: Spot) -> float:
+    def _over_m(self, routes: Routes, spot: Spot, people: Sequence[str]) -> float:
         """The least cost, from any place that the robot gets to, of what stands between there and a spot."""
         snapshot = self.context.snapshot
         frame = robot_frame(snapshot)
         places, ways_m = self._ways_m(routes, spot)
         target = spot.anchor.position(snapshot, frame)
-        spared = spared_nodes(snapshot, self._placement.target, spot.anchor.node_id)
-        low_m = underside_of_held_m(float(target[2]))
-        return float(passing_over(snapshot, frame, target, low_m, places[np.isfinite(ways_m)], spared).min())
+        spared = spared_nodes(snapshot, self._placement.target, spot.anchor.node_id) | set(people)
+        low_m, stamp_s = underside_of_held_m(float(target[2])), self.context.stamp_s
+        reached = places[np.isfinite(ways_m)]
+        return float(passing_over(snapshot, frame, target, low_m, reached, spared, stamp_s=stamp_s).min())
 
     def _hidden_m(self, spot: Spot) -> float:
         """The lower a board, the more of it the one above hides from the camera: a price, in meters of way."""

@@ -1,0 +1,103 @@
+"""What lies on the way of the hand from where the robot may stand to what it reaches for: things, furniture, people."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+
+import numpy as np
+
+from majordomo.scene_graph.nodes import ObjectNode, ObjectState, PersonNode
+from majordomo.scene_graph.snapshot import Snapshot
+from majordomo.skills.action import RobotContext
+from majordomo.skills.geometry import Point2, Points
+from majordomo.skills.grasping import HOVER_M
+from majordomo.skills.navigation.local_map import PERSON_FRESH_S, PERSON_RADIUS_M, draw_map, footprint
+from majordomo.skills.navigation.pose import footprint_radius_m, robot_frame
+from majordomo.skills.navigation.route import Routes, find_routes
+from majordomo.skills.navigation.walls import Walls
+
+IN_THE_WAY_COST_M = 3.0
+BARRED_COST_M = 20.0
+"""More than any other: the arm would meet furniture that is higher than the hand, or the end of a shelf."""
+SAMPLE_M = 0.06
+"""How finely the arm's way is looked at."""
+ARM_HALF_WIDTH_M = 0.09
+SURELY_MET_M = 0.06
+"""So near to the middle of its way, the hand meets what is higher, however well that was measured."""
+HELD_MARGIN_M = 0.06
+PERSON_CLEARANCE_M, DRIFT_M = 0.32, 0.04
+"""So far from the middle of a person the middle of the arm keeps, from a place that is as far off as a drive may be."""
+AROUND_PERSON_M = PERSON_RADIUS_M + 0.1
+"""What is hit so near to where somebody stands is taken for them."""
+
+
+def underside_of_held_m(z_m: float) -> float:
+    """Height over which the hand passes with what it holds on its way to a spot at ``z_m``."""
+    return z_m + HOVER_M - HELD_MARGIN_M
+
+
+def spared_nodes(snapshot: Snapshot, *targets: str) -> set[str]:
+    """Nodes that are no obstacle to the arm: the targets, what the first stands on, and what is held."""
+    support = snapshot.support_of(targets[0]) if isinstance(snapshot.get(targets[0]), ObjectNode) else None
+    held = snapshot.robot.holding if snapshot.robot is not None else None
+    return {*targets, *(node for node in (support, held) if node is not None)}
+
+
+def passing_over(
+    snapshot: Snapshot, frame: str, target: Points, low_m: float, points: Points, spared: set[str], *, stamp_s: float
+) -> Points:
+    """For each place, (N,), what it costs that things which reach up to ``low_m`` lie on the way of the hand from there
+    straight to the target: small ones may be pushed, furniture bars it, and so does a person who was there a while ago;
+    no place will do from which the hand is sure to meet furniture, or comes near to a person who is there.
+    """
+    costs = np.zeros(len(points))
+    farthest_m = float(np.hypot(*(points - target[:2]).T).max())
+    along = np.linspace(0.0, 1.0, max(int(farthest_m / SAMPLE_M), 2))[:, None, None]
+    way = target[:2] + along * (points - target[:2])
+    for node in snapshot.of_type(ObjectNode):
+        if node.id in spared or node.state is not ObjectState.PRESENT or snapshot.room_of(node.id) != frame:
+            continue
+        x_m, y_m, z_m = snapshot.position(node.id, frame)
+        reach_m = float(np.hypot(x_m - target[0], y_m - target[1]))
+        if z_m + node.size_m[2] / 2 < low_m or reach_m > farthest_m + max(node.size_m[:2]):
+            continue
+        away_m = footprint(snapshot, node, frame).distance_m(way.reshape(-1, 2)).reshape(way.shape[:2])
+        nearest_m = away_m.min(axis=0)
+        cost_m = IN_THE_WAY_COST_M if node.graspable else BARRED_COST_M
+        costs += np.where(nearest_m < ARM_HALF_WIDTH_M, cost_m, 0.0)
+        if not node.graspable:
+            costs += np.where(nearest_m < SURELY_MET_M, np.inf, 0.0)
+    for person in snapshot.of_type(PersonNode):
+        if person.id not in spared and snapshot.room_of(person.id) == frame:
+            away_m = np.linalg.norm(way - snapshot.position(person.id, frame)[:2], axis=2)
+            cost_m = np.inf if stamp_s - person.last_seen_s < PERSON_FRESH_S else BARRED_COST_M
+            costs += np.where(away_m.min(axis=0) < PERSON_CLEARANCE_M, cost_m, 0.0)
+    return costs
+
+
+def people_here(context: RobotContext) -> list[str]:
+    """Who was seen a moment ago in the robot's room."""
+    snapshot, frame = context.snapshot, robot_frame(context.snapshot)
+    return [
+        person.id
+        for person in snapshot.of_type(PersonNode)
+        if snapshot.room_of(person.id) == frame and context.stamp_s - person.last_seen_s < PERSON_FRESH_S
+    ]
+
+
+def nearest_to(snapshot: Snapshot, people: Sequence[str], target: Points, frame: str) -> str:
+    """The one of them who stands nearest to a target (3,)."""
+    return min(people, key=lambda person: float(np.hypot(*(snapshot.position(person, frame) - target)[:2])))
+
+
+def routes_around(
+    context: RobotContext, here: Point2, spots: Sequence[Point2], *, spared: Collection[str] = ()
+) -> Routes:
+    """The ways from ``here`` on a map that shows all the spots; ``spared``: people who are thought away."""
+    snapshot, frame = context.snapshot, robot_frame(context.snapshot)
+    hit = context.surroundings.points()
+    for person in spared:
+        hit = hit[np.hypot(*(hit - snapshot.position(person, frame)[:2]).T) > AROUND_PERSON_M]
+    walls = Walls.of(snapshot, frame)
+    grid = draw_map(snapshot, frame, hit, [here, *spots], walls=walls, stamp_s=context.stamp_s, ignore=spared)
+    return find_routes(grid, here, footprint_radius_m(context))

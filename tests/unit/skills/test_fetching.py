@@ -230,7 +230,8 @@ async def test_where_things_leave_free_only_what_cannot_be_reached_the_table_is_
     assert (await rehearsal.run([ChooseSpot(context, placement)])).code is FailureCode.UNREACHABLE
 
 
-async def test_a_spot_is_chosen_to_which_the_arm_gets_past_what_is_higher(kitchen):
+@pytest.mark.parametrize(("graspable", "code"), [(False, FailureCode.UNREACHABLE), (True, None)])
+async def test_a_spot_is_chosen_to_which_the_arm_gets_past_what_is_higher(kitchen, graspable, code):
     built = []
     rehearsal = kitchen(lambda flat: built.append(flat) or flat)
     assert await carry_out(rehearsal, ("PICK", "bottle_1"), ("GOTO", "table_2")) is None
@@ -240,12 +241,13 @@ async def test_a_spot_is_chosen_to_which_the_arm_gets_past_what_is_higher(kitche
     assert await rehearsal.run([ChooseSpot(context, placement)]) is None
     cheapest = placement.spot
     x_m, y_m, _ = cheapest.anchor.position(rehearsal.memory.snapshot(), "room_1")
-    built[0].thing("plant_1", (x_m, y_m, 1.1), (0.1, 0.1, 0.7))
+    built[0].thing("plant_1", (x_m, y_m, 1.1), (0.1, 0.1, 0.7), graspable=graspable)
     assert await rehearsal.run([ChooseSpot(context, placement)]) is None
     x2_m, y2_m, _ = placement.spot.anchor.position(rehearsal.memory.snapshot(), "room_1")
     assert np.hypot(x2_m - x_m, y2_m - y_m) > 0.1
     placement.spots = lambda: [cheapest]
-    assert (await rehearsal.run([ChooseSpot(context, placement)])).code is FailureCode.UNREACHABLE
+    failure = await rehearsal.run([ChooseSpot(context, placement)])
+    assert (failure.code if failure else None) is code
 
 
 async def test_a_place_taken_meanwhile_is_exchanged_for_a_free_one(kitchen, onlooker):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from math import dist, hypot, isfinite
+from math import dist, hypot, inf
 
 import numpy as np
 from py_trees.common import Status
@@ -13,7 +13,6 @@ from majordomo.skills.action import Action, RobotContext
 from majordomo.skills.actions.approach import reaches_m, ring
 from majordomo.skills.actions.arm import STOWED, ArmAction, ArmProgress
 from majordomo.skills.actions.arm_way import (
-    BARRED_COST_M,
     nearest_to,
     passing_over,
     people_here,
@@ -90,7 +89,7 @@ class ChooseSpot(Action):
         return self.fail(FailureCode.UNREACHABLE, message, (target,), f"{len(spots)} spots tried")
 
     def _cheapest(self, spots: Sequence[Spot], *, spared: Sequence[str] = ()) -> Spot | None:
-        """The one that is cheapest to reach from here, if any with nothing high in the arm's way; ``None`` where none
+        """The one that is cheapest to reach from here, with as little as may be in the arm's way; ``None`` where none
         can be reached. ``spared``: people who are thought away.
         """
         within = [spot for spot in spots if is_within_lift(self.context, spot)]
@@ -99,14 +98,13 @@ class ChooseSpot(Action):
         if not within:
             return None
         routes = self._routes(within, spared)
-        costs = [(self._cost_m(routes, spot), i) for i, spot in enumerate(within)]
-        barred: Spot | None = None
-        for spot in (within[i] for cost_m, i in sorted(costs) if isfinite(cost_m)):
-            over_m = self._over_m(routes, spot, spared)
-            if over_m < BARRED_COST_M:
-                return spot
-            barred = barred or (spot if isfinite(over_m) else None)
-        return barred
+        least_m, best = inf, None
+        for cost_m, i in sorted((self._cost_m(routes, spot), i) for i, spot in enumerate(within)):
+            if cost_m >= least_m:
+                break
+            if (total_m := self._total_m(routes, within[i], spared)) < least_m:
+                least_m, best = total_m, within[i]
+        return best
 
     def _routes(self, spots: Sequence[Spot], spared: Sequence[str]) -> Routes:
         """The ways from here on a map that shows all the spots."""
@@ -118,9 +116,12 @@ class ChooseSpot(Action):
 
     def _cost_m(self, routes: Routes, spot: Spot) -> float:
         """Way to the best place to stand for a spot, plus a little for a tight one."""
+        return float(self._ways_m(routes, spot)[1].min()) + self._price_m(spot)
+
+    def _price_m(self, spot: Spot) -> float:
+        """What a spot costs wherever one stands: a tight or hidden one is as good as one that is so much farther."""
         tight_m = 0.0 if spot.inside else max(TIGHT_M - spot.room_m, 0.0)
-        way_m = float(self._ways_m(routes, spot)[1].min())
-        return way_m + TIGHT_WEIGHT * tight_m + self._hidden_m(spot)
+        return TIGHT_WEIGHT * tight_m + self._hidden_m(spot)
 
     def _ways_m(self, routes: Routes, spot: Spot) -> tuple[Points, Points]:
         """Places (N, 2) from which the hand gets to a spot, and the cost (N,) of the way to each."""
@@ -129,16 +130,17 @@ class ChooseSpot(Action):
         places = ring(center, reaches_m(self.context, self.context.body.arm.wrist_pitch_rad)[:-1])[0]
         return places, np.where(admitted(self.context, spot, places), routes.cost_at(places), np.inf)
 
-    def _over_m(self, routes: Routes, spot: Spot, people: Sequence[str]) -> float:
-        """The least cost, from any place that the robot gets to, of what stands between there and a spot."""
+    def _total_m(self, routes: Routes, spot: Spot, people: Sequence[str]) -> float:
+        """Cost with what the arm would have to pass over, from the best place to stand."""
         snapshot = self.context.snapshot
         frame = robot_frame(snapshot)
         places, ways_m = self._ways_m(routes, spot)
+        reached = np.isfinite(ways_m)
         target = spot.anchor.position(snapshot, frame)
         spared = spared_nodes(snapshot, self._placement.target, spot.anchor.node_id) | set(people)
         low_m, stamp_s = underside_of_held_m(float(target[2])), self.context.stamp_s
-        reached = places[np.isfinite(ways_m)]
-        return float(passing_over(snapshot, frame, target, low_m, reached, spared, stamp_s=stamp_s).min())
+        over_m = passing_over(snapshot, frame, target, low_m, places[reached], spared, stamp_s=stamp_s)
+        return float((ways_m[reached] + over_m).min()) + self._price_m(spot)
 
     def _hidden_m(self, spot: Spot) -> float:
         """The lower a board, the more of it the one above hides from the camera: a price, in meters of way."""

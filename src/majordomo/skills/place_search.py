@@ -41,7 +41,8 @@ def free_spots(context: RobotContext, held: str, target: str, *, as_empty: bool 
     if node is None:
         return []
     if isinstance(node, ObjectNode):
-        return _unblocked(context, spots_on(snapshot, target, size_m, held, as_empty=as_empty))
+        spots = spots_on(snapshot, target, size_m, held, as_empty=as_empty)
+        return spots if as_empty else _unblocked(context, spots)
     near_m = HANDOVER_M if isinstance(node, PersonNode) else np.inf
     supports = _supports(snapshot, snapshot.room_of(target), held)
     for nameless in (False, True):

@@ -250,6 +250,18 @@ async def test_a_spot_is_chosen_to_which_the_arm_gets_past_what_is_higher(kitche
     assert (failure.code if failure else None) is code
 
 
+async def test_things_that_keep_the_arm_from_every_spot_of_a_table_make_it_full(kitchen):
+    built = []
+    rehearsal = kitchen(lambda flat: built.append(flat) or flat)
+    assert await carry_out(rehearsal, ("PICK", "bottle_1"), ("GOTO", "table_2")) is None
+    context = await rehearsal.prepare()
+    spot = free_spots(context, "bottle_1", "table_2")[0]
+    x_m, y_m, _ = spot.anchor.position(rehearsal.memory.snapshot(), "room_1")
+    built[0].thing("plant_1", (x_m, y_m, 1.1), (0.1, 0.1, 0.7), on="table_2")
+    placement = Placement(object_id="bottle_1", target="table_2", spots=lambda: [spot], spots_if_empty=lambda: [spot])
+    assert (await rehearsal.run([ChooseSpot(context, placement)])).code is FailureCode.SUPPORT_FULL
+
+
 async def test_a_place_taken_meanwhile_is_exchanged_for_a_free_one(kitchen, onlooker):
     rehearsal = kitchen()
     assert await carry_out(rehearsal, ("PICK", "bottle_1"), ("GOTO", "table_2")) is None

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 from math import dist, hypot, inf
 
 import numpy as np
 from py_trees.common import Status
 
+from majordomo.scene_graph.nodes import ObjectNode
 from majordomo.skills.action import Action, RobotContext
 from majordomo.skills.actions.approach import reaches_m, ring
 from majordomo.skills.actions.arm import STOWED, ArmAction, ArmProgress
@@ -29,7 +30,7 @@ from majordomo.skills.grasping import TIP_M
 from majordomo.skills.kinematics import arm_target
 from majordomo.skills.navigation.pose import look_around, planar_pose, robot_frame
 from majordomo.skills.navigation.route import Routes
-from majordomo.skills.place_spot import GAP_M, Spot
+from majordomo.skills.place_spot import GAP_M, Spot, stands_on
 from majordomo.skills.ports import ArmTarget
 
 RELEASE_M = -0.004
@@ -76,43 +77,47 @@ class ChooseSpot(Action):
     def _out_of_reach(self, spots: Sequence[Spot]) -> Status:
         """Fail because of what keeps the robot from all of them: things on the support, people, or the building."""
         target, if_empty, people = self._placement.target, self._placement.spots_if_empty(), people_here(self.context)
-        if self._cheapest(if_empty) is not None:
+        snapshot, frame = self.context.snapshot, robot_frame(self.context.snapshot)
+        furniture = isinstance(snapshot.get(target), ObjectNode)
+        things = [node.id for node in stands_on(snapshot, target, None)] if furniture else []
+        if self._cheapest(if_empty, things=things) is not None:
             return _full(self, self._placement)
-        if people and self._cheapest(spots, spared=people) is not None:
-            snapshot, frame = self.context.snapshot, robot_frame(self.context.snapshot)
+        if people and self._cheapest(spots, people=people) is not None:
             person = nearest_to(snapshot, people, spots[0].anchor.position(snapshot, frame), frame)
             message = f"{person} stands where I would have to be, or to reach, to put something down at {target}."
             return self.fail(FailureCode.PERSON_IN_WAY, message, (person, target))
-        if people and self._cheapest(if_empty, spared=people) is not None:
+        if people and self._cheapest(if_empty, people=people, things=things) is not None:
             return _full(self, self._placement)
         message = f"there is no free place from which the arm reaches {target}."
         return self.fail(FailureCode.UNREACHABLE, message, (target,), f"{len(spots)} spots tried")
 
-    def _cheapest(self, spots: Sequence[Spot], *, spared: Sequence[str] = ()) -> Spot | None:
+    def _cheapest(
+        self, spots: Sequence[Spot], *, people: Sequence[str] = (), things: Sequence[str] = ()
+    ) -> Spot | None:
         """The one that is cheapest to reach from here, with as little as may be in the arm's way; ``None`` where none
-        can be reached. ``spared``: people who are thought away.
+        can be reached. ``people`` and ``things`` are thought away.
         """
         within = [spot for spot in spots if is_within_lift(self.context, spot)]
         if len(within) > MOST_SPOTS:
             within = [within[int(i)] for i in np.linspace(0, len(within) - 1, MOST_SPOTS)]
         if not within:
             return None
-        routes = self._routes(within, spared)
+        routes = self._routes(within, people)
         least_m, best = inf, None
         for cost_m, i in sorted((self._cost_m(routes, spot), i) for i, spot in enumerate(within)):
             if cost_m >= least_m:
                 break
-            if (total_m := self._total_m(routes, within[i], spared)) < least_m:
+            if (total_m := self._total_m(routes, within[i], {*people, *things})) < least_m:
                 least_m, best = total_m, within[i]
         return best
 
-    def _routes(self, spots: Sequence[Spot], spared: Sequence[str]) -> Routes:
+    def _routes(self, spots: Sequence[Spot], people: Sequence[str]) -> Routes:
         """The ways from here on a map that shows all the spots."""
         snapshot = self.context.snapshot
         frame = robot_frame(snapshot)
         centers = [spot.anchor.position(snapshot, frame) for spot in spots]
         points = [(float(x), float(y)) for x, y, _ in centers]
-        return routes_around(self.context, planar_pose(self.context, frame).point, points, spared=spared)
+        return routes_around(self.context, planar_pose(self.context, frame).point, points, spared=people)
 
     def _cost_m(self, routes: Routes, spot: Spot) -> float:
         """Way to the best place to stand for a spot, plus a little for a tight one."""
@@ -130,16 +135,16 @@ class ChooseSpot(Action):
         places = ring(center, reaches_m(self.context, self.context.body.arm.wrist_pitch_rad)[:-1])[0]
         return places, np.where(admitted(self.context, spot, places), routes.cost_at(places), np.inf)
 
-    def _total_m(self, routes: Routes, spot: Spot, people: Sequence[str]) -> float:
+    def _total_m(self, routes: Routes, spot: Spot, spared: Collection[str]) -> float:
         """Cost with what the arm would have to pass over, from the best place to stand."""
         snapshot = self.context.snapshot
         frame = robot_frame(snapshot)
         places, ways_m = self._ways_m(routes, spot)
         reached = np.isfinite(ways_m)
         target = spot.anchor.position(snapshot, frame)
-        spared = spared_nodes(snapshot, self._placement.target, spot.anchor.node_id) | set(people)
+        no_obstacle = spared_nodes(snapshot, self._placement.target, spot.anchor.node_id) | set(spared)
         low_m, stamp_s = underside_of_held_m(float(target[2])), self.context.stamp_s
-        over_m = passing_over(snapshot, frame, target, low_m, places[reached], spared, stamp_s=stamp_s)
+        over_m = passing_over(snapshot, frame, target, low_m, places[reached], no_obstacle, stamp_s=stamp_s)
         return float((ways_m[reached] + over_m).min()) + self._price_m(spot)
 
     def _hidden_m(self, spot: Spot) -> float:

@@ -341,6 +341,29 @@ def test_what_fell_from_the_hand_lies_near_there_or_on_the_floor_and_a_look_alik
     assert (turned_up(fallen, [sighting], **known) is sighting) is same
 
 
+@pytest.mark.parametrize(
+    ("look", "same"),
+    [
+        ({}, True),
+        ({"color": "red"}, False),
+        ({"size_m": (0.3, 0.2, 0.05)}, False),
+        ({"seen": (5.0, 21.0)}, False),
+    ],
+)
+def test_what_slipped_is_known_by_its_looks_where_it_lies_even_if_it_is_called_otherwise_there(look, same):
+    slipped, far = (thing(n, "book", state=ObjectState.MISSING) for n in (1, 2))
+    far.put_at("room_1", np.array((3.0, 0.0, 0.0)), 0.01)
+    sighting = thing(3, "banana", **{"seen": (20.0, 21.0), **look})
+    sighting.label = LabelBelief()
+    for _ in range(5):
+        sighting.label.update((("banana", 0.8), ("book", 0.1)))
+    known = {"taken_from": {}, "looked_before": {}, "settings": IdentitySettings()}
+    assert likeness(sighting, slipped) < IdentitySettings().likeness_min
+    assert known_as(sighting, [far, slipped], **known) is None
+    far.fell = slipped.fell = True
+    assert (known_as(sighting, [far, slipped], **known) is slipped) is same
+
+
 def test_likeness_is_symmetric():
     a, b = thing(1), thing(2, label="vase", size_m=(0.1, 0.1, 0.2))
     assert likeness(a, b) == pytest.approx(likeness(b, a))

@@ -7,8 +7,15 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from majordomo.perception.objects.beliefs import share_agreement
-from majordomo.perception.objects.identity import IdentitySettings, likeness, may_have_fallen_to, same_thing_moved
+from majordomo.perception.objects.beliefs import agreement, share_agreement
+from majordomo.perception.objects.identity import (
+    IdentitySettings,
+    apart_m,
+    likeness,
+    may_have_fallen_to,
+    same_thing_moved,
+    size_agreement,
+)
 from majordomo.perception.objects.relations import support_probability
 from majordomo.perception.objects.track import Track
 from majordomo.perception.vocabulary import carries_things, category_of, is_of_one_size
@@ -19,6 +26,8 @@ Places = Mapping[int, tuple[str, Array]]
 """Track number -> room and position (3,) from which a thing was taken into the hand."""
 _SAME_PLACE_M = 0.12
 _SAME_COLOR = 0.4
+_SAME_LOOK, _SAME_NAME = 0.6, 0.1
+"""Of what slipped: how well color and size agree with what lies there, and how far the names may differ."""
 _BOX_MARGIN_M = 0.1
 _UNSEEN_S = 0.3
 _SAME_SPACE = 0.5
@@ -44,6 +53,9 @@ def known_as(
     put_here = next((track for track in known if _was_put_here(sighting, track)), None)
     if put_here is not None:
         return put_here
+    fell_here = [track for track in known if _fell_here(sighting, track, settings)]
+    if fell_here:
+        return min(fell_here, key=lambda track: apart_m(sighting, track))
     for track in known:
         in_its_place = _in_its_place(sighting, track, settings)
         if in_its_place or is_fragment(sighting, track) or _never_taken(sighting, track, taken_from, settings):
@@ -92,6 +104,19 @@ def _was_put_here(sighting: Track, track: Track) -> bool:
     if not track.awaited or sighting.is_furniture or track.room != sighting.room:
         return False
     return _touch(sighting, track) and share_agreement(sighting.color.shares, track.color.shares) >= _SAME_COLOR
+
+
+def _fell_here(sighting: Track, track: Track, settings: IdentitySettings) -> bool:
+    """Whether a small sighting of the same size and color lies near where a thing has just slipped from the hand: what
+    lies otherwise than it stood may well be called otherwise.
+    """
+    if not track.fell or sighting.is_furniture or track.last_seen_s >= sighting.first_seen_s:
+        return False
+    if apart_m(sighting, track) > settings.near_m:
+        return False
+    color, size = share_agreement(sighting.color.shares, track.color.shares), size_agreement(sighting, track)
+    label = agreement(sighting.label.distribution, track.label.distribution)
+    return color * size >= _SAME_LOOK and label >= _SAME_NAME
 
 
 def _touch(one: Track, other: Track) -> bool:

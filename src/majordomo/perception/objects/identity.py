@@ -27,7 +27,7 @@ import numpy as np
 
 from majordomo.perception.objects.beliefs import agreement, share_agreement
 from majordomo.perception.objects.track import Track
-from majordomo.scene_graph.nodes import ObjectState, Point3
+from majordomo.scene_graph.nodes import ObjectState
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -52,7 +52,7 @@ def likeness(a: Track, b: Track) -> float:
     """How far label, color and size agree, 0 to 1."""
     label = agreement(a.label.distribution, b.label.distribution)
     color = share_agreement(a.color.shares, b.color.shares)
-    return label * color * _size_agreement(a.box.size_m, b.box.size_m)
+    return label * color * size_agreement(a, b)
 
 
 def same_thing_moved(
@@ -75,9 +75,9 @@ def same_thing_moved(
         return None
     if not alike:
         return None
-    nearby = [pair for pair in missing if _apart_m(sighting, pair[1]) < settings.near_m]
+    nearby = [pair for pair in missing if apart_m(sighting, pair[1]) < settings.near_m]
     if nearby:
-        value, best = min(nearby, key=lambda pair: (_apart_m(sighting, pair[1]), pair[1].number))
+        value, best = min(nearby, key=lambda pair: (apart_m(sighting, pair[1]), pair[1].number))
     else:
         value, best = max(alike, key=lambda pair: (pair[0], pair[1].last_seen_s, -pair[1].number))
     look_alike = settings.look_alike_known if place_known else settings.look_alike_new
@@ -89,7 +89,7 @@ def same_thing_moved(
 def may_have_fallen_to(sighting: Track, track: Track, settings: IdentitySettings) -> bool:
     """Whether a sighting is where ``track`` may be, had it slipped from the hand: near there, or on a floor."""
     bottom_m = float(sighting.position[2]) - sighting.box.size_m[2] / 2.0
-    return not track.fell or bottom_m < settings.floor_m or _apart_m(sighting, track) < settings.near_m
+    return not track.fell or bottom_m < settings.floor_m or apart_m(sighting, track) < settings.near_m
 
 
 def departed(track: Track, stamp_s: float, settings: IdentitySettings) -> float:
@@ -108,13 +108,13 @@ def _could_be(sighting: Track, track: Track, settings: IdentitySettings) -> bool
     return track.room == sighting.room and bool(near)
 
 
-def _apart_m(one: Track, other: Track) -> float:
+def apart_m(one: Track, other: Track) -> float:
     """Distance of two things in one room; infinite for those in two."""
     return float(np.linalg.norm(one.position - other.position)) if one.room == other.room else np.inf
 
 
-def _size_agreement(a_m: Point3, b_m: Point3) -> float:
+def size_agreement(one: Track, other: Track) -> float:
     """1 for equal sizes, falling with the ratio of sorted sides; two centimeters are never held against it."""
-    sides = zip(sorted(a_m), sorted(b_m), strict=True)
+    sides = zip(sorted(one.box.size_m), sorted(other.box.size_m), strict=True)
     worst = max(max(abs(a - b) - 0.02, 0.0) / max(a, b, 1e-3) for a, b in sides)
     return float(np.exp(-0.5 * (worst / 0.2) ** 2))

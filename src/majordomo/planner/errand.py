@@ -35,6 +35,8 @@ PLACE_CODES = frozenset(
     | {FailureCode.NOT_CONFIRMED, FailureCode.PERSON_IN_WAY}
 )
 """While searching, these concern one place among several: it is skipped, and the search goes on."""
+LOST_GRIP = frozenset({FailureCode.GRASP_EMPTY, FailureCode.SLIPPED, FailureCode.DROPPED})
+"""What was in the hand, or nearly, lies somewhere now."""
 LOOK_TIMEOUT_S = 60.0
 
 
@@ -233,6 +235,9 @@ class Errand:
         """Explain and record a failure; then skip the place, wait for a new plan, or give up."""
         self.close()
         self._progress.fail()
+        if failure.code in LOST_GRIP:
+            for node_id in failure.evidence.nodes:
+                self._taken_for.fell(node_id)
         skipping = self._hunt is not None and failure.code in PLACE_CODES
         recovery = self._recoveries.after(failure.code, str(step)) if not skipping else None
         hopeless = recovery is None and not skipping

@@ -39,6 +39,13 @@ class TakenFor:
             if spoken & {part for name in _names(label) for part in name.split()}
         }
         self._guessed = frozenset(i for i in self._labels if likely_label(snapshot.object(i)) is not None)
+        self._fallen: set[str] = set()
+
+    def fell(self, object_id: str) -> None:
+        """It was in the hand and slipped: as it lies now it may look like anything, and says no more about its kind
+        than it did in the hand, until everything is done.
+        """
+        self._fallen.add(object_id)
 
     def mistake(self, snapshot: Snapshot, *, at_last: bool = False) -> Failure | None:
         """The first thing that surely is of another kind than the request called it; ``at_last``, when everything is to
@@ -47,6 +54,8 @@ class TakenFor:
         for object_id, called in self._labels.items():
             node = snapshot.get(object_id)
             if not isinstance(node, ObjectNode) or normal(node.label) in _names(called) | {UNKNOWN_LABEL}:
+                continue
+            if object_id in self._fallen and not at_last:
                 continue
             chances = {normal(label): probability for label, probability in node.label_distribution}
             old, new = chances.get(called, 0.0), chances.get(normal(node.label), 0.0)
@@ -70,6 +79,8 @@ class TakenFor:
         for object_id, called in self._labels.items():
             node = snapshot.get(object_id)
             if not isinstance(node, ObjectNode) or normal(node.label) != UNKNOWN_LABEL:
+                continue
+            if object_id in self._fallen and not at_last:
                 continue
             chance = {normal(label): p for label, p in node.label_distribution}.get(called, 0.0)
             if chance < (LIKELY if at_last and object_id in self._guessed else RULED_OUT):

@@ -149,6 +149,21 @@ def test_what_has_no_name_and_was_taken_for_a_ball_must_not_turn_out_to_be_somet
     assert (taken.mistake(in_hall(after)) is not None) == mistaken
 
 
+@pytest.mark.parametrize("label", ["orange", "unknown"])
+def test_what_slipped_from_the_hand_is_what_it_was_until_all_is_done_however_it_looks_where_it_lies(label):
+    request, before = "bring me the ball", flat().thing("ball_1", "ball", on="desk_1")
+    after = in_hall(flat().thing("ball_1", label, on="desk_1", label_distribution=((label, 0.95),)))
+
+    def doubt(**last):
+        return taken.mistake(after, **last) or taken.refuted(after, **last)
+
+    taken = TakenFor(request, read(request, in_hall(before)).goals, in_hall(before))
+    assert doubt() is not None
+    taken.fell("ball_1")
+    assert doubt() is None
+    assert doubt(at_last=True) is not None
+
+
 def test_what_hardly_may_be_a_ball_is_none():
     sketch = nameless(flat(), "unknown_1", "desk_1", unknown=0.8, ball=0.15)
     assert "no ball" in read("bring me the ball", in_hall(sketch)).reply

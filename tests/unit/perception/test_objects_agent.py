@@ -432,6 +432,18 @@ def test_a_person_is_a_node_on_the_floor_that_moves_when_they_walk():
     assert "person_2" not in graph
 
 
+def test_who_seems_to_stand_on_a_table_is_nobody_and_who_stands_behind_it_is_somebody():
+    boxes = Solid(label="person", center=(0.05, 0.1, 1.0), size_m=(0.4, 0.4, 0.5))
+    story = Story([TABLE])
+    story.run(6)
+    story.room.solids = [TABLE, boxes]
+    assert not story.run(8).of_type(PersonNode)
+    behind = Solid(label="person", center=(0.9, 0.1, 0.85), size_m=(0.4, 0.4, 1.7), cylinder=True)
+    story.room.solids = [TABLE, behind]
+    (person,) = story.run(8).of_type(PersonNode)
+    assert np.linalg.norm(story.memory.snapshot().position(person.id, "room_1")[:2] - behind.center[:2]) < 0.2
+
+
 def test_a_person_whose_legs_and_body_are_seen_as_two_masks_is_one():
     legs = Solid(label="person", center=(1.0, 0.5, 0.4), size_m=(0.35, 0.35, 0.8), cylinder=True)
     body = Solid(label="person", center=(1.0, 0.55, 1.3), size_m=(0.4, 0.4, 0.8), cylinder=True)

@@ -1,17 +1,25 @@
-"""What is no thing of its own, however often it is seen: a piece of somebody or of a thing, or what is in the hand."""
+"""What is no thing of its own, however often it is seen: a piece of somebody or of a thing, or what is in the hand; and
+what is nobody: it stands on furniture.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from majordomo.perception.objects.detection import Detection
+from majordomo.perception.objects.membership import Surroundings
 from majordomo.perception.objects.sight import Sight
+from majordomo.perception.objects.surface import Box
 from majordomo.perception.objects.track import Track
-from majordomo.scene_graph.nodes import UNKNOWN_LABEL
+from majordomo.scene_graph.nodes import UNKNOWN_LABEL, ObjectState
+
+_PERSON_M = 2.0
+_SUNK_M, _MOST = 0.05, 0.85
+"""So much of what stands on furniture may seem to be within it, and such a share of its points is over it."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -67,6 +75,22 @@ def is_part(
         if bool(other.box.contains(T_other_track.apply(track.position)[None])[0]):
             return True
         if center_px is not None and _shows(detection.mask, center_px):
+            return True
+    return False
+
+
+def is_on_furniture(detection: Detection, tracks: Sequence[Track], surroundings: Surroundings) -> bool:
+    """Whether all that is seen is on a table or the like that is known: so do things stand, and people do not."""
+    points = detection.cloud.points
+    for track in tracks:
+        known = track.node_id is not None and track.state is ObjectState.PRESENT and track.is_furniture
+        category = track.category
+        if not known or not category.support or category.levels or track.room not in surroundings.T_here_room:
+            continue
+        T_here_room, box = surroundings.T_here_room[track.room], track.box
+        top = T_here_room.apply(box.center) + np.array((0.0, 0.0, (box.size_m[2] + _PERSON_M) / 2.0 - _SUNK_M))
+        above = Box(top, (*box.size_m[:2], _PERSON_M), box.yaw_rad + T_here_room.yaw_rad)
+        if float(above.contains(points).mean()) > _MOST:
             return True
     return False
 

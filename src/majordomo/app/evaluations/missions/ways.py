@@ -18,6 +18,8 @@ from majordomo.simulation.catalog import category_named
 from majordomo.simulation.house import OUTSIDE, Door, Furniture, House, room_at
 
 CELL_M = 0.05
+HALF = 0.5
+"""Of a cell: so much nearer than the middle of a covered cell the thing that covers it ends, on average."""
 ROBOT_RADIUS_M = 0.25
 PASSABLE_M = 0.32
 """What a body of that radius can be asked to pass, given how well it sees: 7 cm to each side."""
@@ -63,7 +65,7 @@ class Ways:
         for record in scene.truth["objects"]:
             if record["id"] not in spared and record["id"] != scene.holding and not (record["on"] or record["in"]):
                 free &= ~self._covered(record)
-        self.clearance_m: NDArray[np.float64] = np.asarray(distance_transform_edt(free)) * CELL_M
+        self.clearance_m: NDArray[np.float64] = np.maximum(distance_transform_edt(free) - HALF, 0.0) * CELL_M
         self._number, self._graph = _grid_graph(self.clearance_m > radius_m)
 
     def length_m(self, *stops: Point) -> float:

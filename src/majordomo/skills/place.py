@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import islice
 from math import hypot
 from typing import Any
 
@@ -21,7 +22,7 @@ from majordomo.skills.anchor import Anchor
 from majordomo.skills.failures import Evidence, Failure, FailureCode
 from majordomo.skills.journeys import travel
 from majordomo.skills.pick import AIM_RAD
-from majordomo.skills.place_search import HANDOVER_M, free_spots
+from majordomo.skills.place_search import HANDOVER_M, free_spots, ranked_spots
 from majordomo.skills.skill import Parameter, Unmet, argument_schema, unknown_arguments
 from majordomo.skills.state import PlaceRelation, PlanState, Thing
 
@@ -88,6 +89,7 @@ class Place:
             object_id=held,
             target=target,
             spots=lambda: free_spots(context, held, target),
+            further=lambda: islice(ranked_spots(context, held, target), 1, None),
             spots_if_empty=lambda: free_spots(context, held, target, as_empty=True),
         )
         spot = placement.anchor

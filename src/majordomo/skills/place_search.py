@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from math import dist, hypot, pi
 
 import numpy as np
@@ -31,18 +31,28 @@ BLOCKED_S = 120.0
 
 
 def free_spots(context: RobotContext, held: str, target: str, *, as_empty: bool = False) -> list[Spot]:
-    """Free spots at ``target`` for ``held`` as the graph is now. A person or a room takes supports first, those that
-    are surely furniture before what is not known by name, then the floor. ``as_empty``: those of furniture if nothing
+    """The best free spots at ``target`` for ``held`` as the graph is now; ``as_empty``: those of furniture if nothing
     stood on it.
+    """
+    node = context.snapshot.get(target)
+    if as_empty and isinstance(node, ObjectNode):
+        return spots_on(context.snapshot, target, held_size_m(context, held), held, as_empty=True)
+    return next(ranked_spots(context, held, target), [])
+
+
+def ranked_spots(context: RobotContext, held: str, target: str) -> Iterator[list[Spot]]:
+    """Free spots at ``target`` for ``held`` as the graph is now, the better ones first: with a person or in a room, on
+    what is surely furniture, on what is not known by name, on the floor.
     """
     snapshot = context.snapshot
     size_m = held_size_m(context, held)
     node = snapshot.get(target)
     if node is None:
-        return []
+        return
     if isinstance(node, ObjectNode):
-        spots = spots_on(snapshot, target, size_m, held, as_empty=as_empty)
-        return spots if as_empty else _unblocked(context, spots)
+        if spots := _unblocked(context, spots_on(snapshot, target, size_m, held)):
+            yield spots
+        return
     near_m = HANDOVER_M if isinstance(node, PersonNode) else np.inf
     supports = _supports(snapshot, snapshot.room_of(target), held)
     for nameless in (False, True):
@@ -54,8 +64,9 @@ def free_spots(context: RobotContext, held: str, target: str, *, as_empty: bool 
             if near_m == np.inf or _distance_m(snapshot, spot.anchor, target) < near_m - 0.3
         ]
         if spots := _unblocked(context, spots):
-            return spots
-    return _floor_spots(context, target if isinstance(node, PersonNode) else ROBOT_ID, size_m)
+            yield spots
+    if spots := _floor_spots(context, target if isinstance(node, PersonNode) else ROBOT_ID, size_m):
+        yield spots
 
 
 def _unblocked(context: RobotContext, spots: Sequence[Spot]) -> list[Spot]:

@@ -262,6 +262,20 @@ async def test_things_that_keep_the_arm_from_every_spot_of_a_table_make_it_full(
     assert (await rehearsal.run([ChooseSpot(context, placement)])).code is FailureCode.SUPPORT_FULL
 
 
+async def test_where_no_good_spot_is_within_reach_the_next_best_is_taken(kitchen):
+    rehearsal = kitchen()
+    assert await carry_out(rehearsal, ("PICK", "bottle_1"), ("GOTO", "table_2")) is None
+    context = await rehearsal.prepare()
+    low, *others = free_spots(context, "bottle_1", "table_2")
+    high = replace(low, anchor=Anchor("table_2", (0.0, 0.0, 3.0)))
+    placement = Placement(
+        object_id="bottle_1", target="room_1", spots=lambda: [high], further=lambda: [[high], [low], others]
+    )
+    assert await rehearsal.run([ChooseSpot(context, placement)]) is None
+    assert placement.spot == low
+    assert low in placement.spots_at("table_2")
+
+
 async def test_a_place_taken_meanwhile_is_exchanged_for_a_free_one(kitchen, onlooker):
     rehearsal = kitchen()
     assert await carry_out(rehearsal, ("PICK", "bottle_1"), ("GOTO", "table_2")) is None

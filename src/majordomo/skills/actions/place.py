@@ -70,6 +70,9 @@ class ChooseSpot(Action):
             return _full(self, self._placement)
         spot = self._cheapest(spots)
         if spot is None:
+            further = (self._cheapest(others) for others in self._placement.further())
+            spot = next((found for found in further if found is not None), None)
+        if spot is None:
             return self._out_of_reach(spots)
         self._placement.spot = spot
         return Status.SUCCESS
@@ -170,7 +173,7 @@ class CheckSpot(Action):
             return self.fail(FailureCode.SUPPORT_GONE, f"{self._placement.target} is no longer on my map.")
         if chosen.inside:
             return Status.SUCCESS
-        here = [spot for spot in self._placement.spots() if spot.anchor.node_id == chosen.anchor.node_id]
+        here = self._placement.spots_at(chosen.anchor.node_id)
         reachable = [(self._offset_m(spot, chosen), i) for i, spot in enumerate(here) if self._within_reach(spot)]
         if not reachable:
             return _full(self, self._placement)

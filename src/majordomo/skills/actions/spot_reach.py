@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from math import sin
 
@@ -30,14 +30,20 @@ SpotSource = Callable[[], Sequence[Spot]]
 class Placement:
     """What the actions of one PLACE share: the object, where it may go, and the spot chosen.
 
+    ``further``: where else it may go, worse ones after better ones, if none of the spots is within reach;
     ``spots_if_empty``: where it could go if nothing else stood there.
     """
 
     object_id: str
     target: str
     spots: SpotSource
+    further: Callable[[], Iterable[Sequence[Spot]]] = list
     spots_if_empty: SpotSource = list
     spot: Spot | None = None
+
+    def spots_at(self, node_id: str) -> list[Spot]:
+        """Where it may go on that piece of furniture, or on the floor of that room."""
+        return [spot for spots in (self.spots(), *self.further()) for spot in spots if spot.anchor.node_id == node_id]
 
     def anchor(self) -> Anchor:
         """The chosen spot; the target itself until one is chosen."""

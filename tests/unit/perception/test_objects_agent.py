@@ -432,8 +432,9 @@ def test_a_person_is_a_node_on_the_floor_that_moves_when_they_walk():
     assert "person_2" not in graph
 
 
-def test_who_seems_to_stand_on_a_table_is_nobody_and_who_stands_behind_it_is_somebody():
-    boxes = Solid(label="person", center=(0.05, 0.1, 1.0), size_m=(0.4, 0.4, 0.5))
+@pytest.mark.parametrize("low_m", [0.75, 0.0])
+def test_who_seems_to_stand_on_a_table_or_to_be_it_is_nobody_and_who_stands_behind_it_is_somebody(low_m):
+    boxes = Solid(label="person", center=(0.0, 0.1, (low_m + 1.25) / 2), size_m=(1.21, 0.4, 1.25 - low_m))
     story = Story([TABLE])
     story.run(6)
     story.room.solids = [TABLE, boxes]

@@ -364,6 +364,23 @@ def test_what_slipped_is_known_by_its_looks_where_it_lies_even_if_it_is_called_o
     assert (known_as(sighting, [far, slipped], **known) is slipped) is same
 
 
+@pytest.mark.parametrize(
+    ("label", "state", "same"),
+    [
+        ("stove", ObjectState.PRESENT, False),
+        ("stove", ObjectState.MISSING, True),
+        ("chair", ObjectState.PRESENT, True),
+    ],
+)
+def test_what_is_built_in_is_not_taken_for_moved_as_long_as_it_may_be_in_its_place(label, state, same):
+    size_m = (0.6, 0.6, 0.9)
+    known = thing(1, label, size_m=size_m, state=state)
+    sighting = thing(2, label, size_m=size_m, seen=(600.0, 601.0))
+    for track, x_m in ((known, 0.0), (sighting, 1.0)):
+        track.place = SurfaceBelief.of(Box(np.array((x_m, 0.0, 0.45)), size_m, 0.0), frames=50)
+    assert (moved(sighting, [known]) is known) is same
+
+
 def test_likeness_is_symmetric():
     a, b = thing(1), thing(2, label="vase", size_m=(0.1, 0.1, 0.2))
     assert likeness(a, b) == pytest.approx(likeness(b, a))

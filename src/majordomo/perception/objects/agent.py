@@ -18,7 +18,7 @@ from majordomo.perception.objects.inspection import AGENT, Inspection, Inspectio
 from majordomo.perception.objects.look import Look
 from majordomo.perception.objects.membership import Surroundings
 from majordomo.perception.objects.people import People, PeopleSettings
-from majordomo.perception.objects.pieces import is_on_furniture
+from majordomo.perception.objects.pieces import is_of_furniture
 from majordomo.perception.objects.projection import View
 from majordomo.perception.objects.publication import (
     PublicationSettings,
@@ -184,7 +184,7 @@ class ObjectMemory:
         )
         self._held_in = frozenset(thing.index for thing in things if self._in_hand(thing, view))
         turning = turning_radps(self._buffer)
-        persons = [each for each in persons if not is_on_furniture(each, self._tracker.tracks, surroundings)]
+        persons = [each for each in persons if not is_of_furniture(each, self._tracker.tracks, surroundings)]
         self._people.update(persons, view, surroundings)
         self._tracker.update(
             Sight(

@@ -27,6 +27,7 @@ import numpy as np
 
 from majordomo.perception.objects.beliefs import agreement, share_agreement
 from majordomo.perception.objects.track import Track
+from majordomo.perception.vocabulary import is_of_one_size
 from majordomo.scene_graph.nodes import ObjectState
 
 
@@ -99,8 +100,12 @@ def departed(track: Track, stamp_s: float, settings: IdentitySettings) -> float:
 
 
 def _could_be(sighting: Track, track: Track, settings: IdentitySettings) -> bool:
-    """Not seen at the same time, of the same kind; furniture is not carried far."""
+    """Not seen at the same time, of the same kind; furniture is not carried far, and what is built in or connected not
+    at all as long as nobody has seen its place empty.
+    """
     if track.last_seen_s >= sighting.first_seen_s or track.is_furniture is not sighting.is_furniture:
+        return False
+    if track.is_furniture and is_of_one_size(track.label.best) and track.state is not ObjectState.MISSING:
         return False
     if not track.is_furniture:
         return may_have_fallen_to(sighting, track, settings)

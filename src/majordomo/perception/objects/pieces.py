@@ -1,5 +1,5 @@
 """What is no thing of its own, however often it is seen: a piece of somebody or of a thing, or what is in the hand; and
-what is nobody: it stands on furniture.
+what is nobody: furniture, and what stands on it.
 """
 
 from __future__ import annotations
@@ -17,9 +17,9 @@ from majordomo.perception.objects.surface import Box
 from majordomo.perception.objects.track import Track
 from majordomo.scene_graph.nodes import UNKNOWN_LABEL, ObjectState
 
-_PERSON_M = 2.0
-_SUNK_M, _MOST = 0.05, 0.85
-"""So much of what stands on furniture may seem to be within it, and such a share of its points is over it."""
+_PERSON_M = 2.5
+_EDGE_M, _MOST = 0.02, 0.85
+"""Such a share of the points of what is furniture is so near to it."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -79,18 +79,21 @@ def is_part(
     return False
 
 
-def is_on_furniture(detection: Detection, tracks: Sequence[Track], surroundings: Surroundings) -> bool:
-    """Whether all that is seen is on a table or the like that is known: so do things stand, and people do not."""
+def is_of_furniture(detection: Detection, tracks: Sequence[Track], surroundings: Surroundings) -> bool:
+    """Whether what is taken for a person is a table or the like that is known, with what stands on it: nobody stands
+    where that is, and before it or behind it there would be something of them.
+    """
     points = detection.cloud.points
     for track in tracks:
         known = track.node_id is not None and track.state is ObjectState.PRESENT and track.is_furniture
         category = track.category
         if not known or not category.support or category.levels or track.room not in surroundings.T_here_room:
             continue
-        T_here_room, box = surroundings.T_here_room[track.room], track.box
-        top = T_here_room.apply(box.center) + np.array((0.0, 0.0, (box.size_m[2] + _PERSON_M) / 2.0 - _SUNK_M))
-        above = Box(top, (*box.size_m[:2], _PERSON_M), box.yaw_rad + T_here_room.yaw_rad)
-        if float(above.contains(points).mean()) > _MOST:
+        T_here_room, size_m = surroundings.T_here_room[track.room], track.box.size_m
+        x_m, y_m, _ = T_here_room.apply(track.position).tolist()
+        yaw_rad = track.box.yaw_rad + T_here_room.yaw_rad
+        column = Box(np.array((x_m, y_m, _PERSON_M / 2.0)), (size_m[0], size_m[1], _PERSON_M), yaw_rad)
+        if float(column.contains(points, _EDGE_M).mean()) > _MOST:
             return True
     return False
 

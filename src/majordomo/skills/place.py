@@ -15,7 +15,8 @@ from majordomo.skills.actions.arm import Retract, Stow
 from majordomo.skills.actions.driving import TurnTo
 from majordomo.skills.actions.grasp import OpenGripper
 from majordomo.skills.actions.looking import LookAt
-from majordomo.skills.actions.place import CheckSpot, ChooseSpot, LowerToPlace
+from majordomo.skills.actions.place import LowerToPlace
+from majordomo.skills.actions.spot_choice import CheckSpot, ChooseSpot
 from majordomo.skills.actions.spot_reach import Placement
 from majordomo.skills.actions.watching import Check, Confirm
 from majordomo.skills.anchor import Anchor

@@ -16,7 +16,9 @@ from majordomo.skills.actions.approach import STOPPED_RAD
 from majordomo.skills.actions.arm import CARRY_LIFT_M, Retract
 from majordomo.skills.actions.arm_way import BARRED_COST_M, passing_over
 from majordomo.skills.actions.grasp import CloseGripper
-from majordomo.skills.actions.place import ChooseSpot, LowerToPlace, Placement
+from majordomo.skills.actions.place import LowerToPlace
+from majordomo.skills.actions.spot_choice import ChooseSpot
+from majordomo.skills.actions.spot_reach import Placement
 from majordomo.skills.anchor import Anchor
 from majordomo.skills.doubles import BoxWorld, FakeBody, Rehearsal
 from majordomo.skills.failures import FailureCode

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from majordomo.planner.goals import Goal
-from majordomo.planner.naming import aim_phrase, goal_phrase, humanize, listed, name_of, step_phrase
+from majordomo.planner.naming import aim_phrase, goal_phrase, humanize, listed, name_of, places_phrase, step_phrase
 from majordomo.planner.plan import Plan, Step
 from majordomo.planner.recovery import RECOVERIES
 from majordomo.planner.tasks import FailureReport, Task
@@ -35,7 +35,7 @@ def explain(failure: Failure, step: Step, snapshot: Snapshot, *, hopeless: bool 
 def plan_sentence(plan: Plan, snapshot: Snapshot) -> str:
     """What the robot is going to do: "I will go to the table, pick up the blue bottle and go to the desk"."""
     if plan.seeking is not None:
-        places = listed([name_of(step.args[0], snapshot) for step in plan.steps])
+        places = places_phrase([step.args[0] for step in plan.steps], snapshot)
         if plan.seeking not in snapshot:
             return f"I have not seen “{plan.seeking}” yet; I will look for it at {places}."
         return f"I do not know where {name_of(plan.seeking, snapshot)} is now; I will look at {places}."
@@ -74,20 +74,20 @@ def holding_sentence(snapshot: Snapshot) -> str:
 
 def exhausted_reason(object_id: str, looked: Sequence[str], skipped: Sequence[str], snapshot: Snapshot) -> str:
     """Why a search gave up: where it looked, and where it could not look."""
-    places = listed([name_of(place, snapshot) for place in looked])
+    places = places_phrase(looked, snapshot)
     reason = f"{name_of(object_id, snapshot)} is not where I had seen it"
     reason += f", and I did not find it at {places}" if places else ", and there is nowhere else that I can look"
     if skipped:
-        reason += f"; I could not get to {listed([name_of(place, snapshot) for place in skipped])}"
+        reason += f"; I could not get to {places_phrase(skipped, snapshot)}"
     return reason
 
 
 def scouted_sentence(looked: Sequence[str], skipped: Sequence[str], snapshot: Snapshot) -> str:
     """Where a thing was looked for that had never been seen, in vain; ``""`` if nowhere."""
-    places = [name_of(place, snapshot) for place in looked if place in snapshot]
-    missed = [name_of(place, snapshot) for place in skipped if place in snapshot]
-    sentence = f"I looked at {listed(places)}, and did not find it." if places else ""
-    return f"{sentence} I could not get to {listed(missed)}.".strip() if missed else sentence
+    places = places_phrase([place for place in looked if place in snapshot], snapshot)
+    missed = places_phrase([place for place in skipped if place in snapshot], snapshot)
+    sentence = f"I looked at {places}, and did not find it." if places else ""
+    return f"{sentence} I could not get to {missed}.".strip() if missed else sentence
 
 
 def give_up_reason(failure: Failure, times: int) -> str:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection
+from collections import Counter
+from collections.abc import Collection, Sequence
 
 from majordomo.planner.goals import Goal, Predicate
 from majordomo.planner.plan import Step
@@ -13,6 +14,8 @@ from majordomo.skills.containers import is_container
 
 _NUMBERED = frozenset({"room", "region", "door", "wall", "corner"})
 """What has no name but its number."""
+MOST_LISTED = 5
+"""More places than this are counted, not named: nobody listens to the end of such a list."""
 IDENTIFIER = re.compile(r"[a-z][a-z0-9_]*_\d+(?:_pre)?\b")
 
 
@@ -125,6 +128,18 @@ def aim_phrase(goal: Goal, snapshot: Snapshot) -> str:
             return f"find {first}"
         case Predicate.OPEN:
             return f"open {first}"
+
+
+def places_phrase(place_ids: Sequence[str], snapshot: Snapshot) -> str:
+    """Places to look at: "the desk and the shelf in the office", or of many, how many there are and in which rooms: "12
+    places in the kitchen, the bedrooms and the hall".
+    """
+    if len(place_ids) <= MOST_LISTED:
+        return listed([name_of(place, snapshot) for place in place_ids])
+    rooms = dict.fromkeys(snapshot.room_of(place) for place in place_ids if place in snapshot)
+    names = Counter(name_of(room, snapshot) for room in rooms if room is not None)
+    within = listed([name if count == 1 else f"{name}s" for name, count in names.items()])
+    return f"{len(place_ids)} places in {within}" if within else f"{len(place_ids)} places"
 
 
 def listed(phrases: list[str]) -> str:

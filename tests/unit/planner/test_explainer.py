@@ -18,7 +18,7 @@ from majordomo.planner.explainer import (
     success_sentence,
 )
 from majordomo.planner.goals import goal
-from majordomo.planner.naming import aim_phrase, goal_phrase, humanize, name_of, whereabouts
+from majordomo.planner.naming import aim_phrase, goal_phrase, humanize, name_of, places_phrase, whereabouts
 from majordomo.planner.plan import Plan, Source, Step
 from majordomo.planner.rehearsal import GRIPPER, Stage, rehearsal_graph
 from majordomo.planner.tasks import Task, TaskTimes
@@ -100,6 +100,29 @@ def test_a_search_that_failed_says_where_it_looked_and_where_it_could_not():
     assert "the table in the kitchen and the shelf in the kitchen" in said
     assert "could not get to the desk in the office" in said
     assert "nowhere else" in exhausted_reason("bottle_1", [], [], SNAPSHOT)
+
+
+def test_many_places_are_counted_and_only_their_rooms_are_named():
+    places = ["table_1", "shelf_1", "room_1", "desk_1", "room_2", "desk_9"]
+    said = exhausted_reason("bottle_1", places, [], SNAPSHOT)
+    assert said.endswith("I did not find it at 6 places in the kitchen and the office")
+    assert places_phrase(places[:5], SNAPSHOT).startswith("the table in the kitchen, the shelf in the kitchen, the")
+    plan = Plan(
+        steps=tuple(Step(skill="GOTO", args=(place,)) for place in places),
+        source=Source.SEARCH,
+        seeking="bottle_1",
+        revision=1,
+        goals=(),
+    )
+    assert plan_sentence(plan, SNAPSHOT).endswith("I will look at 6 places in the kitchen and the office.")
+
+
+def test_two_rooms_of_one_name_are_both_meant():
+    memory = WorkingMemory(SNAPSHOT)
+    with memory.edit("test", 1.0) as tx:
+        tx.put(replace(SNAPSHOT.room("room_2"), label=SNAPSHOT.room("room_1").label))
+    places = ["table_1", "shelf_1", "room_1", "desk_1", "room_2", "table_1"]
+    assert places_phrase(places, memory.snapshot()) == "6 places in the kitchens"
 
 
 def test_giving_up_counts_the_attempts():

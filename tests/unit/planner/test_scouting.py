@@ -153,7 +153,7 @@ def test_a_tour_looks_from_near_at_what_has_no_name_and_never_twice_at_a_place()
     assert set(places) == {"bottle_1", "table_1", "shelf_1", "desk_1", "room_1", "room_2"}
     scout.hunt("cup").looked.extend(places)
     assert scout.tour(snapshot) is None
-    assert "the desk in the office" in scout.told(snapshot)
+    assert "6 places in the kitchen and the office" in scout.told(snapshot)
 
 
 class Guessing:

@@ -194,6 +194,13 @@ def test_every_disturbance_has_its_time_and_deeds_that_the_simulator_understands
             parse_disturbance(event)
 
 
+def test_a_thing_is_moved_only_to_where_the_robot_can_be_asked_to_go():
+    doors, in_kitchen = [door.id for door in FLAT.doors], (1.4, 1.6, 0.0)
+    assert DISTURBANCES["moved_unseen"].deeds(moment("moved_unseen", pose=in_kitchen))
+    assert not DISTURBANCES["moved_unseen"].deeds(moment("moved_unseen", pose=in_kitchen, shut=doors))
+    assert DISTURBANCES["moved_in_view"].deeds(moment("moved_in_view", pose=in_kitchen, shut=doors))
+
+
 @pytest.mark.parametrize("name", ["kidnapped", "pushed"])
 def test_the_robot_is_never_set_down_on_somebodys_feet(name):
     def spots(now):
@@ -286,6 +293,13 @@ def test_what_was_impossible_counts_for_its_reason_and_not_as_a_failure():
     assert (summary["success_undisturbed"], summary["impossible"], summary["out_of_reach"]) == (None, 1, 1)
     rows.append(row(Verdict.OTHER_REASON, "removed", possible=False))
     assert not met(summarize(rows))
+
+
+def test_what_was_carried_out_was_possible_whatever_had_been_thought():
+    rows = [row(Verdict.DONE, "pushed", possible=False), row(Verdict.OTHER_REASON, "removed", possible=False)]
+    summary = summarize([*rows, row(Verdict.DONE, possible=False)])
+    assert (summary["success_disturbed"], summary["right_reason"], summary["impossible"]) == (1.0, 0.0, 1)
+    assert (summary["success_undisturbed"], summary["out_of_reach"]) == (1.0, 0)
 
 
 def test_the_way_is_compared_where_nobody_interfered():

@@ -12,7 +12,7 @@ from numpy.random import Generator
 
 from majordomo.app.evaluations.missions.mission import Mission
 from majordomo.app.evaluations.missions.outcome import HAND, Scene
-from majordomo.app.evaluations.missions.ways import Ways
+from majordomo.app.evaluations.missions.ways import PASSABLE_M, Ways
 from majordomo.planner.tasks import Task, TaskStatus
 from majordomo.simulation.catalog import category_named
 from majordomo.simulation.house import Door, House, room_at
@@ -122,7 +122,7 @@ def _door_ahead(moment: Moment) -> Door | None:
 
 
 def _elsewhere(moment: Moment, *, same_room: bool) -> list[list[Event]]:
-    """Put the thing onto another piece of furniture."""
+    """Put the thing onto another piece of furniture, one that the robot can be asked to get to."""
     thing = moment.thing
     record = moment.scene.thing(thing) if thing is not None else None
     if thing is None or record is None:
@@ -137,7 +137,9 @@ def _elsewhere(moment: Moment, *, same_room: bool) -> list[list[Event]]:
         if kind.support and 0.15 <= top_m <= 1.05 and not taken and there == same_room:
             spots.append(item.id)
     moment.rng.shuffle(spots)
-    return [[{"do": "move", "id": thing, "to": {"on": spot}}] for spot in spots]
+    passable, begin = Ways(moment.scene, spared=(thing,), radius_m=PASSABLE_M), moment.scene.robot_at
+    reached = [s for s in spots if (at := moment.where(s)) is not None and math.isfinite(passable.length_m(begin, at))]
+    return [[{"do": "move", "id": thing, "to": {"on": spot}}] for spot in reached]
 
 
 def _aside(moment: Moment) -> list[list[Event]]:

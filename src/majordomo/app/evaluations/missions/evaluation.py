@@ -91,11 +91,11 @@ def run_once(
 
 
 def summarize(rows: Sequence[Row]) -> dict[str, Any]:
-    """Figures over all missions."""
-    calm = [row for row in rows if not row["disturbance"] and row["possible"]]
+    """Figures over all missions. What was carried out was possible, whatever had been thought of it."""
+    calm = [row for row in rows if not row["disturbance"] and _was_possible(row)]
     upset = [row for row in rows if row["disturbance"] and row["made"]]
-    possible = [row for row in upset if row["possible"]]
-    impossible = [row for row in upset if not row["possible"]]
+    possible = [row for row in upset if _was_possible(row)]
+    impossible = [row for row in upset if not _was_possible(row)]
     picks, places = (_first_goes(rows, skill) for skill in ("PICK", "PLACE"))
     ways = [row["driven_m"] / row["shortest_m"] for row in calm if _done(row) and (row["shortest_m"] or 0.0) > 1.0]
     return {
@@ -108,7 +108,7 @@ def summarize(rows: Sequence[Row]) -> dict[str, Any]:
         "attempts": {"PICK": len(picks), "PLACE": len(places)},
         "disturbed": len(upset),
         "impossible": len(impossible),
-        "out_of_reach": sum(not row["disturbance"] and not row["possible"] for row in rows),
+        "out_of_reach": sum(not row["disturbance"] and not _was_possible(row) for row in rows),
         "not_made": sum(bool(row["disturbance"]) and not row["made"] for row in rows),
         "phantoms": sum(row["verdict"] == Verdict.PHANTOM for row in rows),
         "wrong_answers": sum(row["verdict"] == Verdict.WRONG_ANSWER for row in rows),
@@ -128,6 +128,10 @@ def met(summary: Mapping[str, Any]) -> bool:
 def _first_goes(rows: Sequence[Row], skill: str) -> list[bool]:
     """Of every attempt at a skill before anybody interfered, whether it came off."""
     return [go["done"] for row in rows for go in row["attempts"] if go["skill"] == skill and go["calm"]]
+
+
+def _was_possible(row: Row) -> bool:
+    return bool(row["possible"]) or _done(row)
 
 
 def _done(row: Row) -> bool:

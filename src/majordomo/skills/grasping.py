@@ -6,7 +6,7 @@ body.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import cos, pi, sin
 
 from majordomo.scene_graph.nodes import ObjectNode, ObjectState
@@ -58,21 +58,27 @@ class Grasp:
     hover_z_m: float
     back_off_m: float = 0.0
 
-    def approach(self, x_m: float, geometry: ArmGeometry, limits: BodyLimits) -> tuple[ArmTarget, ...]:
+    def approach(
+        self, x_m: float, geometry: ArmGeometry, limits: BodyLimits, *, clear_over_m: float = 0.0
+    ) -> tuple[ArmTarget, ...]:
         """Arm targets in order: raised and retracted, in front of or above, and at the object ``x_m`` ahead.
+
+        From above, the finger tips stay over ``clear_over_m`` until they are over the object, as far as the lift goes.
 
         Raises:
             Unreachable: a joint would leave its limits on the way.
         """
         final = arm_target(x_m, self.pads_z_m, self.pitch_rad, self.roll_rad, geometry, limits)
         before = arm_target(x_m - self.back_off_m, self.hover_z_m, self.pitch_rad, self.roll_rad, geometry, limits)
-        raised = ArmTarget(
-            lift_m=before.lift_m,
-            extension_m=limits.extension_m[0],
-            wrist_pitch_rad=self.pitch_rad,
-            wrist_roll_rad=self.roll_rad,
-        )
-        return raised, before, final
+        higher_m = 0.0 if self.is_level else clear_over_m + TIP_M - self.hover_z_m
+        over = replace(before, lift_m=min(before.lift_m + max(higher_m, 0.0), limits.lift_m[1]))
+        raised = replace(over, extension_m=limits.extension_m[0])
+        return (raised, before, final) if over == before else (raised, over, before, final)
+
+    @property
+    def is_level(self) -> bool:
+        """Whether the hand comes from the side instead of from above."""
+        return self.pitch_rad > DOWN_RAD / 2
 
 
 def choose_grasp(

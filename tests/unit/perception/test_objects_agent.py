@@ -239,9 +239,9 @@ def finish(story, target, status, reason=""):
     story.memory.commit([PutEdge(replace(edge, status=status, reason=reason))], agent="robot_body", stamp_s=story.now_s)
 
 
-def joints(position, contacts=(False, False), opening_m=0.12):
+def joints(position, contacts=(False, False), opening_m=0.12, extension_m=0.3):
     return JointState(
-        stamp_s=0.0, lift_m=position[2], extension_m=0.3, wrist_pitch_rad=0.0, wrist_roll_rad=0.0,
+        stamp_s=0.0, lift_m=position[2], extension_m=extension_m, wrist_pitch_rad=0.0, wrist_roll_rad=0.0,
         gripper_opening_m=opening_m, pan_rad=0.0, tilt_rad=0.0, finger_contacts=contacts,
         T_base_gripper=SE3(translation_m=position),
     )  # fmt: skip
@@ -307,6 +307,20 @@ def test_what_shows_beside_the_hand_is_no_new_thing_until_the_hand_is_away():
     story.room.joints = joints((0.1, 0.0, 0.75))
     graph = story.run(8)
     assert [n.id for n in graph.of_type(ObjectNode)] == ["bottle_1", "cup_1", "table_1"]
+
+
+@pytest.mark.parametrize("arm", ["hand over it", "drawn in"])
+def test_what_shows_of_a_thing_under_the_arm_tells_nothing_of_it(arm):
+    story = Story([TABLE, BLUE_BOTTLE, RED_CUP])
+    story.run(6)
+    half = Solid(label="toy", center=(0.02, -0.17, 0.78), size_m=(0.05, 0.05, 0.06), color=(200.0, 30.0, 30.0))
+    above = story.room.T_room_base.inverse().apply(np.array(RED_CUP.center) + (0.0, 0.0, 0.25))
+    story.room.joints = joints(above) if arm == "hand over it" else joints((0.1, 0.0, 0.75), extension_m=0.0)
+    story.room.solids = [TABLE, BLUE_BOTTLE, half]
+    graph = story.run(12)
+    assert graph.object("cup_1").state is ObjectState.PRESENT
+    moved_m = np.linalg.norm(graph.position("cup_1", "room_1") - RED_CUP.center)
+    assert bool(moved_m < 0.01) is (arm == "hand over it")
 
 
 def test_a_thing_that_slips_from_the_fingers_is_missing_near_the_robot_until_seen():

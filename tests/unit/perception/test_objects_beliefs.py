@@ -86,6 +86,19 @@ def test_frames_that_are_all_unsure_but_agree_give_a_name():
     assert belief.confidence > 0.9
 
 
+@pytest.mark.parametrize(("looked_before", "name"), [(100, "book"), (3, "banana")])
+def test_what_was_looked_at_well_keeps_its_name_where_it_is_put_though_it_looks_like_something_else_there(
+    looked_before, name
+):
+    belief = LabelBelief()
+    for number in range(looked_before):
+        belief.update((("book", 0.8), ("banana", 0.15)), view=number // 20)
+    belief.start_from(belief.distribution, looked_before)
+    for number in range(60):
+        belief.update((("banana", 0.8), ("book", 0.13)), view=number // 12)
+    assert belief.best == name
+
+
 def test_what_looks_like_nothing_known_stays_unknown_and_one_lucky_frame_does_not_name_it():
     random = np.random.default_rng(0)
     belief = LabelBelief()

@@ -14,7 +14,7 @@ from majordomo.scene_graph.nodes import ObjectState
 from majordomo.scene_graph.se3 import SE3
 from majordomo.skills.actions.approach import STOPPED_RAD
 from majordomo.skills.actions.arm import CARRY_LIFT_M, Retract
-from majordomo.skills.actions.arm_way import BARRED_COST_M, passing_over
+from majordomo.skills.actions.arm_way import BARRED_COST_M, clear_over_m, passing_over
 from majordomo.skills.actions.grasp import CloseGripper
 from majordomo.skills.actions.place import LowerToPlace
 from majordomo.skills.actions.spot_choice import ChooseSpot
@@ -430,6 +430,17 @@ async def test_what_stops_the_arm_on_its_way_in_between_boards_is_not_the_board(
 
     rehearsal.observe = stop_the_arm
     assert (await rehearsal.run(actions[lowering:], 900.0)).code is FailureCode.UNREACHABLE
+
+
+@pytest.mark.parametrize(
+    ("cup_x_m", "cup_y_m", "clear_m"), [(0.45, 0.0, 0.89), (0.45, 0.11, 0.89), (0.45, 0.2, 0.0), (0.9, 0.0, 0.0)]
+)
+async def test_the_hand_goes_over_the_small_things_on_its_way(flat, cup_x_m, cup_y_m, clear_m):
+    built = flat().thing("table_1", (0.9, 0.0, 0.375), (1.2, 0.8, 0.75), support=True)
+    built.thing("book_1", (0.7, 0.0, 0.77), (0.2, 0.08, 0.04), on="table_1", graspable=True)
+    built.thing("cup_1", (cup_x_m, cup_y_m, 0.8), (0.08, 0.08, 0.1), on="table_1", graspable=True)
+    context = await Rehearsal(memory=built.memory, body=FakeBody()).prepare()
+    assert clear_over_m(context, 0.7, "book_1") == pytest.approx(clear_m)
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from majordomo.scene_graph.se3 import SE3
 from majordomo.skills.errors import Unreachable
-from majordomo.skills.grasping import MAX_WIDTH_M, choose_grasp, grasp_options, prefers_level
+from majordomo.skills.grasping import MAX_WIDTH_M, TIP_M, choose_grasp, grasp_options, prefers_level
 from majordomo.skills.kinematics import arm_target, gripper_pose, reach_band_m
 from majordomo.skills.ports import ArmGeometry, ArmTarget, BodyLimits
 
@@ -128,3 +128,16 @@ def test_what_lies_on_a_seat_is_taken_from_above_though_arms_and_back_are_higher
     built = flat().thing("sofa_1", (1.0, 1.2, 0.4), (1.8, 0.9, 0.8), support=True)
     built.thing("cup_1", (1.0, 1.2, 0.47), (0.08, 0.08, 0.1), on="sofa_1")
     assert not prefers_level(built.memory.snapshot(), "cup_1", SE3.from_xyz_yaw(0.6, 0.0, 0.47, 0.0))
+
+
+@given(st.floats(0.0, 1.0), st.floats(0.45, 0.7), st.floats(0.3, 0.9))
+def test_from_above_the_finger_tips_clear_what_lies_on_the_way(clear_over_m, x_m, z_m):
+    grasp = choose_grasp(
+        (0.2, 0.08, 0.04), SE3.from_xyz_yaw(x_m, 0.0, z_m, 0.0), level_first=False, geometry=GEOMETRY, limits=LIMITS
+    )
+    *out, final = grasp.approach(x_m, GEOMETRY, LIMITS, clear_over_m=clear_over_m)
+    heights = {gripper_pose(target, GEOMETRY).z_m - TIP_M for target in out[:2]}
+    assert min(heights) >= min(clear_over_m, z_m + 0.02) - 1e-9
+    assert max(heights) >= clear_over_m - 1e-9
+    assert out[0].extension_m == LIMITS.extension_m[0]
+    assert (final.lift_m, final.extension_m) == (grasp.approach(x_m, GEOMETRY, LIMITS)[-1].lift_m, out[-1].extension_m)

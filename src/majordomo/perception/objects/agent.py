@@ -47,6 +47,8 @@ from majordomo.scene_graph.snapshot import Snapshot
 
 logger = logging.getLogger(__name__)
 _SPARSE = 4
+_REACHING_M = 0.1
+"""An arm that is stretched out by more is not in a pose to travel in."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -198,6 +200,7 @@ class ObjectMemory:
                 turning_radps=turning,
                 looked_before=self._inspection.looked(snapshot, stamp_s),
                 hand=view.T_room_base.apply(body.grip) if body is not None else None,
+                reaching=joints is not None and joints.extension_m > _REACHING_M,
                 persons=self._people.spots(surroundings),
             )
         )

@@ -15,6 +15,12 @@ LabelDistribution = tuple[tuple[str, float], ...]
 _FRAMES = 12.0
 """So many of the newest frames of a view make its mean."""
 _FIRST = 0.6
+_BEFORE, _FRAMES_BEFORE = "before", 5
+"""What was found out earlier counts as much as so many frames of a view that say the same."""
+_OBSERVATIONS_OF_VIEW, _VIEWS_BEFORE = 12.0, (0.5, 3.0)
+"""Of so many observations it counts as one view: what was seen time and again, from more sides than one, is not
+overturned by the first look after a restart, or where the thing was put.
+"""
 _SIZE_SPREAD = 0.25
 """Standard deviation of the logarithm of the size of what comes in one size: a stove two meters long is more likely a
 stove and a counter, which go by the counter's name.
@@ -100,6 +106,15 @@ class LabelBelief:
             before = [key for key in self._looks if key != view]
             del self._looks[min(before, key=lambda key: round(self._looks[key].evidence(self._evidence_of_view), 1))]
         self.distribution = self._ranked(self._fused())
+
+    def start_from(self, distribution: LabelDistribution, observations: int) -> None:
+        """Begin anew from what so many observations came to, as after a restart or at another place: it counts as views
+        of its own, the more of them the oftener the thing was seen, and no look at the new place takes its place.
+        """
+        self._looks = {}
+        trust = float(np.clip(observations / _OBSERVATIONS_OF_VIEW, *_VIEWS_BEFORE))
+        for _ in range(_FRAMES_BEFORE):
+            self.update(distribution, view=_BEFORE, trust=trust)
 
     def measure(self, size_m: Point3) -> None:
         """Take in the extent of the thing: some names do not go with it."""

@@ -105,6 +105,15 @@ def is_at_hand(detection: Detection, sight: Sight, settings: PieceSettings) -> b
     return float(np.linalg.norm(detection.shape.center - sight.hand)) < settings.hand_m
 
 
+def is_under_arm(center: NDArray[np.float64], sight: Sight, settings: PieceSettings) -> bool:
+    """Whether what has its middle there, (3,) in the frame of the view, is near the hand of an arm that is stretched
+    out: the arm cuts it into pieces and hides what is beside it, so neither its looks nor its absence tell anything.
+    """
+    if sight.hand is None or not sight.reaching:
+        return False
+    return float(np.hypot(*(center - sight.hand)[:2])) < settings.hand_m
+
+
 def _shows(mask: NDArray[np.bool_], pixel: tuple[float, float]) -> bool:
     """Whether a pixel (u, v) is of a mask."""
     u, v = (round(each) for each in pixel)

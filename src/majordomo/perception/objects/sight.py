@@ -19,7 +19,8 @@ class Sight:
 
     ``turning_radps``: how fast the robot turns. ``looked_before``: when each room and support
     was first inspected. ``hand``: (3,) where the fingers are, in the room frame of the view, if that is known;
-    ``persons``: (P, 2) where people stand, in the same frame.
+    ``reaching``: whether the arm is stretched out, so that it hides and cuts what it reaches for; ``persons``: (P, 2)
+    where people stand, in the same frame.
     """
 
     view: View
@@ -28,4 +29,5 @@ class Sight:
     turning_radps: float = 0.0
     looked_before: Mapping[str, float] = field(default_factory=dict)
     hand: NDArray[np.float64] | None = None
+    reaching: bool = False
     persons: NDArray[np.float64] = field(default_factory=lambda: np.empty((0, 2)))

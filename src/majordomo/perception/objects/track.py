@@ -31,16 +31,9 @@ _APART = 0.5
 """Two places lie apart as a thing sees them, if they are farther from each other than this share of the way to it."""
 _PART_TRUST = 0.25
 """What a view of a part counts, cut by the picture's border or by what stands before it: networks name parts badly."""
-_STORED_FRAMES = 5
-"""A stored label counts as much as so many frames of a view that say the same."""
-_STORED_VIEWS = (0.5, 3.0)
 _STORED_ACCENTS = 2.0
 _KNOWN_HITS, _KNOWN_LABEL = 10, 0.5
 _BEYOND_M, _AT_OTHER_M = 0.05, 0.06
-_OBSERVATIONS_OF_VIEW = 12.0
-"""Of so many observations, a stored label counts as one view: what was seen time and again, from more sides than one,
-is not overturned by the first look after a restart.
-"""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -234,6 +227,7 @@ class Track:
     def put_at(self, room: str, position: Array, sigma_m: float, yaw_rad: float | None = None) -> None:
         """Place it where it must be now, other than by sight: released there or dropped there."""
         self.room = room
+        self.label.start_from(self.label.distribution, self.hits)
         if self.place is not None:
             self.levels = self.levels.raised(float(position[2] - self.position[2]))
             self.place.put_at(position, sigma_m, yaw_rad)
@@ -251,6 +245,7 @@ class Track:
         self.color, self.accents = other.color, other.accents
         self.state, self.log_odds = ObjectState.PRESENT, other.log_odds
         self.awaited = self.fell = False
+        self.label.start_from(self.label.distribution, self.hits)
         self.label.update(other.label.distribution, view=other.number)
         self.seen_from = [*self.seen_from, *other.seen_from][-_PLACES:]
         self.hits += other.hits
@@ -273,9 +268,7 @@ class Track:
         self.node_id = node.id
         if is_taught(node.label, node.label_distribution):
             self.label.teach(node.label)
-        views = float(np.clip(node.observations / _OBSERVATIONS_OF_VIEW, *_STORED_VIEWS))
-        for _ in range(_STORED_FRAMES):
-            self.label.update(node.label_distribution or ((node.label, 0.9),), view="stored", trust=views)
+        self.label.start_from(node.label_distribution or ((node.label, 0.9),), node.observations)
         if node.color:
             self.color.update({node.color: 1.0})
         self.accents.update(node.accents, _STORED_ACCENTS)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import cv2
 import numpy as np
@@ -40,6 +40,7 @@ from majordomo.perception.objects.pieces import (
     is_of_somebody,
     is_part,
     is_piece,
+    is_under_arm,
 )
 from majordomo.perception.objects.sight import Sight
 from majordomo.perception.objects.surface import Box, SurfaceBelief
@@ -123,6 +124,7 @@ class Tracker:
 
     def update(self, sight: Sight) -> None:
         """One frame."""
+        sight = self._without_hidden(sight)
         scope = [t for t in self.tracks if t.room in sight.surroundings.T_here_room and t.state is not ObjectState.HELD]
         iou = self._masks.overlap([track.number for track in scope], sight.detections, sight.view)
         costs = cost_matrix(scope, sight.detections, iou, sight.surroundings.T_here_room, self._settings.association)
@@ -145,6 +147,16 @@ class Tracker:
         self._forget_tentative(sight.view.stamp_s)
         seen = [(d.mask, self.matches[d.index].number) for d in sight.detections if d.index in self.matches]
         self._masks.remember(seen, sight.view)
+
+    def _without_hidden(self, sight: Sight) -> Sight:
+        """Without the small things that are looked at over the arm."""
+        told = [
+            detection
+            for detection in sight.detections
+            if category_of(detection.label, detection.shape.size_m).furniture
+            or not is_under_arm(detection.shape.center, sight, self._settings.pieces)
+        ]
+        return replace(sight, detections=told) if len(told) < len(sight.detections) else sight
 
     def _observe(self, track: Track, detection: Detection, sight: Sight) -> None:
         others = [
@@ -221,6 +233,8 @@ class Tracker:
             share = surface_absent(points, sight.view, settings)
             return -settings.through_limit * share if share > 0.6 else 0.0
         box = Box(T_here_room.apply(track.position), track.box.size_m, track.box.yaw_rad + T_here_room.yaw_rad)
+        if is_under_arm(box.center, sight, self._settings.pieces):
+            return 0.0
         seen = visibility(box, sight.view, settings)
         replaced = any(
             detection.index in self.matches

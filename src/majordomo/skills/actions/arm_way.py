@@ -12,7 +12,7 @@ from majordomo.skills.action import RobotContext
 from majordomo.skills.geometry import Point2, Points
 from majordomo.skills.grasping import HOVER_M
 from majordomo.skills.navigation.local_map import PERSON_FRESH_S, PERSON_RADIUS_M, draw_map, footprint
-from majordomo.skills.navigation.pose import footprint_radius_m, robot_frame
+from majordomo.skills.navigation.pose import footprint_radius_m, in_base, robot_frame
 from majordomo.skills.navigation.route import Routes, find_routes
 from majordomo.skills.navigation.walls import Walls
 
@@ -27,6 +27,8 @@ SURELY_MET_M = 0.06
 HELD_MARGIN_M = 0.06
 PERSON_CLEARANCE_M, DRIFT_M = 0.32, 0.04
 """So far from the middle of a person the middle of the arm keeps, from a place that is as far off as a drive may be."""
+CLEARANCE_M = 0.04
+"""Air between the finger tips, or what they hold, and what the hand passes over."""
 AROUND_PERSON_M = PERSON_RADIUS_M + 0.1
 """What is hit so near to where somebody stands is taken for them."""
 
@@ -34,6 +36,22 @@ AROUND_PERSON_M = PERSON_RADIUS_M + 0.1
 def underside_of_held_m(z_m: float) -> float:
     """Height over which the hand passes with what it holds on its way to a spot at ``z_m``."""
     return z_m + HOVER_M - HELD_MARGIN_M
+
+
+def clear_over_m(context: RobotContext, x_m: float, *targets: str) -> float:
+    """Height over the floor that the lowest part of the hand keeps on its way straight ahead to ``x_m``, so that it
+    touches none of the small things there; 0 where there are none. ``targets``: as ``spared_nodes`` takes them.
+    """
+    snapshot, spared, highest_m = context.snapshot, spared_nodes(context.snapshot, *targets), 0.0
+    for node in snapshot.of_type(ObjectNode):
+        here = node.state is ObjectState.PRESENT and snapshot.room_of(node.id) == robot_frame(snapshot)
+        if not (here and node.graspable) or node.id in spared:
+            continue
+        center_x_m, y_m, z_m = in_base(context, node.id).translation_m
+        half_m = max(node.size_m[:2]) / 2
+        if abs(y_m) < ARM_HALF_WIDTH_M + half_m and 0.0 < center_x_m < x_m + ARM_HALF_WIDTH_M + half_m:
+            highest_m = max(highest_m, z_m + node.size_m[2] / 2 + CLEARANCE_M)
+    return highest_m
 
 
 def spared_nodes(snapshot: Snapshot, *targets: str) -> set[str]:

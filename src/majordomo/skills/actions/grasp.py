@@ -11,6 +11,7 @@ from py_trees.common import Status
 from majordomo.scene_graph.se3 import SE3
 from majordomo.skills.action import Action, Grip, RobotContext
 from majordomo.skills.actions.arm import EMPTY_OPENING_M, ArmAction, ArmProgress, avoid_side, is_firm
+from majordomo.skills.actions.arm_way import clear_over_m
 from majordomo.skills.containers import is_open_container
 from majordomo.skills.errors import Unreachable
 from majordomo.skills.failures import FailureCode
@@ -91,7 +92,8 @@ class Reach(ArmAction):
         if abs(T_base_object.y_m) > SIDE_TOLERANCE_M + (self._grasp.opening_m - 0.06) / 4:
             where = f"{100 * T_base_object.y_m:.1f} cm beside the arm's plane"
             raise Unreachable(T_base_object.x_m, T_base_object.z_m, self._grasp.pitch_rad, where)
-        targets = self._grasp.approach(self._x_m, context.geometry, context.limits)
+        over_m = clear_over_m(context, self._x_m, self.object_id)
+        targets = self._grasp.approach(self._x_m, context.geometry, context.limits, clear_over_m=over_m)
         arm = context.body.arm
         if arm.extension_m > EXTENDED_M:  # taken up again: straight up before drawing back
             targets = (replace(arm, lift_m=max(arm.lift_m, targets[0].lift_m)), *targets)

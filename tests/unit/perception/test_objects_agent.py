@@ -314,7 +314,7 @@ def test_what_shows_of_a_thing_under_the_arm_tells_nothing_of_it(arm):
     story = Story([TABLE, BLUE_BOTTLE, RED_CUP])
     story.run(6)
     half = Solid(label="toy", center=(0.02, -0.17, 0.78), size_m=(0.05, 0.05, 0.06), color=(200.0, 30.0, 30.0))
-    above = story.room.T_room_base.inverse().apply(np.array(RED_CUP.center) + (0.0, 0.0, 0.25))
+    above = story.room.T_room_base.inverse().apply(np.add(RED_CUP.center, (0.0, 0.0, 0.25)))
     story.room.joints = joints(above) if arm == "hand over it" else joints((0.1, 0.0, 0.75), extension_m=0.0)
     story.room.solids = [TABLE, BLUE_BOTTLE, half]
     graph = story.run(12)

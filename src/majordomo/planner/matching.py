@@ -1,4 +1,6 @@
-"""Which nodes a noun could name: by identifier, taught name, label, synonym, head noun or kind, in that order."""
+"""Which nodes a noun could name: by identifier, taught name, label, synonym, head noun, kind or coarser name, in that
+order.
+"""
 
 from __future__ import annotations
 
@@ -11,6 +13,7 @@ from majordomo.planner.vocabulary import (
     NO_KIND_OF_THEIRS,
     PERSON_WORDS,
     ROOM_WORDS,
+    coarser_labels,
     is_known,
     is_room_label,
     kind_labels,
@@ -24,6 +27,7 @@ from majordomo.scene_graph.nodes import DoorNode, ObjectNode, PersonNode, Region
 from majordomo.scene_graph.snapshot import Snapshot
 
 Place = RoomNode | ObjectNode | PersonNode | DoorNode
+_COARSER = 5
 
 
 def nodes_of(snapshot: Snapshot) -> Iterator[Place]:
@@ -62,7 +66,8 @@ class Names:
         """Identifiers of the nodes that ``head`` (*remote control*) may name.
 
         ``widely``: every way of naming counts, as in *how many cups*; else the closest way that names anything decides,
-        so that *mug* prefers what is labeled mug to what is labeled cup. ``fixed``: *things* and *objects* may be any,
+        so that *mug* prefers what is labeled mug to what is labeled cup; a coarser name counts only if no other way
+        names anything. ``fixed``: *things* and *objects* may be any,
         not only those that can be carried.
         """
         if head in self._snapshot:
@@ -71,7 +76,7 @@ class Names:
         if number is not None:
             ranked = [(rank, i) for rank, i in ranked if i.rpartition("_")[2] == str(number)]
         closest = min((rank for rank, _ in ranked), default=0)
-        kept = [i for rank, i in ranked if widely or rank == closest]
+        kept = [i for rank, i in ranked if rank == closest or (widely and rank < _COARSER)]
         regions = self._snapshot.of_type(RegionNode)
         kept += [region.id for region in regions if region.label and normal(region.label) == head]
         return tuple(sorted(kept, key=natural_key))
@@ -104,7 +109,9 @@ def _names(snapshot: Snapshot) -> set[str]:
 
 
 def _rank(head: str, node: Place, *, fixed: bool) -> int | None:
-    """How closely ``head`` names ``node``: 0 name, 1 label, 2 synonym, 3 last word, 4 kind, None not at all."""
+    """How closely ``head`` names ``node``: 0 name, 1 label, 2 synonym, 3 last word, 4 kind, 5 coarser name,
+    None not at all.
+    """
     forms = {head, singular(head)}
     label = normal(node.label)
     if isinstance(node, ObjectNode | PersonNode) and node.name and normal(node.name) in {head, f"my {head}"}:
@@ -133,7 +140,14 @@ def _rank(head: str, node: Place, *, fixed: bool) -> int | None:
         return 3
     if isinstance(node, RoomNode) and _sort_of_own_name(label) in forms:
         return 3
-    return 4 if isinstance(node, ObjectNode) and _is_kind(forms, node, fixed=fixed) else None
+    return _rank_as_kind(head, node, fixed=fixed) if isinstance(node, ObjectNode) else None
+
+
+def _rank_as_kind(head: str, node: ObjectNode, *, fixed: bool) -> int | None:
+    """How closely ``head`` names the kind of thing that ``node`` is, or one of its kind by a closer name."""
+    if _is_kind({head, singular(head)}, node, fixed=fixed):
+        return 4
+    return _COARSER if normal(node.label) in coarser_labels(head) else None
 
 
 def _is_own_name(room_label: str) -> bool:

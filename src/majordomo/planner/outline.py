@@ -14,7 +14,7 @@ from itertools import pairwise
 from majordomo.planner.grammar.spelling import closest
 from majordomo.planner.matching import is_first_of_pair
 from majordomo.planner.naming import name_of
-from majordomo.planner.vocabulary import kind_labels, normal, singular, words_for
+from majordomo.planner.vocabulary import coarser_labels, kind_labels, normal, singular, words_for
 from majordomo.scene_graph.identifiers import natural_key
 from majordomo.scene_graph.nodes import DoorNode, DoorState, ObjectNode, ObjectState, PersonNode, RoomNode, RoomStatus
 from majordomo.scene_graph.snapshot import Snapshot
@@ -127,7 +127,7 @@ def _words(request: str, labels: Collection[str]) -> frozenset[str]:
     pairs = [" ".join(pair) for pair in pairwise(tokens)]
     words: set[str] = set()
     for token in (*tokens, *pairs):
-        meanings = words_for(token) | kind_labels(token) | {singular(token)}
+        meanings = words_for(token) | kind_labels(token) | coarser_labels(token) | {singular(token)}
         slip = closest(token, labels) if not meanings & set(labels) else None
         words |= meanings | ({slip} if slip is not None else set())
     return frozenset(words)

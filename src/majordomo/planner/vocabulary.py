@@ -164,6 +164,19 @@ KINDS: dict[str, tuple[str, ...]] = {
 }
 """Words for a kind of thing, and labels that belong to it; an object's own ``categories`` count as well."""
 
+COARSER: dict[str, tuple[str, ...]] = {
+    "table": ("coffee table", "side table", "dinner table", "tea table"),
+    "chair": ("armchair",),
+    "cabinet": ("dresser", "sideboard", "commode"),
+    "wardrobe": ("closet", "armoire"),
+    "stove": ("oven",),
+    "tv stand": ("tv bench", "tv console", "media console"),
+    "vase": ("vessel",),
+}
+"""What a camera that tells few kinds apart calls things for which people have words of their own, and those words:
+where nothing is called so, they mean what is called by the coarser name.
+"""
+
 ANYTHING = frozenset({"thing", "object", "item", "stuff", "one", "everything"})
 """Words that fit any object that can be carried."""
 
@@ -248,6 +261,14 @@ def kind_labels(word: str) -> frozenset[str]:
 
 
 @lru_cache(maxsize=8192)
+def coarser_labels(word: str) -> frozenset[str]:
+    """Labels under which a camera may know what ``word`` names, other than its own: *table* for *coffee table*."""
+    words = words_for(word)
+    labels = (label for label, finer in COARSER.items() if not words.isdisjoint(finer))
+    return frozenset().union(*(words_for(label) for label in labels)) - words
+
+
+@lru_cache(maxsize=8192)
 def normal(label: str) -> str:
     """A label as words: lower case, underscores as spaces."""
     return " ".join(label.lower().replace("_", " ").split())
@@ -272,7 +293,7 @@ def known_nouns() -> Iterable[str]:
     """Every noun of this table, for recognizing multi-word names."""
     for group in SYNONYMS:
         yield from group
-    for kind, labels in KINDS.items():
+    for kind, labels in (*KINDS.items(), *COARSER.items()):
         yield kind
         yield from labels
     yield from ANYTHING | FURNITURE | ROOM_WORDS | PERSON_WORDS

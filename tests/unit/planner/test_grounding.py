@@ -116,6 +116,19 @@ def test_where_there_is_no_cup_the_mug_there_is_meant():
     assert goals("bring me the cup from the counter", in_hall(sketch)) == "given(cup_2, person_2)"
 
 
+def test_where_nothing_is_called_a_coffee_table_a_table_is_meant():
+    assert goals("go to the coffee table in the living room") == goals("go to the table in the living room")
+    assert "the table in the kitchen or the table in the living room" in read("go to the coffee table").reply
+    assert read("how many coffee tables are there?").reply.startswith("I know of 2 coffee tables")
+
+
+def test_where_one_is_called_a_coffee_table_no_other_table_is_meant():
+    sketch = flat().furniture("table_9", "coffee table", "room_2", at=(4.0, 1.0))
+    assert goals("go to the coffee table", in_hall(sketch)) == "robot_at(table_9)"
+    assert read("how many coffee tables are there?", in_hall(sketch)).reply.startswith("I know of 1 coffee table")
+    assert read("how many tables are there?", in_hall(sketch)).reply.startswith("I know of 3 tables")
+
+
 def nameless(sketch, node_id, on, **chances):
     return sketch.thing(node_id, "unknown", on=on, label_distribution=tuple(chances.items()))
 

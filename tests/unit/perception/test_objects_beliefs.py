@@ -11,6 +11,7 @@ from majordomo.perception.objects.color import PALETTE, colors_of, named_color
 from majordomo.perception.objects.confirmation import is_double, is_fragment, known_as, turned_up
 from majordomo.perception.objects.identity import IdentitySettings, departed, likeness, same_thing_moved
 from majordomo.perception.objects.membership import Outline, Surroundings
+from majordomo.perception.objects.pieces import is_of_several
 from majordomo.perception.objects.projection import View
 from majordomo.perception.objects.raycast import Solid, look_at, render, rgbd_frame
 from majordomo.perception.objects.scripted import furnished_memory
@@ -133,6 +134,22 @@ def test_the_same_cupboard_under_two_names_is_one_and_a_chair_under_a_table_is_n
     table, chair = seen("table", (1.4, 0.9, 0.75), 3), seen("chair", (0.45, 0.45, 0.7), 4)
     assert not is_double(table, chair)
     assert not is_fragment(chair, table)
+
+
+@pytest.mark.parametrize(
+    ("middle_x_m", "long_m", "whole", "several"),
+    [(0.3, 1.0, False, True), (0.3, 1.0, True, False), (0.0, 0.5, False, False), (1.2, 1.0, False, False)],
+)
+def test_what_spans_two_pieces_of_a_row_is_no_third_unless_it_reaches_beyond_or_is_seen_whole(
+    middle_x_m, long_m, whole, several
+):
+    stove, fridge = seen("stove", (0.6, 0.6, 0.9), 1), seen("fridge", (0.6, 0.6, 1.8), 2)
+    fridge.place = SurfaceBelief.of(Box(np.array((0.65, 0.0, 0.9)), (0.6, 0.6, 1.8), 0.0))
+    low = seen("counter", (long_m, 0.5, 0.5), 3)
+    low.place = SurfaceBelief.of(Box(np.array((middle_x_m, 0.0, 0.3)), (long_m, 0.5, 0.5), 0.0))
+    low.seen_whole = whole
+    assert is_of_several(low, [stove, fridge]) is several
+    assert not is_of_several(low, [])
 
 
 @given(st.lists(st.tuples(st.sampled_from(LABELS), st.floats(0.0, 1.0)), min_size=1, max_size=20))

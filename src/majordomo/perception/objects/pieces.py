@@ -20,6 +20,8 @@ from majordomo.scene_graph.nodes import UNKNOWN_LABEL, ObjectState
 _PERSON_M = 2.5
 _EDGE_M, _MOST = 0.02, 0.85
 """Such a share of the points of what is furniture is so near to it."""
+_ROW_EDGE_M = 0.1
+"""The same where it is not yet known well how far the pieces of a row reach."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -40,15 +42,17 @@ def has_no_name(track: Track) -> bool:
     return track.label.best == UNKNOWN_LABEL
 
 
-def is_piece(track: Track, sight: Sight, matches: Mapping[int, Track], settings: PieceSettings) -> bool:
-    """Whether what has no name, or is furniture of a doubtful one, is none of the things: somebody, or a part of a
-    thing that is seen.
+def is_piece(
+    track: Track, sight: Sight, matches: Mapping[int, Track], known: Sequence[Track], settings: PieceSettings
+) -> bool:
+    """Whether what has no name, or is furniture of a doubtful one, is none of the things: somebody, a part of a thing
+    that is seen, or parts of several pieces of furniture in one.
 
-    ``matches``: which thing each detection is, by its index.
+    ``matches``: which thing each detection is, by its index; ``known``: things that have a node.
     """
     if track.is_furniture:
         doubtful = has_no_name(track) or track.label.confidence < settings.sure
-        return doubtful and is_of_somebody(track, sight, settings)
+        return doubtful and (is_of_somebody(track, sight, settings) or is_of_several(track, known))
     return has_no_name(track) and (is_of_somebody(track, sight, settings) or is_part(track, sight, matches))
 
 
@@ -58,6 +62,18 @@ def is_of_somebody(track: Track, sight: Sight, settings: PieceSettings) -> bool:
     middle = np.median(points, axis=0) if len(points) else track.position
     x_m, y_m, _ = sight.surroundings.T_here_room[track.room].apply(middle).tolist()
     return bool((np.hypot(*(sight.persons - (x_m, y_m)).T) < settings.person_m).any())
+
+
+def is_of_several(track: Track, known: Sequence[Track]) -> bool:
+    """Whether furniture that was never seen as a whole is where several other pieces are, and not just one: of a row of
+    them, the lower halves often are in one mask.
+    """
+    points = track.surface_points
+    others = [t for t in known if t.is_furniture and t.room == track.room and t.state is ObjectState.PRESENT]
+    if track.seen_whole or not len(points) or not others:
+        return False
+    within = np.array([other.box.contains(points, _ROW_EDGE_M) for other in others])
+    return float(within.any(axis=0).mean()) > _MOST >= float(within.mean(axis=1).max())
 
 
 def is_part(

@@ -282,10 +282,10 @@ class Tracker:
         """Name what has been seen often enough, or recognize it."""
         identity = self._settings.identity
         for track in [t for t in self.tracks if t.node_id is None and not t.homeless and self._is_stable(t)]:
-            if is_piece(track, sight, self.matches, self._settings.pieces):
+            known = [t for t in self.tracks if t.node_id is not None]
+            if is_piece(track, sight, self.matches, known, self._settings.pieces):
                 self.drop(track)
                 continue
-            known = [t for t in self.tracks if t.node_id is not None]
             same = known_as(
                 track,
                 known,

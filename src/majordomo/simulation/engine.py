@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Callable
 from typing import Any
 
@@ -24,6 +25,8 @@ from majordomo.skills.ports import ArmTarget, BodyState
 SOLVER_ITERATIONS = 200
 """With fewer, friction creeps: what the fingers hold slides and turns by centimeters on the way."""
 HARMLESS = frozenset({"floor"})
+TOUCHED_KEPT = 100
+"""Of so many collisions it is known what was touched."""
 
 
 class Engine:
@@ -48,6 +51,7 @@ class Engine:
         self._steps = 0
         self._collisions = 0
         self._colliding: frozenset[int] = frozenset()
+        self._touched: deque[str] = deque(maxlen=TOUCHED_KEPT)
 
     @property
     def now_s(self) -> float:
@@ -145,6 +149,7 @@ class Engine:
             robot_pose=self._robot.pose,
             holding=held[0] if held else None,
             collisions=self._collisions,
+            touched=list(self._touched),
         )
 
     def disturb(self, event: dict[str, Any]) -> None:
@@ -200,5 +205,7 @@ class Engine:
             if carried or self._robot.is_finger(link) or self._world.category_of(body) in HARMLESS:
                 continue
             touching.add(body)
-        self._collisions += len(touching - self._colliding)
+        fresh = sorted(touching - self._colliding)
+        self._collisions += len(fresh)
+        self._touched += [self._world.id_of(body) or self._world.category_of(body) or "" for body in fresh]
         self._colliding = frozenset(touching)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -92,8 +92,18 @@ class World:
         for walker in walking:
             walker.advance(dt_s, strangers)
 
-    def truth(self, *, stamp_s: float, robot_pose: Pose2, holding: str | None, collisions: int) -> dict[str, Any]:
-        """Body of ``GET /v1/simulation/truth``, in house coordinates."""
+    def truth(
+        self,
+        *,
+        stamp_s: float,
+        robot_pose: Pose2,
+        holding: str | None,
+        collisions: int,
+        touched: Sequence[str] = (),
+    ) -> dict[str, Any]:
+        """Body of ``GET /v1/simulation/truth``, in house coordinates; for evaluations, also where people are and what
+        the robot ``touched`` lately, newest last, by identifier in the house or by kind.
+        """
         return {
             "stamp_s": round(stamp_s, 6),
             "house": self.house.name,
@@ -104,6 +114,7 @@ class World:
             ],
             "people": [{"id": name, "position_m": list(walker.position_m)} for name, walker in self._walkers.items()],
             "collisions": collisions,
+            "touched": list(touched),
         }
 
     def _build(self) -> None:

@@ -48,6 +48,17 @@ async def test_the_same_seed_and_commands_give_the_same_data_bit_for_bit():
     assert await experience() == await experience()
 
 
+async def test_what_the_robot_drives_into_is_counted_and_named(robot):
+    assert (await robot.truth())["touched"] == []
+    while not (truth := await robot.truth())["collisions"]:
+        assert truth["stamp_s"] < 60.0
+        await robot.drive(0.3, 0.0)
+        await robot.advance(0.1)
+    things = {entry["id"] for entry in truth["objects"]} | {"wall", "door", "user"}
+    assert len(truth["touched"]) == truth["collisions"]
+    assert set(truth["touched"]) <= things
+
+
 async def test_a_killed_simulator_is_told_from_a_slow_one_and_can_be_restarted(robot):
     await robot.advance(0.5)
     os.kill(robot.pid, signal.SIGKILL)

@@ -19,7 +19,7 @@ from majordomo.app.evaluations.missions.inventing import invent
 from majordomo.app.evaluations.missions.mission import Mission
 from majordomo.app.evaluations.missions.mission_file import MissionFileError, load_missions
 from majordomo.app.evaluations.missions.outcome import HAND, Outcome, Placed, RobotIn, Scene, stirred
-from majordomo.app.evaluations.missions.playing import Verdict
+from majordomo.app.evaluations.missions.playing import Verdict, touched_last
 from majordomo.app.evaluations.missions.resident import meant
 from majordomo.app.evaluations.missions.ways import Ways
 from majordomo.planner.tasks import PlanReport, StepReport, StepStatus, Task, TaskStatus, TaskTimes
@@ -272,6 +272,13 @@ def row(verdict, disturbance="", *, possible=True, collisions=0, driven_m=5.0, s
         "verdict": verdict, "disturbance": disturbance, "made": bool(disturbance), "possible": possible,
         "collisions": collisions, "driven_m": driven_m, "shortest_m": shortest_m, "attempts": attempts,
     }  # fmt: skip
+
+
+def test_what_was_touched_is_told_of_the_newest_collisions_only():
+    truth = {"collisions": 5, "touched": ["wall", "chair_1", "cup_1"]}
+    assert touched_last(truth, 2) == ["chair_1", "cup_1"]
+    assert touched_last(truth, 5) == ["wall", "chair_1", "cup_1"]
+    assert touched_last(truth, 0) == []
 
 
 def test_one_phantom_or_one_collision_is_one_too_many():

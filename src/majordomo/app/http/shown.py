@@ -284,7 +284,9 @@ class TruthDocument(Shown):
     robot: dict[str, Any]
     objects: list[dict[str, Any]]
     doors: list[dict[str, Any]]
+    people: list[dict[str, Any]]
     collisions: int
+    touched: list[str]
 
 
 class RestartDocument(Shown):

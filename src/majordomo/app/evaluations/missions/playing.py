@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from enum import StrEnum
 from pathlib import Path
@@ -149,6 +149,7 @@ class _Play:
         after = await self._scene()
         await self._film(after, task.explanation or task.reply)
         row = self._judged(task, before, after, within_reach=within_reach)
+        collisions = int(after.truth["collisions"]) - int(before.truth["collisions"])
         await self._meddler.tidy_up()
         return {
             "kind": self._mission.kind,
@@ -164,7 +165,8 @@ class _Play:
             "attempts": [asdict(attempt) for attempt in self._attempts.checked],
             "explanation": task.explanation or task.reply,
             "replans": task.replans,
-            "collisions": int(after.truth["collisions"]) - int(before.truth["collisions"]),
+            "collisions": collisions,
+            "touched": touched_last(after.truth, collisions),
             "driven_m": round(self._course.length_m, 2),
             "shortest_m": None if shortest_m is None else round(shortest_m, 2),
             "seconds": round(after.truth["stamp_s"] - before.truth["stamp_s"], 1),
@@ -269,6 +271,12 @@ class _Play:
 
     async def _scene(self) -> Scene:
         return await scene_of(self._runtime, self._house)
+
+
+def touched_last(truth: Mapping[str, Any], collisions: int) -> list[str]:
+    """What was touched in the newest so many collisions, as far as the simulator remembers."""
+    touched = truth.get("touched", ())
+    return list(touched[max(len(touched) - collisions, 0) :])
 
 
 def _whereabouts(scene: Scene, thing: str) -> str:

@@ -371,6 +371,33 @@ def test_what_fell_from_the_hand_lies_near_there_or_on_the_floor_and_a_look_alik
     assert (turned_up(fallen, [sighting], **known) is sighting) is same
 
 
+def banana_like(number, **fields):
+    """What may be a book, but looks more like a banana."""
+    sighting = thing(number, "banana", **fields)
+    sighting.label = LabelBelief()
+    for _ in range(5):
+        sighting.label.update((("banana", 0.8), ("book", 0.1)))
+    return sighting
+
+
+@pytest.mark.parametrize("state", [ObjectState.PRESENT, ObjectState.MISSING])
+@pytest.mark.parametrize(
+    ("look", "at_x_m", "same"),
+    [({}, 0.03, True), ({}, 0.3, False), ({"color": "red"}, 0.03, False), ({"size_m": (0.3, 0.2, 0.05)}, 0.03, False)],
+)
+def test_what_looks_the_same_in_the_very_place_of_a_thing_is_that_thing_whatever_it_is_called(
+    state, look, at_x_m, same
+):
+    book = thing(1, "book", state=state)
+    sighting = banana_like(2, seen=(20.0, 21.0), **look)
+    sighting.put_at("room_1", np.array((at_x_m, 0.0, 0.0)), 0.01)
+    known = known_as(sighting, [book], taken_from={}, looked_before={}, settings=IdentitySettings())
+    assert (known is book) is same
+    if state is ObjectState.MISSING:
+        found = turned_up(book, [sighting], looked_before={"room_1": 0.0}, settings=IdentitySettings())
+        assert (found is sighting) is same
+
+
 @pytest.mark.parametrize(
     ("look", "same"),
     [
@@ -383,10 +410,8 @@ def test_what_fell_from_the_hand_lies_near_there_or_on_the_floor_and_a_look_alik
 def test_what_slipped_is_known_by_its_looks_where_it_lies_even_if_it_is_called_otherwise_there(look, same):
     slipped, far = (thing(n, "book", state=ObjectState.MISSING) for n in (1, 2))
     far.put_at("room_1", np.array((3.0, 0.0, 0.0)), 0.01)
-    sighting = thing(3, "banana", **{"seen": (20.0, 21.0), **look})
-    sighting.label = LabelBelief()
-    for _ in range(5):
-        sighting.label.update((("banana", 0.8), ("book", 0.1)))
+    slipped.put_at("room_1", np.array((0.5, 0.0, 0.0)), 0.01)
+    sighting = banana_like(3, **{"seen": (20.0, 21.0), **look})
     known = {"taken_from": {}, "looked_before": {}, "settings": IdentitySettings()}
     assert likeness(sighting, slipped) < IdentitySettings().likeness_min
     assert known_as(sighting, [far, slipped], **known) is None

@@ -27,7 +27,9 @@ Places = Mapping[int, tuple[str, Array]]
 _SAME_PLACE_M = 0.12
 _SAME_COLOR = 0.4
 _SAME_LOOK, _SAME_NAME = 0.6, 0.1
-"""Of what slipped: how well color and size agree with what lies there, and how far the names may differ."""
+"""Of what slipped, or seems to be another thing in the same place: how well color and size agree with what is there,
+and how far the names may differ.
+"""
 _BOX_MARGIN_M = 0.1
 _UNSEEN_S = 0.3
 _SAME_SPACE = 0.5
@@ -78,7 +80,7 @@ def turned_up(
         if track.state is ObjectState.PRESENT
         and track.is_furniture is missing.is_furniture
         and track.first_seen_s > missing.last_seen_s
-        and likeness(track, missing) >= settings.likeness_min
+        and _is_like(track, missing, settings)
         and may_have_fallen_to(track, missing, settings)
     ]
     if len(alike) != 1 or not _looked_there_before(alike[0], known, looked_before):
@@ -94,7 +96,7 @@ def _in_its_place(sighting: Track, track: Track, settings: IdentitySettings) -> 
     unseen = track.state is not ObjectState.HELD and track.last_seen_s < sighting.last_seen_s - _UNSEEN_S
     if not (small and unseen and track.room == sighting.room):
         return False
-    return _touch(sighting, track) and likeness(sighting, track) >= settings.likeness_min
+    return _is_like(sighting, track, settings) and _touch(sighting, track)
 
 
 def _was_put_here(sighting: Track, track: Track) -> bool:
@@ -112,8 +114,21 @@ def _fell_here(sighting: Track, track: Track, settings: IdentitySettings) -> boo
     """
     if not track.fell or sighting.is_furniture or track.last_seen_s >= sighting.first_seen_s:
         return False
-    if apart_m(sighting, track) > settings.near_m:
-        return False
+    return apart_m(sighting, track) <= settings.near_m and _looks_the_same(sighting, track)
+
+
+def _is_like(sighting: Track, track: Track, settings: IdentitySettings) -> bool:
+    """Whether both may be one by name, color and size; in the very same place the name may differ: half hidden, or from
+    another side, a yellow book looks like a banana.
+    """
+    if likeness(sighting, track) >= settings.likeness_min:
+        return True
+    small = not sighting.is_furniture and not track.is_furniture
+    return small and sighting.room == track.room and _touch(sighting, track) and _looks_the_same(sighting, track)
+
+
+def _looks_the_same(sighting: Track, track: Track) -> bool:
+    """Whether color and size agree well, and the names are not out of the question."""
     color, size = share_agreement(sighting.color.shares, track.color.shares), size_agreement(sighting, track)
     label = agreement(sighting.label.distribution, track.label.distribution)
     return color * size >= _SAME_LOOK and label >= _SAME_NAME

@@ -31,7 +31,7 @@ from majordomo.perception.objects.detection import DetectionSettings
 from majordomo.perception.panoptic import PanopticModel
 from majordomo.perception.preview import WatchedModel
 from majordomo.perception.sensing import SENSING_PERIOD_S, Filming, Sensing, SensorBuffer
-from majordomo.perception.vocabulary import category_of, plain_label
+from majordomo.perception.vocabulary import category_of, is_person, plain_label
 from majordomo.planner.arbiter import Arbiter
 from majordomo.planner.crew import Crew
 from majordomo.planner.executor import Executor
@@ -107,7 +107,7 @@ class RobotStack:
             look_at=look_at,
             sensor_ages=self._sensor_ages,
             on_event=lambda event: log.write(event["stamp_s"], "mission", event),
-            recognizable=frozenset(plain_label(name) for name in recognizable if category_of(name).graspable),
+            recognizable=frozenset(plain_label(name) for name in recognizable if _is_sought(name)),
         )
         planner = TaskPlanner(
             CommandGrammar(), verifier, model, journal=lambda entry: log.write(self.now(), "model", entry)
@@ -260,6 +260,11 @@ class RobotStack:
         newest = {"lidar": self._buffer.scan, "camera": self._buffer.frame, "joints": self._buffer.joints}
         now_s = self.now()
         return {name: now_s - data.stamp_s for name, data in newest.items() if data is not None}
+
+
+def _is_sought(label: str) -> bool:
+    """Whether the robot goes and looks for what has that name, when a request needs one and none is known."""
+    return category_of(label).graspable or is_person(label)
 
 
 async def load_network(settings: Settings) -> OnnxPanopticModel | None:

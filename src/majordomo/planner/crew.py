@@ -42,7 +42,8 @@ class Crew:
     """The parts that carry out a task together.
 
     ``look_at`` makes actions that approach a node and look at it. ``sensor_ages`` gives the seconds since each sensor's
-    newest data. ``recognizable``: labels of what can be carried and perception has a name for.
+    newest data. ``recognizable``: labels of people, and of what can be carried, for which perception
+    has a name.
     """
 
     memory: WorkingMemory

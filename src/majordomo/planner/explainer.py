@@ -12,6 +12,7 @@ from majordomo.planner.naming import aim_phrase, goal_phrase, humanize, listed, 
 from majordomo.planner.plan import Plan, Step
 from majordomo.planner.recovery import RECOVERIES
 from majordomo.planner.tasks import FailureReport, Task
+from majordomo.planner.vocabulary import PERSON
 from majordomo.scene_graph.nodes import ObjectNode, PersonNode
 from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.skills.failures import Failure
@@ -36,6 +37,8 @@ def plan_sentence(plan: Plan, snapshot: Snapshot) -> str:
     """What the robot is going to do: "I will go to the table, pick up the blue bottle and go to the desk"."""
     if plan.seeking is not None:
         places = places_phrase([step.args[0] for step in plan.steps], snapshot)
+        if plan.seeking == PERSON:
+            return f"I do not know where you are; I will look for you in {places}."
         if plan.seeking not in snapshot:
             return f"I have not seen “{plan.seeking}” yet; I will look for it at {places}."
         return f"I do not know where {name_of(plan.seeking, snapshot)} is now; I will look at {places}."
@@ -82,11 +85,11 @@ def exhausted_reason(object_id: str, looked: Sequence[str], skipped: Sequence[st
     return reason
 
 
-def scouted_sentence(looked: Sequence[str], skipped: Sequence[str], snapshot: Snapshot) -> str:
-    """Where a thing was looked for that had never been seen, in vain; ``""`` if nowhere."""
+def scouted_sentence(looked: Sequence[str], skipped: Sequence[str], snapshot: Snapshot, *, what: str = "it") -> str:
+    """Where a thing, or anybody, was looked for that had never been seen, in vain; ``""`` if nowhere."""
     places = places_phrase([place for place in looked if place in snapshot], snapshot)
     missed = places_phrase([place for place in skipped if place in snapshot], snapshot)
-    sentence = f"I looked at {places}, and did not find it." if places else ""
+    sentence = f"I looked at {places}, and did not find {what}." if places else ""
     return f"{sentence} I could not get to {missed}.".strip() if missed else sentence
 
 

@@ -19,7 +19,7 @@ from majordomo.planner.narrowing import Narrowing
 from majordomo.planner.phrasing import alternatives, describe, phrase_text, which_question
 from majordomo.planner.plan import Exchange
 from majordomo.planner.together import moved_together, two_of
-from majordomo.planner.vocabulary import is_plural, normal, singular, words_for
+from majordomo.planner.vocabulary import PERSON, is_plural, normal, singular, words_for
 from majordomo.scene_graph.nodes import ROBOT_ID, ObjectNode, PersonNode, RoomNode
 from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.skills.state import PlanState
@@ -160,7 +160,7 @@ class Grounding:
         if len(users) == 1 or len(people) == 1:
             return tuple(users) or (people[0].id,)
         if not people:
-            return NoReferent(reason="I have not seen you yet, so I do not know where you are.")
+            return NoReferent(reason="I see nobody, so I do not know where you are.", sought=PERSON)
         return self._ambiguous("you", tuple(person.id for person in people), context, "Who of them are you")
 
     def _pronoun(self, word: str, context: Context) -> Grounded:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from majordomo.planner.grammar.syntax import NounPhrase, Pronoun, Quantity, Reference, Spot
 from majordomo.planner.matching import nodes_of, similar
 from majordomo.planner.naming import at, listed, name_of
-from majordomo.planner.vocabulary import is_plural, normal, singular
+from majordomo.planner.vocabulary import is_known, is_plural, normal, singular
 from majordomo.scene_graph.nodes import (
     CrossingStatus,
     DoorNode,
@@ -153,9 +153,9 @@ def _alternatives(phrase: NounPhrase, same: Sequence[str], snapshot: Snapshot) -
         others = f" I know {listed(known)}." if known else " I have not seen anybody yet."
         return f"I know nobody called {phrase.head}.{others}"
     if same:
-        seen = listed([f"{article(described(i, snapshot))}" for i in same[:3]])
+        seen = listed(list(dict.fromkeys(article(described(i, snapshot)) for i in same[:3])))
         return f"I know of no {text}. I have seen {seen}."
-    close = [label for label in similar(head, snapshot) if label != head]
+    close = [] if is_known(head) else [label for label in similar(head, snapshot) if label != head]
     if close:
         return f"I know of no {text}. Did you mean {_ored(list(close))}?"
     labels = sorted({normal(node.label) for node in nodes_of(snapshot) if isinstance(node, ObjectNode)})

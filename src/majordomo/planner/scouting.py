@@ -1,4 +1,6 @@
-"""Scouting: looking for a kind of thing of which none was ever seen, before a request for it is turned down."""
+"""Scouting: looking for a kind of thing of which none was ever seen, or for somebody when nobody is, before a request
+is turned down.
+"""
 
 from __future__ import annotations
 
@@ -10,8 +12,8 @@ from majordomo.planner.goals import Goal
 from majordomo.planner.nameless import likely_label
 from majordomo.planner.plan import Flaw, Impossible, Plan, Reread
 from majordomo.planner.replanner import Hunt, Verifier
-from majordomo.planner.vocabulary import normal, words_for
-from majordomo.scene_graph.nodes import ObjectNode, ObjectState
+from majordomo.planner.vocabulary import PERSON, normal, words_for
+from majordomo.scene_graph.nodes import ObjectNode, ObjectState, PersonNode
 from majordomo.scene_graph.snapshot import Snapshot
 
 Sighting = tuple[str, str, str | None]
@@ -50,7 +52,8 @@ class Scout:
 
     def told(self, snapshot: Snapshot) -> str:
         """Where the robot has looked, as a sentence; nothing if nowhere."""
-        return scouted_sentence(self._hunt.looked, self._hunt.skipped, snapshot)
+        whom = "anybody" if PERSON in kinds_called(self._hunt.object_id) else "it"
+        return scouted_sentence(self._hunt.looked, self._hunt.skipped, snapshot, what=whom)
 
     def hunt(self, object_id: str) -> Hunt:
         """The search itself."""
@@ -70,9 +73,12 @@ class Scout:
 
 
 def sightings(kind: str, snapshot: Snapshot) -> frozenset[Sighting]:
-    """Things that are there and are, or most probably are, called so: identifier, colors, and what carries them."""
+    """Things that are there and are, or most probably are, called so: identifier, colors, and what carries them; people
+    with the room that they are in.
+    """
     called = kinds_called(kind)
-    return frozenset(
+    people = snapshot.of_type(PersonNode) if PERSON in called else ()
+    return frozenset((person.id, "", snapshot.room_of(person.id)) for person in people) | frozenset(
         (node.id, " ".join((node.color, *sorted(node.accents))), snapshot.support_of(node.id))
         for node in snapshot.of_type(ObjectNode)
         if node.state is not ObjectState.MISSING and (likely_label(node) or normal(node.label)) in called

@@ -10,6 +10,7 @@ from majordomo.planner.goals import goal
 from majordomo.planner.likely_rooms import room_weights
 from majordomo.planner.naming import name_of
 from majordomo.planner.plan import Impossible, Plan, Source, Step
+from majordomo.planner.vocabulary import PERSON, words_for
 from majordomo.scene_graph.identifiers import natural_key
 from majordomo.scene_graph.nodes import UNKNOWN_LABEL, ObjectNode, ObjectState, RoomNode
 from majordomo.scene_graph.snapshot import Snapshot
@@ -50,10 +51,11 @@ def scouting_plan(
     """A tour of the places where a thing of a ``kind`` may be of which none was ever seen; None when none is left.
 
     As for a thing that is lost, but that it was nowhere before; and small things that have no name yet are
-    looked at from near, since one of them may be it.
+    looked at from near, since one of them may be it. People are in rooms, not on furniture.
     """
     rooms = (room.id for room in snapshot.of_type(RoomNode))
-    things = (node.id for node in snapshot.of_type(ObjectNode) if node.support or _is_nameless(node))
+    nodes = snapshot.of_type(ObjectNode) if PERSON not in words_for(kind) else ()
+    things = (node.id for node in nodes if node.support or _is_nameless(node))
     reachable = _reachable((*rooms, *things), set(already_looked), snapshot, state, since_s)
     if not reachable:
         return None

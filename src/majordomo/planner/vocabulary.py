@@ -184,6 +184,7 @@ FURNITURE = frozenset({"furniture"})
 OPEN_AIR = frozenset({"terrace", "balcony", "patio", "porch", "deck", "veranda", "landing"})
 """Rooms that one is *on* and not *in*."""
 ROOM_WORDS = frozenset({"room", "place"})
+PERSON = "person"
 PERSON_WORDS = frozenset(
     {"person", "human", "man", "woman", "guy", "lady", "someone", "somebody", "people", "user", "everyone", "anyone"}
     | {"everybody", "anybody"}

@@ -44,6 +44,17 @@ def test_nothing_of_the_kind_lists_what_there_is_instead():
     )
 
 
+def test_a_word_that_is_spelled_rightly_is_not_taken_for_another():
+    assert "Did you mean" not in read("bring me the ball").reply
+
+
+def test_what_reads_alike_is_told_once():
+    twins = flat()
+    for number in (1, 2):
+        twins.thing(f"phone_{number}", "phone", on="desk_1", color="blue")
+    assert read("bring me the orange phone", in_hall(twins)).reply.count("blue phone") == 1
+
+
 def test_while_doors_are_left_to_go_through_what_is_unknown_may_still_be_found():
     memory = flat().memory(robot_in="room_2", at=(4.2, 0.0))
     with memory.edit("test", 100.0) as tx:
@@ -245,7 +256,7 @@ def test_any_one_will_do_but_not_one_that_is_lost_or_there_already():
 def test_without_anybody_seen_me_has_no_place():
     sketch = Sketch().room("room_2", "hall", at=(4.2, 0.0)).furniture("table_1", "table", "room_2", at=(4.2, 1.0))
     sketch.thing("cup_1", "cup", on="table_1")
-    assert "have not seen you" in read("bring me the cup", in_hall(sketch)).reply
+    assert read("bring me the cup", in_hall(sketch)).reply == "I see nobody, so I do not know where you are."
 
 
 def test_the_only_person_is_me_and_of_several_the_user_or_the_one_who_speaks():

@@ -16,8 +16,11 @@ from majordomo.planner.scouting import Scout, kinds_called
 from majordomo.planner.task_planner import TaskPlanner
 from majordomo.planner.tasks import Approval, TaskStatus
 from majordomo.planner.verifier import Verifier
-from majordomo.scene_graph.edits import PutNode
-from majordomo.scene_graph.nodes import UNKNOWN_LABEL
+from majordomo.scene_graph.edges import InEdge, RtEdge
+from majordomo.scene_graph.edits import PutEdge, PutNode, RemoveNode
+from majordomo.scene_graph.memory import WorkingMemory
+from majordomo.scene_graph.nodes import UNKNOWN_LABEL, PersonNode, RoomNode
+from majordomo.scene_graph.se3 import SE3
 from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.skills.registry import load_registry
 from unit.planner.test_mission import BRING, ON_DESK, Show
@@ -140,6 +143,54 @@ def test_a_thing_to_be_moved_or_found_that_nobody_has_seen_is_sought_and_nothing
     meaning = planner.read(request_, rehearsal_graph(), Dialogue()).interpretation
     assert meaning.sought == sought
     assert not sought or meaning.kind is Kind.REFUSE
+
+
+@pytest.mark.parametrize("request_", ["bring me the bottle", "give me the bottle", "come to me", "come here"])
+def test_who_asks_for_something_and_is_not_seen_is_sought(request_):
+    graph = rehearsal_graph()
+    people = [person.id for person in graph.of_type(PersonNode)]
+    memory = WorkingMemory(graph)
+    memory.commit([RemoveNode(person) for person in people], agent="objects", stamp_s=1.0)
+    planner = TaskPlanner(CommandGrammar(), Verifier(load_registry(more=())))
+    meaning = planner.read(request_, memory.snapshot(), Dialogue()).interpretation
+    assert (meaning.kind, meaning.sought) == (Kind.REFUSE, "person")
+
+
+class Lonely:
+    """Gives the bottle to whoever is there."""
+
+    async def interpret(self, text, snapshot, dialogue):
+        del text, dialogue
+        people = snapshot.of_type(PersonNode)
+        if not people:
+            return Interpretation(kind=Kind.REFUSE, reply="I see nobody.", sought="person")
+        return Interpretation(kind=Kind.PLAN, goals=(goal("given", "bottle_1", people[0].id),))
+
+
+@pytest.mark.parametrize("comes", [True, False])
+def test_who_is_seen_on_the_way_is_given_what_they_asked_for_and_rooms_are_looked_through_once(comes):
+    show = Show()
+    show.crew = replace(show.crew, recognizable=frozenset({"person"}))
+    show.mission = Mission(show.crew, Lonely())
+    people = [person.id for person in show.memory.snapshot().of_type(PersonNode)]
+    show.memory.commit([RemoveNode(person) for person in people], agent="objects", stamp_s=0.0)
+    show.ask()
+    show.run_until(lambda: show.task.plan is not None and show.task.plan.source == "search")
+    assert show.task.explanation.startswith("I do not know where you are; I will look for you in ")
+    places = [step.args[0] for step in show.task.plan.steps]
+    assert sorted(places) == [room.id for room in show.memory.snapshot().of_type(RoomNode)]
+    if comes:
+        show.run_until(lambda: show.stage.robot_at == places[0])
+        edges = [RtEdge(source=places[0], target="person_1", T_source_target=SE3.from_xyz_yaw(0.5, 0.5, 0.0, 0.0))]
+        edits = [PutNode(PersonNode(id="person_1")), *(PutEdge(edge) for edge in edges)]
+        edits.append(PutEdge(InEdge(source="person_1", target=places[0])))
+        show.memory.commit(edits, agent="objects", stamp_s=show.stamp_s)
+        show.run_until(lambda: show.task.plan.source == "grammar")
+        assert [str(each) for each in show.task.plan.goals] == ["given(bottle_1, person_1)"]
+    else:
+        show.run_until(lambda: show.task.status.ended)
+        assert show.task.status is TaskStatus.REFUSED
+        assert show.task.explanation.endswith("and did not find anybody.")
 
 
 def test_a_tour_looks_from_near_at_what_has_no_name_and_never_twice_at_a_place():

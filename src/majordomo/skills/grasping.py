@@ -6,6 +6,7 @@ body.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from math import cos, pi, sin
 
@@ -20,6 +21,17 @@ from majordomo.skills.ports import ArmGeometry, ArmTarget, BodyLimits
 from majordomo.skills.seats import is_seat
 
 Size3 = tuple[float, float, float]
+Met = Callable[[float, float], int]
+"""How many of the two fingers would come down on something: by the direction in which they close, base frame, and how
+far their pads are from the middle.
+"""
+
+
+def none_met(direction_rad: float, pad_m: float) -> int:
+    """Nothing stands beside the object, or nothing is known of it."""
+    del direction_rad, pad_m
+    return 0
+
 
 DOWN_RAD = -pi / 2
 MAX_WIDTH_M = 0.118
@@ -35,6 +47,8 @@ on.
 """
 PAD_DEPTH_M = 0.045
 """How far below an object's top the pads' center goes, at most: what the fingers can hold without the palm touching."""
+FINGER_M = 0.012
+"""How thick a finger is."""
 HOVER_M = 0.08
 LEVEL_CLEARANCE_M = 0.06
 LEVEL_STANDOFF_M = 0.06
@@ -82,15 +96,22 @@ class Grasp:
 
 
 def choose_grasp(
-    size_m: Size3, T_base_object: SE3, *, level_first: bool, geometry: ArmGeometry, limits: BodyLimits
+    size_m: Size3,
+    T_base_object: SE3,
+    *,
+    level_first: bool,
+    geometry: ArmGeometry,
+    limits: BodyLimits,
+    met: Met = none_met,
 ) -> Grasp:
-    """The first grasp that the arm can carry out at the object's present height and distance.
+    """The first grasp that the arm can carry out at the object's present height and distance; ``met``: from above, the
+    fingers close from where fewer of them come down on something.
 
     Raises:
         Unreachable: none can be; the error is that of the preferred grasp.
     """
     first: Unreachable | None = None
-    for grasp in grasp_options(size_m, T_base_object, level_first=level_first, limits=limits):
+    for grasp in grasp_options(size_m, T_base_object, level_first=level_first, limits=limits, met=met):
         try:
             grasp.approach(float(T_base_object.x_m), geometry, limits)
         except Unreachable as error:
@@ -109,9 +130,11 @@ def can_grasp(size_m: Size3, T_base_object: SE3, *, geometry: ArmGeometry, limit
     return True
 
 
-def grasp_options(size_m: Size3, T_base_object: SE3, *, level_first: bool, limits: BodyLimits) -> tuple[Grasp, ...]:
+def grasp_options(
+    size_m: Size3, T_base_object: SE3, *, level_first: bool, limits: BodyLimits, met: Met = none_met
+) -> tuple[Grasp, ...]:
     """Grasps in order of preference; none for what is too wide for the fingers."""
-    above, level = _from_above(size_m, T_base_object, limits), _level(size_m, T_base_object, limits)
+    above, level = _from_above(size_m, T_base_object, limits, met), _level(size_m, T_base_object, limits)
     options = (level, above) if level_first else (above, level)
     return tuple(option for option in options if option is not None)
 
@@ -180,8 +203,8 @@ def is_covered(snapshot: Snapshot, object_id: str, room: str) -> bool:
     return False
 
 
-def _from_above(size_m: Size3, pose: SE3, limits: BodyLimits) -> Grasp | None:
-    side = _closing_side(size_m, pose.yaw_rad)
+def _from_above(size_m: Size3, pose: SE3, limits: BodyLimits, met: Met) -> Grasp | None:
+    side = _closing_side(size_m, pose.yaw_rad, lambda width_m, way: met(way, _opening_m(width_m, limits) / 2))
     if side is None:
         return None
     width_m, roll_rad = side
@@ -213,23 +236,24 @@ def _level(size_m: Size3, pose: SE3, limits: BodyLimits) -> Grasp | None:
     )
 
 
-def _closing_side(size_m: Size3, yaw_rad: float) -> tuple[float, float] | None:
+def _closing_side(size_m: Size3, yaw_rad: float, met: Callable[[float, float], int]) -> tuple[float, float] | None:
     """Width between the fingers and wrist roll for a grasp from above; ``None`` when neither side fits.
 
-    Closing along direction a (from the base's x) needs roll = pi/2 - a, modulo a half turn. The narrow side is taken;
-    for something about as wide as deep, the one that turns the wrist less.
+    Closing along direction a (from the base's x) needs roll = pi/2 - a, modulo a half turn. The side at which fewer
+    fingers meet something is taken, ``met`` by width and direction; of two alike the narrow one; for something about as
+    wide as deep, the one that turns the wrist less.
     """
     sides = []
     for width_m, direction in ((size_m[0], yaw_rad), (size_m[1], yaw_rad + pi / 2)):
         roll = wrap_rad(2 * (pi / 2 - direction)) / 2
         if width_m <= MAX_WIDTH_M:
-            sides.append((width_m, roll))
+            sides.append((met(width_m, direction), width_m, roll))
     if not sides:
         return None
     wide, narrow = max(size_m[:2]), min(size_m[:2])
-    if wide - narrow <= SQUARE_SHARE * wide:
-        return min(sides, key=lambda side: abs(side[1]))
-    return min(sides, key=lambda side: (side[0], abs(side[1])))
+    square = wide - narrow <= SQUARE_SHARE * wide
+    _, width_m, roll_rad = min(sides, key=lambda side: (side[0], 0.0 if square else side[1], abs(side[2])))
+    return width_m, roll_rad
 
 
 def _opening_m(width_m: float, limits: BodyLimits) -> float:

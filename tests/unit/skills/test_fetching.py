@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from itertools import pairwise
-from math import inf
+from math import inf, pi
 
 import numpy as np
 import pytest
@@ -15,6 +15,7 @@ from majordomo.scene_graph.se3 import SE3
 from majordomo.skills.actions.approach import STOPPED_RAD
 from majordomo.skills.actions.arm import CARRY_LIFT_M, Retract
 from majordomo.skills.actions.arm_way import BARRED_COST_M, clear_over_m, passing_over
+from majordomo.skills.actions.finger_room import fingers_met
 from majordomo.skills.actions.grasp import CloseGripper
 from majordomo.skills.actions.place import LowerToPlace
 from majordomo.skills.actions.spot_choice import ChooseSpot
@@ -430,6 +431,28 @@ async def test_what_stops_the_arm_on_its_way_in_between_boards_is_not_the_board(
 
     rehearsal.observe = stop_the_arm
     assert (await rehearsal.run(actions[lowering:], 900.0)).code is FailureCode.UNREACHABLE
+
+
+@pytest.mark.parametrize(("glass_y_m", "across"), [(0.0, 1), (-0.3, 0)])
+async def test_a_finger_does_not_come_down_on_the_arm_of_a_sofa(flat, glass_y_m, across):
+    built = flat().thing("sofa_1", (0.7, -0.7, 0.4), (1.9, 0.9, 0.8), yaw=pi / 2, support=True)
+    built.thing("glass_1", (0.6, glass_y_m, 0.47), (0.074, 0.074, 0.14), on="sofa_1", graspable=True)
+    context = await Rehearsal(memory=built.memory, body=FakeBody()).prepare()
+    met = fingers_met(context, "glass_1")
+    assert (met(0.0, 0.06), met(pi / 2, 0.06)) == (0, across)
+
+
+@pytest.mark.parametrize(
+    ("beside", "along", "across"),
+    [((0.0, 0.09), 0, 1), ((0.09, 0.0), 1, 0), ((0.0, 0.2), 0, 0)],
+)
+async def test_a_finger_does_not_come_down_on_a_neighbor(flat, beside, along, across):
+    built = flat().thing("table_1", (0.9, 0.0, 0.375), (1.2, 0.8, 0.75), support=True)
+    built.thing("can_1", (0.6, 0.0, 0.81), (0.066, 0.066, 0.12), on="table_1", graspable=True)
+    built.thing("cup_1", (0.6 + beside[0], beside[1], 0.8), (0.06, 0.06, 0.1), on="table_1", graspable=True)
+    context = await Rehearsal(memory=built.memory, body=FakeBody()).prepare()
+    met = fingers_met(context, "can_1")
+    assert (met(0.0, 0.06), met(pi / 2, 0.06)) == (along, across)
 
 
 @pytest.mark.parametrize(

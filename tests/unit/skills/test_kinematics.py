@@ -141,3 +141,14 @@ def test_from_above_the_finger_tips_clear_what_lies_on_the_way(clear_over_m, x_m
     assert max(heights) >= clear_over_m - 1e-9
     assert out[0].extension_m == LIMITS.extension_m[0]
     assert (final.lift_m, final.extension_m) == (grasp.approach(x_m, GEOMETRY, LIMITS)[-1].lift_m, out[-1].extension_m)
+
+
+@given(st.floats(-pi / 2, pi / 2), st.booleans())
+def test_the_fingers_close_where_nothing_is_met(yaw_rad, first_side_met):
+    pose, hindered = SE3.from_xyz_yaw(0.6, 0.0, 0.8, yaw_rad), yaw_rad + (0.0 if first_side_met else pi / 2)
+    grasp = choose_grasp(
+        (0.07, 0.07, 0.1), pose, level_first=False, geometry=GEOMETRY, limits=LIMITS,
+        met=lambda direction, pad_m: int(abs(np.sin(direction - hindered)) < 0.1 and pad_m > 0.0),
+    )  # fmt: skip
+    closing = pi / 2 - grasp.roll_rad
+    assert abs(np.sin(closing - hindered)) == pytest.approx(1.0)

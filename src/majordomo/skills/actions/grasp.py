@@ -12,6 +12,7 @@ from majordomo.scene_graph.se3 import SE3
 from majordomo.skills.action import Action, Grip, RobotContext
 from majordomo.skills.actions.arm import EMPTY_OPENING_M, ArmAction, ArmProgress, avoid_side, is_firm
 from majordomo.skills.actions.arm_way import clear_over_m
+from majordomo.skills.actions.finger_room import fingers_met
 from majordomo.skills.containers import is_open_container
 from majordomo.skills.errors import Unreachable
 from majordomo.skills.failures import FailureCode
@@ -87,6 +88,7 @@ class Reach(ArmAction):
             level_first=prefers_level(snapshot, self.object_id, T_base_object),
             geometry=context.geometry,
             limits=context.limits,
+            met=fingers_met(context, self.object_id),
         )
         self._x_m = hypot(T_base_object.x_m, T_base_object.y_m)
         if abs(T_base_object.y_m) > SIDE_TOLERANCE_M + (self._grasp.opening_m - 0.06) / 4:

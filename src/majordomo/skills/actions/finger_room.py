@@ -1,0 +1,80 @@
+"""Where there is room for the fingers beside what they take from above: not in a neighbor, nor in the arm of a sofa."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from math import cos, sin
+
+import numpy as np
+
+from majordomo.scene_graph.nodes import ObjectNode, ObjectState
+from majordomo.scene_graph.se3 import SE3
+from majordomo.skills.action import RobotContext
+from majordomo.skills.actions.arm_way import spared_nodes
+from majordomo.skills.geometry import Points
+from majordomo.skills.grasping import FINGER_M, TIP_M
+from majordomo.skills.navigation.pose import in_base, robot_frame
+from majordomo.skills.seats import rims_m
+
+AIR_M = 0.01
+"""Around a finger, and what neighbors may be larger than believed."""
+
+
+def fingers_met(context: RobotContext, object_id: str) -> Callable[[float, float], int]:
+    """How many of two fingers would come down on something, as a function of the direction in which they close, in the
+    base frame, and of how far their pads then are from the middle of the object.
+    """
+    snapshot, T_base_object = context.snapshot, in_base(context, object_id)
+    lowest_m = T_base_object.z_m - snapshot.object(object_id).size_m[2] / 2 + TIP_M
+    solids = [_Solid(context, node) for node in _neighbors(context, object_id)]
+    solids = [solid for solid in solids if solid.top_m > lowest_m]
+    support_id = snapshot.support_of(object_id)
+    seat = _Seat(context, snapshot.object(support_id)) if support_id is not None else None
+
+    def count(direction_rad: float, pad_m: float) -> int:
+        toward = np.array((cos(direction_rad), sin(direction_rad)))
+        fingers = [T_base_object.translation_m[:2] + sign * (pad_m + FINGER_M / 2) * toward for sign in (1, -1)]
+        return sum(
+            any(solid.covers(finger) for solid in solids) or (seat is not None and seat.covers(finger))
+            for finger in fingers
+        )
+
+    return count
+
+
+def _neighbors(context: RobotContext, object_id: str) -> list[ObjectNode]:
+    snapshot, spared = context.snapshot, spared_nodes(context.snapshot, object_id)
+    here = [node for node in snapshot.of_type(ObjectNode) if snapshot.room_of(node.id) == robot_frame(snapshot)]
+    return [node for node in here if node.state is ObjectState.PRESENT and node.id not in spared]
+
+
+class _Solid:
+    """The outline of a thing, seen from above, in the base frame."""
+
+    def __init__(self, context: RobotContext, node: ObjectNode) -> None:
+        T_base_node: SE3 = in_base(context, node.id)
+        self._T_node_base = T_base_node.inverse()
+        self._half_m = np.array(node.size_m[:2]) / 2
+        self.top_m = T_base_node.z_m + node.size_m[2] / 2
+
+    def local(self, point: Points) -> Points:
+        """A point (2,) of the base frame in its own."""
+        return np.asarray(self._T_node_base.apply((*point, 0.0))[:2])
+
+    def covers(self, point: Points) -> bool:
+        """Whether a finger there would meet it."""
+        return bool((np.abs(self.local(point)) < self._half_m + AIR_M).all())
+
+
+class _Seat(_Solid):
+    """What carries a thing: where its arms are, at the ends of its longer side."""
+
+    def __init__(self, context: RobotContext, node: ObjectNode) -> None:
+        super().__init__(context, node)
+        self._long = int(node.size_m[1] > node.size_m[0])
+        self._arm_m = rims_m(node.label)[0]
+
+    def covers(self, point: Points) -> bool:
+        """Whether a finger there would meet an arm."""
+        beyond_m = abs(float(self.local(point)[self._long])) - (float(self._half_m[self._long]) - self._arm_m)
+        return self._arm_m > 0.0 and beyond_m > -AIR_M

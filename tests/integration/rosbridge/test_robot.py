@@ -162,6 +162,10 @@ async def was_told(bridge, topic):
     return topic in [name for name, _ in bridge.commands]
 
 
+async def was_told_to_stand(bridge):
+    return speeds(bridge)[-1:] == [0.0]
+
+
 async def arm_rests(robot):
     before_m, before_s = (await robot.state()).arm.lift_m, (await robot.state()).stamp_s
     await asyncio.sleep(0.4)
@@ -294,6 +298,8 @@ async def test_a_service_drives_the_robot_and_finds_its_room(bridge, tmp_path):
         bridge.silent.clear()
         await until(lambda: complains(runtime, None))
         runtime.stop_robot()
+        bridge.commands.clear()
+        await until(lambda: was_told_to_stand(bridge))  # what was on its way has come before
         bridge.commands.clear()
         await until(lambda: was_told(bridge, "/cmd_vel"))
         assert set(speeds(bridge)) == {0.0}

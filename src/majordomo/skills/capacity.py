@@ -12,12 +12,11 @@ from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.skills.boards import BOTH_SIDES, Board, boards_of, headroom_m, is_in_reach
 from majordomo.skills.geometry import Points
 from majordomo.skills.grasping import DOWN_RAD, LEVEL_SHARE, PAD_DEPTH_M, TIP_M, Size3, is_tall
+from majordomo.skills.outline import Outline, disc
 from majordomo.skills.place_spot import (
-    FINE_STEP_M,
     GAP_M,
-    STEP_M,
+    laid,
     lattice,
-    outline_radius_m,
     room_m,
     stands_at,
     surface_m,
@@ -25,6 +24,9 @@ from majordomo.skills.place_spot import (
 )
 from majordomo.skills.ports import ArmGeometry
 from majordomo.skills.state import Thing
+
+WAYS = 4
+"""In which a thing is laid at most: turned anyhow or so that it fits, in coarse or fine steps."""
 
 
 class Capacity:
@@ -53,25 +55,25 @@ class Capacity:
         return sum(map(prod, sizes)) <= prod(place.size_m) and all(min(size_m[:2]) <= narrow for size_m in sizes)
 
     def _set(self, support: str, staying: frozenset[str], coming: tuple[str, ...]) -> bool:
-        sizes = sorted((self._size_m(thing) for thing in coming), key=outline_radius_m, reverse=True)
-        sides = range(len(BOTH_SIDES)) if len(self._boards(support)) > 1 else (0,)
-        return any(
-            self._in_rows(support, staying, sizes, step_m, side) for step_m in (STEP_M, FINE_STEP_M) for side in sides
+        sizes = sorted(
+            (self._size_m(thing) for thing in coming), key=lambda size_m: disc(size_m).radius_m, reverse=True
         )
+        sides = range(len(BOTH_SIDES)) if len(self._boards(support)) > 1 else (0,)
+        return any(self._in_rows(support, staying, sizes, way, side) for way in range(WAYS) for side in sides)
 
-    def _in_rows(self, support: str, staying: frozenset[str], sizes: Sequence[Size3], step_m: float, side: int) -> bool:
-        """Whether things of these sizes fit beside what stays, each set down at the first free point, on the lowest
-        board that has one; below another board, all from one side.
+    def _in_rows(self, support: str, staying: frozenset[str], sizes: Sequence[Size3], way: int, side: int) -> bool:
+        """Whether things of these sizes fit beside what stays, each laid in that way or an earlier one, if it has so
+        many, at the first free point, on the lowest board that has one; below another board, all from one side.
         """
         boards = self._boards(support)
         heres = [
             [node for node in stands_at(self._snapshot, support, board, None) if self._stays(node, support, staying)]
             for board in boards
         ]
-        done: list[list[tuple[Points, float]]] = [[] for _ in boards]
+        done: list[list[tuple[Points, Outline]]] = [[] for _ in boards]
         return all(
             any(
-                self._set_down(support, board, here, taken, size_m, step_m, side)
+                self._set_down(support, board, here, taken, size_m, way, side)
                 for board, here, taken in zip(boards, heres, done, strict=True)
             )
             for size_m in sizes
@@ -82,26 +84,42 @@ class Capacity:
         support: str,
         board: Board,
         here: Sequence[ObjectNode],
-        done: list[tuple[Points, float]],
+        done: list[tuple[Points, Outline]],
         size_m: Size3,
-        step_m: float,
+        way: int,
         side: int,
     ) -> bool:
         """Whether one more fits on a board beside what is ``here`` and ``done``, to which it is added."""
         if board.free_m < _headroom_m(size_m):
             return False
-        node, radius_m = self._snapshot.object(support), outline_radius_m(size_m)
-        points = lattice(node, radius_m, step_m, covered=board.is_covered)
-        air_m = room_m(self._snapshot, support, points, here) - radius_m
-        for point, other_m in done:
-            air_m = np.minimum(air_m, np.hypot(*(points - point).T) - other_m - radius_m)
-        before = [(point, np.full(2, other_m)) for point, other_m in done]
-        ways = ways_in(self._snapshot, node, board, points, radius_m, here, before)
-        free = points[(air_m >= GAP_M) & ways[:, side]]
-        if not len(free):
-            return False
-        done.append((free[0], radius_m))
-        return True
+        ways = list(laid(size_m, board))
+        outlines, step_m = ways[min(way, len(ways) - 1)]
+        for outline in outlines:
+            free = self._free(support, board, here, done, outline, step_m, side)
+            if len(free):
+                done.append((free[0], outline))
+                return True
+        return False
+
+    def _free(
+        self,
+        support: str,
+        board: Board,
+        here: Sequence[ObjectNode],
+        done: Sequence[tuple[Points, Outline]],
+        outline: Outline,
+        step_m: float,
+        side: int,
+    ) -> Points:
+        """Points (N, 2) of a board where a thing of that outline stands free."""
+        node = self._snapshot.object(support)
+        points = lattice(node, outline, step_m, covered=board.is_covered)
+        air_m = room_m(self._snapshot, support, points, outline, here)
+        for point, other in done:
+            air_m = np.minimum(air_m, outline.gap_to_m(points, point, other))
+        before = [(point, np.array(other.half_m)) for point, other in done]
+        ways = ways_in(self._snapshot, node, board, points, outline, here, before)
+        return np.asarray(points[(air_m >= GAP_M) & ways[:, side]])
 
     def _boards(self, support: str) -> list[Board]:
         """The surfaces that the arm reaches; of what has no boards that are known, the top, be it as it may."""

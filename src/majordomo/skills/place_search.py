@@ -15,7 +15,8 @@ from majordomo.skills.boards import HIGHEST_M, Board, boards_of
 from majordomo.skills.containers import is_open_container
 from majordomo.skills.navigation.local_map import draw_map
 from majordomo.skills.navigation.walls import Walls, door_gaps
-from majordomo.skills.place_spot import Spot, outline_radius_m, spots_on
+from majordomo.skills.outline import disc
+from majordomo.skills.place_spot import Spot, spots_on
 
 HANDOVER_M = 1.8
 """Something is within a person's reach when it is at most this far from where they stand."""
@@ -123,7 +124,7 @@ def _floor_spots(context: RobotContext, center: str, size_m: tuple[float, float,
         walls=Walls.of(snapshot, room),
         stamp_s=context.stamp_s,
     )
-    room_m = grid.clearance_at(points) - outline_radius_m(size_m)
+    room_m = grid.clearance_at(points) - disc(size_m).radius_m
     gaps = [gap.grown(DOORWAY_M) for gap in door_gaps(snapshot, room)]
     clear = [not any(gap.contains(points[i : i + 1])[0] for gap in gaps) for i in range(len(points))]
     return [

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from math import hypot, inf
+from math import inf
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +17,8 @@ from majordomo.skills.anchor import Anchor
 from majordomo.skills.boards import ASIDE_M, BOTH_SIDES, Board, axes, board_at, boards_of, open_sides
 from majordomo.skills.containers import is_open_container
 from majordomo.skills.geometry import Points
+from majordomo.skills.grasping import is_tall
+from majordomo.skills.outline import Outline, disc, turned
 from majordomo.skills.rooms import in_room
 from majordomo.skills.seats import rims_m, seat_share
 
@@ -38,11 +40,13 @@ class Spot:
     """Where to put something down: a point on the surface, tied to what carries it, and how free it is there.
 
     ``inside``: dropped into a container, from above its rim. ``free_m``: height up to the board above; below one, the
-    hand comes in level-wise, across one of the ``sides`` of the support.
+    hand comes in level-wise, across one of the ``sides`` of the support. ``turn_rad``: where the long side of the thing
+    must point, in the frame of what carries it; ``None`` where any turn does.
     """
 
     anchor: Anchor
     room_m: float
+    turn_rad: float | None = None
     inside: bool = False
     free_m: float = inf
     sides: tuple[int, ...] = BOTH_SIDES
@@ -63,44 +67,68 @@ def spots_on(
 ) -> list[Spot]:
     """Free spots on ``support_id`` for an object of ``size_m``, the freest first; ``as_empty``: if nothing stood there.
 
-    The object's outline is taken as the disc around its horizontal extent, so any turn of it fits.
+    The object's outline is taken as the disc around its horizontal extent, so that any turn of it fits. Where nothing
+    is free for that, an oblong one is laid along or across the support.
     """
     support = snapshot.object(support_id)
     if is_open_container(support.label):
         return [
             Spot(anchor=Anchor(support_id, (0.0, 0.0, surface_m(snapshot, support_id, held))), room_m=0.0, inside=True)
         ]
-    radius_m = outline_radius_m(size_m)
     spots = [
         spot
         for board in boards_of(support) or (Board(height_m=surface_m(snapshot, support_id, held)),)
         if board.free_m > size_m[2]
         for spot in _spots_at(
-            snapshot, support, board, radius_m, [] if as_empty else stands_at(snapshot, support_id, board, held)
+            snapshot, support, board, size_m, [] if as_empty else stands_at(snapshot, support_id, board, held)
         )
     ]
     return sorted(spots, key=lambda spot: -min(spot.room_m, AMPLE_M))
 
 
 def _spots_at(
-    snapshot: Snapshot, support: ObjectNode, board: Board, radius_m: float, others: Sequence[ObjectNode]
+    snapshot: Snapshot,
+    support: ObjectNode,
+    board: Board,
+    size_m: tuple[float, float, float],
+    others: Sequence[ObjectNode],
 ) -> list[Spot]:
     """Spots on one surface, in rows, that ``others`` leave free."""
-    for step_m in (STEP_M, FINE_STEP_M):
-        points = lattice(support, radius_m, step_m, covered=board.is_covered)
-        room = room_m(snapshot, support.id, points, others) - radius_m
-        sides = ways_in(snapshot, support, board, points, radius_m, others)
-        free = (room >= GAP_M) & sides.any(axis=1)
-        if free.any():
-            break
+    for outlines, step_m in laid(size_m, board):
+        spots = [spot for outline in outlines for spot in _spots_for(snapshot, support, board, outline, step_m, others)]
+        if spots:
+            return spots
+    return []
+
+
+def laid(size_m: tuple[float, float, float], board: Board) -> Iterator[tuple[tuple[Outline, ...], float]]:
+    """The ways in which a thing may stand, and in steps of what length spots are looked for, the first choice first:
+    turned anyhow before turned so that it fits, which the hand does to what it holds from above.
+    """
+    anyhow, fitting = (disc(size_m),), () if board.is_covered or is_tall(size_m) else tuple(turned(size_m))
+    yield from ((outlines, step_m) for outlines in (anyhow, fitting) if outlines for step_m in (STEP_M, FINE_STEP_M))
+
+
+def _spots_for(
+    snapshot: Snapshot,
+    support: ObjectNode,
+    board: Board,
+    outline: Outline,
+    step_m: float,
+    others: Sequence[ObjectNode],
+) -> list[Spot]:
+    points = lattice(support, outline, step_m, covered=board.is_covered)
+    room = room_m(snapshot, support.id, points, outline, others)
+    sides = ways_in(snapshot, support, board, points, outline, others)
     return [
         Spot(
             anchor=Anchor(support.id, (float(points[i, 0]), float(points[i, 1]), board.height_m)),
             room_m=float(room[i]),
+            turn_rad=outline.turn_rad,
             free_m=board.free_m,
             sides=tuple(side for side, is_open in zip(BOTH_SIDES, sides[i], strict=True) if is_open),
         )
-        for i in np.nonzero(free)[0]
+        for i in np.nonzero((room >= GAP_M) & sides.any(axis=1))[0]
     ]
 
 
@@ -109,7 +137,7 @@ def ways_in(
     support: ObjectNode,
     board: Board,
     points: Points,
-    radius_m: float,
+    outline: Outline,
     others: Sequence[ObjectNode],
     more: Sequence[tuple[Points, Points]] = (),
 ) -> NDArray[np.bool_]:
@@ -119,7 +147,9 @@ def ways_in(
     """
     if not board.is_covered:
         return np.ones((len(points), 2), dtype=bool)
-    return open_sides(support, points, radius_m, [*(_extent(snapshot, support.id, node) for node in others), *more])
+    return open_sides(
+        support, points, outline.radius_m, [*(_extent(snapshot, support.id, node) for node in others), *more]
+    )
 
 
 def _extent(snapshot: Snapshot, support_id: str, node: ObjectNode) -> tuple[Points, Points]:
@@ -150,12 +180,6 @@ def surface_m(snapshot: Snapshot, support_id: str, held: str | None) -> float:
 
 def _bottom_m(snapshot: Snapshot, support_id: str, node: ObjectNode) -> float:
     return float(snapshot.position(node.id, support_id)[2]) - node.size_m[2] / 2
-
-
-def outline_radius_m(size_m: tuple[float, float, float]) -> float:
-    """Radius of a disc that holds the object however it is turned; round things are as wide as they are deep."""
-    narrow, wide = sorted(size_m[:2])
-    return wide / 2 if wide - narrow < 0.02 else hypot(narrow, wide) / 2
 
 
 def stands_on(snapshot: Snapshot, support_id: str, held: str | None) -> list[ObjectNode]:
@@ -195,13 +219,13 @@ def _objects_beside(snapshot: Snapshot, support_id: str) -> list[ObjectNode]:
     return [node for node in nodes if isinstance(node, ObjectNode)]
 
 
-def lattice(support: ObjectNode, radius_m: float, step_m: float = STEP_M, *, covered: bool = False) -> Points:
-    """Points (N, 2) about ``step_m`` apart on the top of ``support``, in rows, where a disc stands within the arm's
+def lattice(support: ObjectNode, outline: Outline, step_m: float = STEP_M, *, covered: bool = False) -> Points:
+    """Points (N, 2) about ``step_m`` apart on the top of ``support``, in rows, where a thing stands within the arm's
     reach, clear of arms and back; none where it is too large. ``covered``: on a board below the top, where the hand
     passes between the ends.
     """
     size_m, rim_m = support.size_m, rims_m(support.label)
-    half = np.array(size_m[:2]) / 2 - EDGE_MARGIN_M - radius_m
+    half = np.array(size_m[:2]) / 2 - EDGE_MARGIN_M - np.array(outline.half_m)
     if covered:
         long, _ = axes(support)
         half[long] = min(half[long], size_m[long] / 2 - ASIDE_M)
@@ -213,15 +237,15 @@ def lattice(support: ObjectNode, radius_m: float, step_m: float = STEP_M, *, cov
     return np.asarray(points[_edge_distance_m(points, size_m) <= STRIP_M])
 
 
-def room_m(snapshot: Snapshot, support_id: str, points: Points, others: Sequence[ObjectNode]) -> Points:
-    """Distance (N,) from points on a support to the nearest of ``others``, at most 1 m."""
+def room_m(
+    snapshot: Snapshot, support_id: str, points: Points, outline: Outline, others: Sequence[ObjectNode]
+) -> Points:
+    """Air (N,) between a thing at points on a support and the nearest of ``others``, at most 1 m."""
     room = np.full(len(points), 1.0)
     for node in others:
         T_support_node = snapshot.transform(support_id, node.id)
-        c, s = np.cos(T_support_node.yaw_rad), np.sin(T_support_node.yaw_rad)
-        local = (points - T_support_node.translation_m[:2]) @ np.array([[c, -s], [s, c]])
-        beyond = np.maximum(np.abs(local) - np.array(node.size_m[:2]) / 2, 0.0)
-        room = np.minimum(room, np.hypot(*beyond.T))
+        middle, half_m = np.array(T_support_node.translation_m[:2]), np.array(node.size_m[:2]) / 2
+        room = np.minimum(room, outline.gap_to_box_m(points, middle, half_m, T_support_node.yaw_rad))
     return room
 
 

@@ -80,6 +80,24 @@ async def test_what_is_put_on_the_floor_stands_there(stage, make_house, category
     assert built.where(thing["id"])["position_m"][2] == pytest.approx(half_m, abs=0.01)
 
 
+@pytest.mark.parametrize("turn", [0.4, pytest.param(-1.2, marks=pytest.mark.slow)])
+async def test_a_phone_is_turned_so_that_it_fits_beside_the_clock_on_a_nightstand(stage, make_house, turn):
+    furniture = [
+        {"id": "table_1", "category": "table", "pose": [1.4, 1.4, 0.0]},
+        {"id": "nightstand_1", "category": "nightstand", "pose": [-1.4, 0.8, turn]},
+    ]
+    things = [
+        {"id": "phone_1", "category": "phone", "on": "table_1", "offset": [0.0, -0.2]},
+        {"id": "clock_1", "category": "clock", "on": "nightstand_1", "offset": [0.0, 0.0]},
+    ]
+    built = await stage(make_house(furniture, things, [0.0, 0.0, 0.5]))
+    clock_m = np.array(built.where("clock_1")["position_m"])
+    steps = (("GOTO", "phone_1"), ("PICK", "phone_1"), ("GOTO", "nightstand_1"), ("PLACE", "phone_1", "nightstand_1"))
+    assert await built.carry_out(*steps) is None
+    assert built.where("phone_1")["on"] == "nightstand_1"
+    assert np.linalg.norm(np.array(built.where("clock_1")["position_m"]) - clock_m) < 0.005
+
+
 async def test_a_door_of_80_cm_is_crossed_without_touching_anything(stage, make_house):
     plan = make_house([{"id": "table_1", "category": "table", "pose": [5.6, 1.2, 0.3]}], [], [-0.5, 0.8, 2.0])
     built = await stage(plan)

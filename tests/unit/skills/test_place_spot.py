@@ -8,7 +8,8 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from majordomo.skills.geometry import Box2, Pose2
-from majordomo.skills.place_spot import EDGE_MARGIN_M, GAP_M, outline_radius_m, spots_on, surface_m
+from majordomo.skills.outline import disc
+from majordomo.skills.place_spot import EDGE_MARGIN_M, GAP_M, spots_on, surface_m
 
 neighbors = st.lists(
     st.tuples(
@@ -26,9 +27,11 @@ def test_spots_lie_on_the_support_and_overlap_nothing(flat, things, size):
     for k, (x, y, yaw, sx, sy) in enumerate(things):
         built.thing(f"box_{k + 1}", (1.0 + x, 1.2 + y, 0.85), (sx, sy, 0.2), yaw=yaw, on="table_1")
     snapshot = built.memory.snapshot()
-    radius = outline_radius_m(size)
+    radius = disc(size).radius_m
     for spot in spots_on(snapshot, "table_1", size, None):
         x, y, z = spot.anchor.point_m
+        if spot.turn_rad is not None:
+            continue
         assert abs(x) + radius <= 0.6 - EDGE_MARGIN_M + 1e-9
         assert abs(y) + radius <= 0.4 - EDGE_MARGIN_M + 1e-9
         assert z == 0.375
@@ -36,6 +39,33 @@ def test_spots_lie_on_the_support_and_overlap_nothing(flat, things, size):
             air = Box2(Pose2(bx, by, yaw), sx, sy).distance_m(np.array([[x, y]]))[0] - radius
             assert air >= GAP_M - 1e-6
             assert spot.room_m <= air + 1e-6
+
+
+@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(neighbors, st.tuples(st.floats(0.12, 0.22), st.floats(0.04, 0.09), st.floats(0.02, 0.06)))
+def test_what_is_laid_so_that_it_fits_lies_on_the_support_and_overlaps_nothing(flat, things, size):
+    built = flat().thing("nightstand_1", (1.0, 1.2, 0.28), (0.45, 0.4, 0.56), support=True)
+    for k, (x, y, yaw, sx, sy) in enumerate(things):
+        built.thing(f"box_{k + 1}", (1.0 + x / 3, 1.2 + y / 3, 0.61), (sx / 2, sy / 2, 0.1), yaw=yaw, on="nightstand_1")
+    for spot in spots_on(built.memory.snapshot(), "nightstand_1", size, None):
+        if spot.turn_rad is None:
+            continue
+        x, y, _ = spot.anchor.point_m
+        half = np.array(size[:2] if spot.turn_rad == 0.0 else size[1::-1]) / 2
+        assert (np.abs([x, y]) + half <= np.array([0.225, 0.2]) - EDGE_MARGIN_M + 1e-9).all()
+        across = np.linspace(-1.0, 1.0, 9)
+        covered = np.array([x, y]) + half * np.array([[a, b] for a in across for b in across])
+        for bx, by, yaw, sx, sy in things:
+            assert Box2(Pose2(bx / 3, by / 3, yaw), sx / 2, sy / 2).distance_m(covered).min() >= GAP_M - 1e-6
+
+
+def test_a_phone_is_laid_beside_the_clock_in_the_middle_of_a_nightstand(flat):
+    built = flat().thing("nightstand_1", (0.0, 0.0, 0.28), (0.47, 0.43, 0.56), support=True)
+    built.thing("clock_1", (0.0, 0.0, 0.62), (0.1, 0.09, 0.11), on="nightstand_1")
+    spots = spots_on(built.memory.snapshot(), "nightstand_1", (0.15, 0.07, 0.02), None)
+    assert {spot.turn_rad for spot in spots} == {0.0, np.pi / 2}
+    lengthwise = [spot.anchor.point_m for spot in spots if spot.turn_rad == 0.0]
+    assert all(abs(y) > 0.045 + 0.035 + GAP_M for _, y, _ in lengthwise)
 
 
 def test_a_full_table_has_no_spot(flat):

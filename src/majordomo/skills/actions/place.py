@@ -10,7 +10,7 @@ from py_trees.common import Status
 from majordomo.skills.action import RobotContext
 from majordomo.skills.actions.arm import STOWED, ArmAction, ArmProgress
 from majordomo.skills.actions.arm_way import clear_over_m
-from majordomo.skills.actions.spot_reach import ABOVE_RIM_M, Placement, above_bottom_m
+from majordomo.skills.actions.spot_reach import ABOVE_RIM_M, Placement, above_bottom_m, roll_at
 from majordomo.skills.errors import Unreachable
 from majordomo.skills.failures import FailureCode
 from majordomo.skills.grasping import TIP_M
@@ -79,15 +79,19 @@ class LowerToPlace(ArmAction):
         return self.stalled(self._placement.target)
 
     def _plan(self) -> tuple[ArmTarget, ...]:
-        """Up, out, and down, with the wrist as it is; down only when it is out: drawn in, the hand is over the base."""
+        """Up, out, and down, with the wrist as it is unless what is held must be turned to fit, which is done out
+        there; down only when it is out: drawn in, the hand is over the base.
+        """
         context, arm = self.context, self.context.body.arm
         x_m, y_m, z_m = self._placement.anchor().in_base(context)
         inside = self._placement.spot is not None and self._placement.spot.inside
         pads_z_m = z_m + above_bottom_m(context) + (ABOVE_RIM_M if inside else RELEASE_M)
         pads_z_m = max(pads_z_m, z_m + TIP_M)
-        covered = self._placement.spot is not None and self._placement.spot.is_covered
+        spot = self._placement.spot
+        covered = spot is not None and spot.is_covered
+        roll_rad = arm.wrist_roll_rad if spot is None else roll_at(context, spot)
         # to the sides, the fingers neither push what they leave nor touch the board above
-        wrist = (arm.wrist_pitch_rad, 0.0 if covered else arm.wrist_roll_rad)
+        wrist = (arm.wrist_pitch_rad, 0.0 if covered else roll_rad)
         final = arm_target(hypot(x_m, y_m), pads_z_m, *wrist, context.geometry, context.limits)
         self._standing = final
         if covered:
@@ -97,8 +101,9 @@ class LowerToPlace(ArmAction):
         over_m = clear_over_m(context, hypot(x_m, y_m), self._placement.target) + above_bottom_m(context)
         clear_m = over_m - context.geometry.hand_length_m * sin(arm.wrist_pitch_rad)
         highest_m = max(above_m, arm.lift_m, min(clear_m, context.limits.lift_m[1]))
-        way = replace(arm, lift_m=highest_m), replace(final, lift_m=highest_m), replace(final, lift_m=above_m)
-        return *way, *steps
+        out = replace(final, lift_m=highest_m)
+        way = replace(arm, lift_m=highest_m), replace(out, wrist_roll_rad=arm.wrist_roll_rad), out
+        return *way, replace(final, lift_m=above_m), *steps
 
     def _level_way(self, final: ArmTarget) -> tuple[ArmTarget, ...]:
         """To the height at which it comes in, with the arm drawn in, straight in, and down."""

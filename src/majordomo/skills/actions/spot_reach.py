@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from math import sin
+from math import pi, sin
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,14 +13,17 @@ from majordomo.scene_graph.nodes import ObjectNode
 from majordomo.skills.action import RobotContext
 from majordomo.skills.anchor import Anchor
 from majordomo.skills.boards import LOWEST_M, TURN_RAD, headroom_m, is_before
-from majordomo.skills.geometry import Points
-from majordomo.skills.navigation.pose import robot_frame
+from majordomo.skills.geometry import Points, wrap_rad
+from majordomo.skills.grasping import DOWN_RAD
+from majordomo.skills.navigation.pose import in_base, robot_frame
 from majordomo.skills.place_spot import Spot
 
 ABOVE_RIM_M = 0.04
 SPARE_LIFT_M = 0.02
 """A surface may turn out to be a little higher when it is seen from near."""
 DEFAULT_GRIP_SHARE = 0.6
+STEEP_RAD = 0.1
+"""A hand that is off the vertical by less points down."""
 
 SpotSource = Callable[[], Sequence[Spot]]
 """Gives the free spots as the graph is now."""
@@ -64,8 +67,27 @@ def admitted(context: RobotContext, spot: Spot, places: Points, *, turn_rad: flo
     return is_before(context.snapshot, on.node_id, on.point_m, places, frame, sides=spot.sides, turn_rad=turn_rad)
 
 
+def is_within_wrist(context: RobotContext, spot: Spot) -> bool:
+    """Whether the wrist turns what is held as it must stand: that takes a hand that points down."""
+    return spot.turn_rad is None or abs(context.body.arm.wrist_pitch_rad - DOWN_RAD) < STEEP_RAD
+
+
+def roll_at(context: RobotContext, spot: Spot) -> float:
+    """The wrist's roll with which what is held stands at a spot as it must, the base being turned as it is."""
+    roll_rad, grip = context.body.arm.wrist_roll_rad, context.grip
+    if spot.turn_rad is None or grip is None:
+        return roll_rad
+    crosswise = pi / 2 if grip.size_m[0] < grip.size_m[1] else 0.0
+    held_rad = (context.body.T_base_gripper @ grip.T_gripper_object).yaw_rad + crosswise
+    more_rad = in_base(context, spot.anchor.node_id).yaw_rad + spot.turn_rad - held_rad
+    # the hand points down: what it holds turns the other way about the vertical than the wrist about the hand
+    return wrap_rad(2 * (roll_rad - more_rad)) / 2
+
+
 def is_within_lift(context: RobotContext, spot: Spot) -> bool:
     """Whether the lift gets the hand with what it holds over the spot, and below the board above, if there is one."""
+    if not is_within_wrist(context, spot):
+        return False
     snapshot, arm = context.snapshot, context.body.arm
     surface_z_m = float(spot.anchor.position(snapshot, robot_frame(snapshot))[2])
     above_m, pitch_rad = above_bottom_m(context), arm.wrist_pitch_rad

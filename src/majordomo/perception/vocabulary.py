@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from types import MappingProxyType
 
-from majordomo.perception.vocabulary_table import ROWS
+from majordomo.perception.vocabulary_table import LARGEST, ROWS
 from majordomo.scene_graph.nodes import Point3
 
 GRIPPER_OPENING_M = 0.12
@@ -99,6 +99,15 @@ def oversize(label: str, size_m: Point3) -> float:
     return max(longer, broader, 1.0)
 
 
+def is_too_large(label: str, size_m: Point3) -> bool:
+    """Whether a thing of that size cannot have that name: no bench is as deep as a table, be it as low as one."""
+    largest_m = _LARGEST_M.get(plain_label(label))
+    if largest_m is None:
+        return False
+    sides = (*sorted(size_m[:2], reverse=True), size_m[2])
+    return any(side > largest for side, largest in zip(sides, largest_m, strict=True))
+
+
 def spans_its_kind(label: str, size_m: Point3) -> bool:
     """Whether furniture that comes in one size is as long and as deep as that: of what is seen no side is missing."""
     category = category_of(label)
@@ -157,3 +166,9 @@ def _parse(rows: str) -> Mapping[str, Category]:
 
 CATEGORIES: Mapping[str, Category] = _parse(ROWS)
 """Every known name, other names of the same thing included."""
+
+_LARGEST_M: Mapping[str, tuple[float, ...]] = {
+    plain_label(name): tuple(map(float, sides.split()))
+    for names, sides in (line.split("|") for line in LARGEST.strip().splitlines())
+    for name in names.split(",")
+}

@@ -12,7 +12,8 @@ stands or hangs where it is, ``b`` a ball, ``r`` round seen from above, ``l`` th
 from __future__ import annotations
 
 ROWS = """
-table, dining table, coffee table, side table, table-merged, nightstand, bedside table | sf | 1.2 0.8 0.75 | furniture
+table, dining table, coffee table, side table, table-merged | sf | 1.2 0.8 0.75 | furniture
+nightstand, bedside table | sf | 0.45 0.4 0.55 | furniture
 desk | sf | 1.4 0.7 0.75 | furniture
 counter, kitchen counter, countertop, counter-other-merged, worktop, kitchen island | sf | 1.8 0.6 0.9 | furniture
 bench | sf | 1.2 0.4 0.45 | furniture seat
@@ -114,3 +115,20 @@ ceiling, ceiling-merged, door, door-stuff, window, window-blind, window-other, d
 rug, rug-merged, carpet, curtain, stairs, roof, sky, sky-other-merged, background, robot, gripper, arm | x | 0 0 0 |
 building-other-merged, pavement-merged, rock-merged, tree-merged, grass-merged, dirt-merged, water-other | x | 0 0 0 |
 """
+
+LARGEST = """
+bench | 2.6 0.52 1.1
+stool | 0.6 0.6 0.95
+chair, office chair | 0.95 0.95 1.4
+nightstand, bedside table | 0.85 0.65 0.9
+tv stand | 2.8 0.65 0.9
+shelf, bookshelf, bookcase | 3.0 0.65 2.8
+trash can, bin, trash bin, waste basket | 0.7 0.7 1.2
+toilet | 0.95 0.65 1.3
+washing machine, washer, dishwasher | 0.85 0.85 1.2
+bathtub, bath | 2.2 1.2 0.9
+sofa, couch | 3.6 1.8 1.3
+bed | 2.5 2.4 1.6
+table, dining table | 4.0 2.0 1.2
+"""
+"""Long side, short side, height in meters that nothing of that name exceeds: what does is something else."""

@@ -22,7 +22,7 @@ from majordomo.perception.objects.tracker import Tracker, TrackerSettings
 from majordomo.perception.vocabulary import category_of, oversize
 from majordomo.scene_graph.edges import ConnectsEdge, RtEdge
 from majordomo.scene_graph.edits import PutEdge, PutNode
-from majordomo.scene_graph.nodes import DoorNode, ObjectState
+from majordomo.scene_graph.nodes import UNKNOWN_LABEL, DoorNode, ObjectState
 from majordomo.scene_graph.se3 import SE3
 
 LABELS = ("bottle", "cup", "vase", "can")
@@ -173,6 +173,26 @@ def test_a_stove_two_meters_long_is_a_counter_and_one_of_the_usual_size_a_stove(
     belief.teach("stove")
     belief.measure((2.1, 0.6, 0.9))
     assert belief.best == "stove"
+
+
+def test_what_is_too_deep_for_a_bench_is_the_table_that_the_network_thinks_of_next():
+    """A coffee table is as low as a bench."""
+    belief = LabelBelief()
+    for view in range(3):
+        for _ in range(8):
+            belief.update((("bench", 0.85), ("table", 0.12), ("unknown", 0.01)), view=view)
+            belief.measure((1.0, 0.4, 0.45) if view == 0 else (1.0, 0.62, 0.45))
+    assert belief.best == "table"
+    assert belief.confidence > 0.9
+
+
+def test_what_is_too_deep_for_the_only_name_that_was_heard_keeps_no_name_to_speak_of():
+    belief = LabelBelief()
+    for view in range(3):
+        for _ in range(8):
+            belief.update((("bench", 0.98), ("chair", 0.01)), view=view)
+            belief.measure((1.0, 0.62, 0.45))
+    assert belief.best == UNKNOWN_LABEL
 
 
 def test_the_order_of_frames_does_not_matter_while_odds_are_small():

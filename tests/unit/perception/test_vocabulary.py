@@ -11,8 +11,22 @@ from majordomo.perception.vocabulary import (
     fits_gripper,
     is_graspable,
     is_person,
+    is_too_large,
     spans_its_kind,
 )
+
+
+@pytest.mark.parametrize("name", sorted(CATEGORIES))
+def test_nothing_of_usual_size_is_too_large_for_its_name(name):
+    assert not is_too_large(name, category_of(name).size_m)
+
+
+def test_a_low_thing_as_deep_as_a_table_is_no_bench_whichever_way_it_was_measured():
+    assert is_too_large("bench", (1.0, 0.62, 0.45))
+    assert is_too_large("Bench", (0.62, 1.0, 0.45))
+    assert not is_too_large("bench", (1.6, 0.42, 0.48))
+    assert is_too_large("tv_stand", (1.4, 0.4, 1.4))
+    assert not is_too_large("cup", (9.0, 9.0, 9.0))
 
 
 def test_every_row_is_sound():

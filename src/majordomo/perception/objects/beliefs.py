@@ -6,7 +6,7 @@ from collections.abc import Collection, Hashable, Mapping
 
 import numpy as np
 
-from majordomo.perception.vocabulary import oversize
+from majordomo.perception.vocabulary import is_too_large, oversize
 from majordomo.scene_graph.nodes import UNKNOWN_LABEL, Point3
 
 LabelDistribution = tuple[tuple[str, float], ...]
@@ -21,6 +21,8 @@ _OBSERVATIONS_OF_VIEW, _VIEWS_BEFORE = 12.0, (0.5, 3.0)
 """Of so many observations it counts as one view: what was seen time and again, from more sides than one, is not
 overturned by the first look after a restart, or where the thing was put.
 """
+_LEAST_LEFT = 0.1
+"""So much of a frame counts as all of it when the rest is out of the question; less is noise."""
 _SIZE_SPREAD = 0.25
 """Standard deviation of the logarithm of the size of what comes in one size: a stove two meters long is more likely a
 stove and a counter, which go by the counter's name.
@@ -126,11 +128,18 @@ class LabelBelief:
         """How much less likely, in log likelihood to one digit, its size makes the labels that were heard."""
         heard = {label for look in self._looks.values() for label in look.log if label is not None}
         over = {label: float(np.log(oversize(label, self._size_m))) / _SIZE_SPREAD for label in heard}
-        return {label: round(spreads**2 / 2.0, 1) for label, spreads in over.items() if spreads > 0.0}
+        costs = {label: round(spreads**2 / 2.0, 1) for label, spreads in over.items() if spreads > 0.0}
+        return costs | {label: self._bound for label in heard if is_too_large(label, self._size_m)}
 
     def _likelihood(self, distribution: LabelDistribution) -> dict[str, float]:
-        """Of each label, given that it is right; classes of a frame that is unsure share everything among them."""
+        """Of each label, given that it is right; classes of a frame that is unsure share everything among them, and so
+        do the other classes of a frame that names what a thing of that size cannot be.
+        """
         likelihood = {label: max(probability, 0.0) for label, probability in distribution}
+        possible = {label: p for label, p in likelihood.items() if not is_too_large(label, self._size_m)}
+        if len(possible) < len(likelihood):
+            left = max(1.0 - sum(likelihood.values()) + sum(possible.values()), _LEAST_LEFT)
+            likelihood = {label: probability / left for label, probability in possible.items()}
         known = 1.0 - likelihood.pop(UNKNOWN_LABEL, 0.0)
         if known < 1.0 and likelihood:
             likelihood = {label: probability / max(known, 1e-6) for label, probability in likelihood.items()}

@@ -66,7 +66,9 @@ def ranked_spots(context: RobotContext, held: str, target: str) -> Iterator[list
         ]
         if spots := _unblocked(context, spots):
             yield spots
-    if spots := _floor_spots(context, target if isinstance(node, PersonNode) else ROBOT_ID, size_m):
+    if spots := _unblocked(
+        context, _floor_spots(context, target if isinstance(node, PersonNode) else ROBOT_ID, size_m)
+    ):
         yield spots
 
 

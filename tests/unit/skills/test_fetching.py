@@ -89,6 +89,17 @@ async def test_in_a_room_what_is_not_known_by_name_carries_things_only_where_not
     assert {spot.anchor.node_id for spot in spots} == {"table_1" if tables else "unknown_1"}
 
 
+async def test_where_the_arm_was_stopped_on_its_way_to_the_floor_it_does_not_go_again_soon(flat):
+    built = flat().thing("cup_1", (0.0, 1.0, 0.05), (0.08, 0.08, 0.1), graspable=True)
+    context = await Rehearsal(memory=built.memory).prepare()
+    stopped, *others = [spot.anchor for spot in free_spots(context, "cup_1", "room_1")]
+    context.blocked_spots[stopped.node_id, stopped.point_m] = context.stamp_s
+    again = [spot.anchor for spot in free_spots(context, "cup_1", "room_1")]
+    assert again
+    assert set(again) <= set(others)
+    assert min(np.hypot(*np.subtract(on.point_m, stopped.point_m)[:2]) for on in again) > 0.1
+
+
 async def test_with_no_table_near_it_is_put_on_the_floor_beside_the_person(kitchen):
     rehearsal = kitchen(lambda built: built.person(-2.0, 1.5))
     steps = (("PICK", "bottle_1"), ("GOTO", "person_1"), ("PLACE", "bottle_1", "person_1"))

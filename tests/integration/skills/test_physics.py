@@ -80,6 +80,17 @@ async def test_what_is_put_on_the_floor_stands_there(stage, make_house, category
     assert built.where(thing["id"])["position_m"][2] == pytest.approx(half_m, abs=0.01)
 
 
+@pytest.mark.parametrize("in_m", [-0.2, pytest.param(0.05, marks=pytest.mark.slow)])
+async def test_a_can_that_touches_the_arm_of_a_sofa_is_taken_with_the_fingers_before_and_behind_it(
+    stage, make_house, in_m
+):
+    sofa = {"id": "sofa_1", "category": "sofa", "pose": [0.5, 1.6, 0.0], "size": [1.78, 0.94, 0.81]}
+    can = {"id": "can_1", "category": "can", "on": "sofa_1", "offset": [-0.691, in_m]}
+    built = await stage(make_house([sofa], [can], [0.0, -1.0, 0.5]), noise_m=0.003)
+    assert await built.carry_out(("GOTO", "can_1"), ("PICK", "can_1")) is None
+    assert built.truth["robot"]["holding"] == "can_1"
+
+
 @pytest.mark.parametrize("turn", [0.4, pytest.param(-1.2, marks=pytest.mark.slow)])
 async def test_a_phone_is_turned_so_that_it_fits_beside_the_clock_on_a_nightstand(stage, make_house, turn):
     furniture = [

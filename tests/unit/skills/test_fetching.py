@@ -444,7 +444,7 @@ async def test_what_stops_the_arm_on_its_way_in_between_boards_is_not_the_board(
     assert (await rehearsal.run(actions[lowering:], 900.0)).code is FailureCode.UNREACHABLE
 
 
-@pytest.mark.parametrize(("glass_y_m", "across"), [(0.0, 1), (-0.3, 0)])
+@pytest.mark.parametrize(("glass_y_m", "across"), [(0.06, 1), (0.0, 1), (-0.3, 0)])
 async def test_a_finger_does_not_come_down_on_the_arm_of_a_sofa(flat, glass_y_m, across):
     built = flat().thing("sofa_1", (0.7, -0.7, 0.4), (1.9, 0.9, 0.8), yaw=pi / 2, support=True)
     built.thing("glass_1", (0.6, glass_y_m, 0.47), (0.074, 0.074, 0.14), on="sofa_1", graspable=True)

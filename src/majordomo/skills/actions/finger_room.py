@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from math import cos, sin
+from math import cos, inf, sin
 
 import numpy as np
 
@@ -29,7 +29,7 @@ def fingers_met(context: RobotContext, object_id: str) -> Callable[[float, float
     solids = [_Solid(context, node) for node in _neighbors(context, object_id)]
     solids = [solid for solid in solids if solid.top_m > lowest_m]
     support_id = snapshot.support_of(object_id)
-    seat = _Seat(context, snapshot.object(support_id)) if support_id is not None else None
+    seat = _Seat(context, snapshot.object(support_id), object_id) if support_id is not None else None
 
     def count(direction_rad: float, pad_m: float) -> int:
         toward = np.array((cos(direction_rad), sin(direction_rad)))
@@ -67,14 +67,17 @@ class _Solid:
 
 
 class _Seat(_Solid):
-    """What carries a thing: where its arms are, at the ends of its longer side."""
+    """What carries a thing: where its arms are, at the ends of its longer side, and no nearer than the thing itself."""
 
-    def __init__(self, context: RobotContext, node: ObjectNode) -> None:
+    def __init__(self, context: RobotContext, node: ObjectNode, carried_id: str) -> None:
         super().__init__(context, node)
         self._long = int(node.size_m[1] > node.size_m[0])
-        self._arm_m = rims_m(node.label)[0]
+        arm_m = rims_m(node.label)[0]
+        carried_m = abs(float(context.snapshot.position(carried_id, node.id)[self._long]))
+        narrow_m = min(context.snapshot.object(carried_id).size_m[:2])
+        inner_m = max(float(self._half_m[self._long]) - arm_m, carried_m + narrow_m / 2)
+        self._inner_m = inner_m if arm_m > 0.0 else inf
 
     def covers(self, point: Points) -> bool:
         """Whether a finger there would meet an arm."""
-        beyond_m = abs(float(self.local(point)[self._long])) - (float(self._half_m[self._long]) - self._arm_m)
-        return self._arm_m > 0.0 and beyond_m > -AIR_M
+        return abs(float(self.local(point)[self._long])) > self._inner_m - AIR_M

@@ -113,7 +113,8 @@ def test_what_looks_like_nothing_known_stays_unknown_and_one_lucky_frame_does_no
 
 def seen(label, size_m, number):
     track = Track(number, "room_1", settings=TrackSettings(), random=np.random.default_rng(0))
-    track.label.update(((label, 0.95),))
+    for view in range(3):
+        track.label.update(((label, 0.95),), view=view)
     track.place = SurfaceBelief.of(Box(np.array((0.0, 0.0, size_m[2] / 2)), size_m, 0.0))
     track.seen_whole = True
     return track
@@ -134,6 +135,20 @@ def test_the_same_cupboard_under_two_names_is_one_and_a_chair_under_a_table_is_n
     table, chair = seen("table", (1.4, 0.9, 0.75), 3), seen("chair", (0.45, 0.45, 0.7), 4)
     assert not is_double(table, chair)
     assert not is_fragment(chair, table)
+
+
+@pytest.mark.parametrize(
+    ("looks_like", "is_part"),
+    [((("shelf", 0.97),), False), ((("unknown", 0.9),), True), ((("shelf", 0.45), ("cabinet", 0.4)), True)],
+)
+def test_the_side_of_a_desk_that_nobody_can_name_for_sure_is_of_the_desk(looks_like, is_part):
+    desk, side = seen("desk", (1.2, 0.7, 0.75), 1), seen("shelf", (0.66, 0.17, 0.7), 2)
+    side.label = LabelBelief()
+    for view in range(2):
+        side.label.update(looks_like, view=view)
+    assert is_double(desk, side) is is_part
+    assert is_double(side, desk) is is_part
+    assert is_fragment(side, desk) is is_part
 
 
 @pytest.mark.parametrize(

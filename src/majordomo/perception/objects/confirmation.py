@@ -19,7 +19,7 @@ from majordomo.perception.objects.identity import (
 from majordomo.perception.objects.relations import support_probability
 from majordomo.perception.objects.track import Track
 from majordomo.perception.vocabulary import carries_things, category_of, is_of_one_size
-from majordomo.scene_graph.nodes import ObjectState
+from majordomo.scene_graph.nodes import UNKNOWN_LABEL, ObjectState
 
 Array = NDArray[np.float64]
 Places = Mapping[int, tuple[str, Array]]
@@ -157,8 +157,9 @@ def undecided(sighting: Track, known: Sequence[Track], settings: IdentitySetting
 
 def is_fragment(sighting: Track, track: Track) -> bool:
     """Whether new furniture is a part of known furniture: of the same kind, it lies within its box; of another, both
-    fill the same space, or it lies within and was never seen as a whole: from near, a part of a toilet may look like a
-    bin, whereas a chair pushed under a table shows itself, and so does a stove in a row of counters.
+    fill the same space, or it lies within and was never seen as a whole or has no name to rely on: from near, a part of
+    a toilet may look like a bin, and the side of a desk like a shelf, whereas a chair pushed under a table shows
+    itself, and so does a stove in a row of counters.
     """
     if not (sighting.is_furniture and track.is_furniture and track.room == sighting.room):
         return False
@@ -167,9 +168,14 @@ def is_fragment(sighting: Track, track: Track) -> bool:
     inside = _share_inside(sighting, track)
     if track.label.best == sighting.label.best:
         return inside > 0.3
-    if inside > _WITHIN and not sighting.seen_whole:
+    if inside > _WITHIN and (not sighting.seen_whole or _is_doubtful(sighting)):
         return not _is_built_in(sighting, track)
     return inside > _SAME_SPACE and _share_inside(track, sighting) > _SAME_SPACE
+
+
+def _is_doubtful(track: Track) -> bool:
+    """Whether it has no name to rely on."""
+    return track.label.best == UNKNOWN_LABEL or track.label.confidence < _SURE
 
 
 def _is_built_in(sighting: Track, track: Track) -> bool:
@@ -203,8 +209,9 @@ def _usual_m(track: Track) -> float:
 
 def is_double(one: Track, other: Track) -> bool:
     """Whether two known pieces of furniture are one that was first seen from two sides, or under two names: of the same
-    kind, most of one lies in the other; of two kinds, as a chair pushed under a table, only if it is so both ways, and
-    no piece that is known well to stand by itself is taken for a part of a longer one.
+    kind, most of one lies in the other; of two kinds, as a chair pushed under a table, only if it is so both ways, or
+    nobody can say what lies within what is known well. No piece that is known well to stand by itself is taken for a
+    part of a longer one.
     """
     if not (one.is_furniture and other.is_furniture and one.room == other.room):
         return False
@@ -216,6 +223,8 @@ def is_double(one: Track, other: Track) -> bool:
     reach_m = sum(float(np.hypot(*track.box.size_m[:2])) / 2.0 for track in (one, other))
     if away_m > reach_m + _BOX_MARGIN_M:
         return False
+    if not alike and _is_doubtful(shorter) and not _is_doubtful(longer) and _share_inside(shorter, longer) > _WITHIN:
+        return True
     shares = _share_inside(one, other), _share_inside(other, one)
     return (max(shares) if alike else min(shares)) > _SAME_SPACE
 

@@ -338,6 +338,21 @@ def test_a_thing_that_slips_from_the_fingers_is_missing_near_the_robot_until_see
     assert np.linalg.norm(graph.position("bottle_1", "room_1") - (-1.2, 0.2, 0.12)) < 0.02
 
 
+def test_a_thing_that_slips_from_the_fingers_on_its_way_down_was_not_put_there():
+    story = grasped()
+    story.run(4)
+    T_base_room = story.room.T_room_base.inverse()
+    say(story.memory, "releasing bottle_1 table_1", story.now_s)
+    story.room.joints = joints(T_base_room.apply(np.array((0.2, 0.2, 1.1))), (True, True), 0.068)
+    story.run(1)
+    story.room.silent = True
+    story.room.joints = replace(story.room.joints, finger_contacts=(False, False), gripper_opening_m=0.02)
+    graph = story.run(3)
+    assert graph.robot.holding is None
+    assert graph.object("bottle_1").state is ObjectState.MISSING
+    assert graph.support_of("bottle_1") is None
+
+
 def switched_on_again(story, contacts, opening_m):
     """The robot after a restart, in front of the same table, with fingers that feel this."""
     story.memory = WorkingMemory(_with_empty_hand(story.memory.snapshot()))

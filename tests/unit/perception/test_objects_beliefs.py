@@ -454,6 +454,17 @@ def test_what_slipped_is_known_by_its_looks_where_it_lies_even_if_it_is_called_o
     assert (known_as(sighting, [far, slipped], **known) is slipped) is same
 
 
+@pytest.mark.parametrize(("long_m", "same"), [(0.2, True), (0.14, False)])
+def test_a_book_that_fell_on_its_edge_is_the_book_though_the_network_is_sure_that_it_is_a_banana(long_m, same):
+    book = thing(1, "book", "yellow", (0.2, 0.09, 0.036), state=ObjectState.MISSING)
+    book.put_at("room_1", np.array((0.0, 0.0, 0.02)), 0.5)
+    book.fell = True
+    sighting = thing(2, "banana", "yellow", (long_m, 0.039, 0.086), seen=(20.0, 21.0))
+    sighting.put_at("room_1", np.array((0.05, -0.03, 0.49)), 0.01)
+    known = known_as(sighting, [book], taken_from={}, looked_before={}, settings=IdentitySettings())
+    assert (known is book) is same
+
+
 @pytest.mark.parametrize(
     ("label", "state", "same"),
     [

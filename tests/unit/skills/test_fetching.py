@@ -14,7 +14,7 @@ from majordomo.scene_graph.nodes import ObjectState
 from majordomo.scene_graph.se3 import SE3
 from majordomo.skills.actions.approach import STOPPED_RAD
 from majordomo.skills.actions.arm import CARRY_LIFT_M, Retract
-from majordomo.skills.actions.arm_way import BARRED_COST_M, clear_over_m, passing_over
+from majordomo.skills.actions.arm_way import BARRED_COST_M, IN_THE_WAY_COST_M, clear_over_m, passing_over
 from majordomo.skills.actions.finger_room import fingers_met
 from majordomo.skills.actions.grasp import CloseGripper
 from majordomo.skills.actions.place import LowerToPlace
@@ -489,6 +489,17 @@ async def test_the_end_of_something_long_bars_the_arm_if_it_is_higher_than_the_h
     snapshot = built.memory.snapshot()
     costs = passing_over(snapshot, "room_1", np.zeros(3), 0.5, places, {"bottle_1", "stool_1"}, stamp_s=0.0)
     assert costs.tolist() == [cost_m, 0.0]
+
+
+@pytest.mark.parametrize(
+    ("name", "cost_m"), [("unknown_1", IN_THE_WAY_COST_M), ("cup_1", IN_THE_WAY_COST_M), ("plant_1", inf)]
+)
+async def test_a_small_thing_without_a_name_does_not_keep_the_hand_from_what_it_may_be_a_part_of(flat, name, cost_m):
+    built = flat().thing("book_1", (0.0, 0.0, 0.47), (0.2, 0.08, 0.03), graspable=True)
+    built.thing(name, (0.02, 0.0, 0.6), (0.14, 0.13, 0.2), graspable=name == "cup_1")
+    places = np.array(((0.6, 0.0), (-0.6, 0.3)))
+    costs = passing_over(built.memory.snapshot(), "room_1", np.zeros(3), 0.5, places, {"book_1"}, stamp_s=0.0)
+    assert costs.tolist() == [cost_m, cost_m]
 
 
 @pytest.mark.parametrize(

@@ -26,9 +26,9 @@ Places = Mapping[int, tuple[str, Array]]
 """Track number -> room and position (3,) from which a thing was taken into the hand."""
 _SAME_PLACE_M = 0.12
 _SAME_COLOR = 0.4
-_SAME_LOOK, _SAME_NAME = 0.6, 0.1
+_SAME_LOOK, _SAME_NAME, _SAME_BODY = 0.6, 0.1, 0.85
 """Of what slipped, or seems to be another thing in the same place: how well color and size agree with what is there,
-and how far the names may differ.
+and how far the names may differ; from where on the name of what slipped does not matter.
 """
 _BOX_MARGIN_M = 0.1
 _UNSEEN_S = 0.3
@@ -110,11 +110,12 @@ def _was_put_here(sighting: Track, track: Track) -> bool:
 
 def _fell_here(sighting: Track, track: Track, settings: IdentitySettings) -> bool:
     """Whether a small sighting of the same size and color lies near where a thing has just slipped from the hand: what
-    lies otherwise than it stood may well be called otherwise.
+    lies otherwise than it stood may well be called otherwise, and what is just as large, whatever it is called.
     """
     if not track.fell or sighting.is_furniture or track.last_seen_s >= sighting.first_seen_s:
         return False
-    return apart_m(sighting, track) <= settings.near_m and _looks_the_same(sighting, track)
+    near = apart_m(sighting, track) <= settings.near_m
+    return near and (_looks_the_same(sighting, track) or _body_agreement(sighting, track) >= _SAME_BODY)
 
 
 def _is_like(sighting: Track, track: Track, settings: IdentitySettings) -> bool:
@@ -129,9 +130,13 @@ def _is_like(sighting: Track, track: Track, settings: IdentitySettings) -> bool:
 
 def _looks_the_same(sighting: Track, track: Track) -> bool:
     """Whether color and size agree well, and the names are not out of the question."""
-    color, size = share_agreement(sighting.color.shares, track.color.shares), size_agreement(sighting, track)
     label = agreement(sighting.label.distribution, track.label.distribution)
-    return color * size >= _SAME_LOOK and label >= _SAME_NAME
+    return _body_agreement(sighting, track) >= _SAME_LOOK and label >= _SAME_NAME
+
+
+def _body_agreement(sighting: Track, track: Track) -> float:
+    """How well color and size agree, 0 to 1."""
+    return share_agreement(sighting.color.shares, track.color.shares) * size_agreement(sighting, track)
 
 
 def _touch(one: Track, other: Track) -> bool:

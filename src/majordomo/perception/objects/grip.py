@@ -11,6 +11,9 @@ from enum import StrEnum
 
 from majordomo.perception.ports import JointState
 
+_CLOSED_M = 0.004
+"""Fingers that are closer together by more than this than when they last felt something have closed on nothing."""
+
 
 class GripChange(StrEnum):
     """What has just happened to the thing in the hand."""
@@ -53,6 +56,7 @@ class Grip:
         self._announced: tuple[str, str, str | None, float] | None = None
         self._since_s: float | None = None
         self._felt = False
+        self._held_open_m = 0.0
 
     def update(self, joints: JointState, status: str, holding: str | None) -> GripEvent | None:
         """The event of this step, if any. ``holding``: what the graph believes to be in the hand."""
@@ -60,11 +64,13 @@ class Grip:
         low_m, high_m = self._settings.opening_m
         closed_on_something = all(joints.finger_contacts) and low_m < joints.gripper_opening_m < high_m
         free = not any(joints.finger_contacts) or joints.gripper_opening_m <= low_m
+        if closed_on_something:
+            self._held_open_m = joints.gripper_opening_m
         if holding is None and self._held_before is not None:
             return self._found(closed_on_something, joints.stamp_s)
         if holding is None:
             return self._taken(joints.stamp_s) if self._lasting(closed_on_something, joints.stamp_s) else None
-        return self._let_go(holding, joints.stamp_s) if self._lasting(free, joints.stamp_s) else None
+        return self._let_go(holding, joints) if self._lasting(free, joints.stamp_s) else None
 
     def _listen(self, status: str, stamp_s: float) -> None:
         words = status.split()
@@ -92,9 +98,11 @@ class Grip:
         announced = self._recent("grasping", stamp_s)
         return GripEvent(change=GripChange.TAKEN, object_id=announced[0]) if announced is not None else None
 
-    def _let_go(self, holding: str, stamp_s: float) -> GripEvent:
-        announced = self._recent("releasing", stamp_s)
-        if announced is not None and announced[0] == holding:
+    def _let_go(self, holding: str, joints: JointState) -> GripEvent:
+        """Fingers that release something open; where they have closed further, it slipped before it stood."""
+        announced = self._recent("releasing", joints.stamp_s)
+        slipped = joints.gripper_opening_m < self._held_open_m - _CLOSED_M
+        if announced is not None and announced[0] == holding and not slipped:
             return GripEvent(change=GripChange.RELEASED, object_id=holding, place=announced[1])
         return GripEvent(change=GripChange.LOST, object_id=holding)
 

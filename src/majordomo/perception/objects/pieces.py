@@ -20,6 +20,8 @@ from majordomo.scene_graph.nodes import UNKNOWN_LABEL, ObjectState
 _PERSON_M = 2.5
 _EDGE_M, _MOST = 0.02, 0.85
 """Such a share of the points of what is furniture is so near to it."""
+_PART_EDGE_M = 0.02
+"""So near to a small thing lies the middle of what is a part of it: of its upper side, depth shows a little more."""
 _ROW_EDGE_M = 0.1
 """The same where it is not yet known well how far the pieces of a row reach."""
 
@@ -79,8 +81,8 @@ def is_of_several(track: Track, known: Sequence[Track]) -> bool:
 def is_part(
     track: Track, sight: Sight, matches: Mapping[int, Track], center_px: tuple[float, float] | None = None
 ) -> bool:
-    """Whether what has no name is a part of a small thing that is seen: it is within that, or ``center_px``, where its
-    middle is in the picture, is.
+    """Whether what has no name is a part of a small thing that is seen: it is within that, or as good as, or
+    ``center_px``, where its middle is in the picture, is.
     """
     T_here_room = sight.surroundings.T_here_room
     for detection in sight.detections:
@@ -88,7 +90,7 @@ def is_part(
         if other is None or other is track or other.is_furniture or other.category.container or has_no_name(other):
             continue
         T_other_track = T_here_room[other.room].inverse() @ T_here_room[track.room]
-        if bool(other.box.contains(T_other_track.apply(track.position)[None])[0]):
+        if bool(other.box.contains(T_other_track.apply(track.position)[None], _PART_EDGE_M)[0]):
             return True
         if center_px is not None and _shows(detection.mask, center_px):
             return True

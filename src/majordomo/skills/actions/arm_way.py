@@ -6,7 +6,7 @@ from collections.abc import Collection, Sequence
 
 import numpy as np
 
-from majordomo.scene_graph.nodes import ObjectNode, ObjectState, PersonNode
+from majordomo.scene_graph.nodes import UNKNOWN_LABEL, ObjectNode, ObjectState, PersonNode
 from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.skills.action import RobotContext
 from majordomo.skills.geometry import Point2, Points
@@ -25,6 +25,8 @@ ARM_HALF_WIDTH_M = 0.09
 SURELY_MET_M = 0.06
 """So near to the middle of its way, the hand meets what is higher, however well that was measured."""
 HELD_MARGIN_M = 0.06
+NAMELESS_M = 0.35
+"""What is smaller and has no name does not bar the way: the hand may have to push it, as what can be grasped."""
 PERSON_CLEARANCE_M, DRIFT_M = 0.32, 0.04
 """So far from the middle of a person the middle of the arm keeps, from a place that is as far off as a drive may be."""
 CLEARANCE_M = 0.04
@@ -81,9 +83,9 @@ def passing_over(
             continue
         away_m = footprint(snapshot, node, frame).distance_m(way.reshape(-1, 2)).reshape(way.shape[:2])
         nearest_m = away_m.min(axis=0)
-        cost_m = IN_THE_WAY_COST_M if node.graspable else BARRED_COST_M
-        costs += np.where(nearest_m < ARM_HALF_WIDTH_M, cost_m, 0.0)
-        if not node.graspable:
+        bars = not (node.graspable or _is_small_and_nameless(node))
+        costs += np.where(nearest_m < ARM_HALF_WIDTH_M, BARRED_COST_M if bars else IN_THE_WAY_COST_M, 0.0)
+        if bars:
             costs += np.where(nearest_m < SURELY_MET_M, np.inf, 0.0)
     for person in snapshot.of_type(PersonNode):
         if person.id not in spared and snapshot.room_of(person.id) == frame:
@@ -91,6 +93,11 @@ def passing_over(
             cost_m = np.inf if stamp_s - person.last_seen_s < PERSON_FRESH_S else BARRED_COST_M
             costs += np.where(away_m.min(axis=0) < PERSON_CLEARANCE_M, cost_m, 0.0)
     return costs
+
+
+def _is_small_and_nameless(node: ObjectNode) -> bool:
+    """Whether it may well be no thing of its own, but a part of what lies there."""
+    return node.label == UNKNOWN_LABEL and max(node.size_m) < NAMELESS_M
 
 
 def people_here(context: RobotContext) -> list[str]:

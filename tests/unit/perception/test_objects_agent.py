@@ -540,6 +540,14 @@ def test_what_had_no_name_is_gone_once_it_is_seen_as_a_piece_of_a_thing():
     assert graph.object("book_1").state is ObjectState.PRESENT
 
 
+@pytest.mark.parametrize(("high_m", "nodes"), [(0.016, 2), (0.1, 3)])
+def test_what_has_no_name_is_no_thing_on_a_thing_unless_it_stands_out_from_it(high_m, nodes):
+    book = Solid(label="book", center=(-0.14, 0.0, 0.78), size_m=(0.3, 0.16, 0.06), color=(200.0, 180.0, 30.0))
+    patch = Solid(label="unknown", center=(-0.14, 0.0, 0.81 + high_m / 2), size_m=(0.1, 0.1, high_m))
+    graph = Story([TABLE, book, patch]).run(20)
+    assert len(graph.of_type(ObjectNode)) == nodes
+
+
 def test_what_stays_doubtful_from_one_place_is_a_node_once_it_was_seen_from_another():
     blob = Solid(label="apple", center=(0.1, 0.0, 0.8), size_m=(0.09, 0.09, 0.09), confidence=0.21)
     story = Story([TABLE, blob])

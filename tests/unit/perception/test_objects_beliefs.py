@@ -15,6 +15,7 @@ from majordomo.perception.objects.pieces import is_of_several
 from majordomo.perception.objects.projection import View
 from majordomo.perception.objects.raycast import Solid, look_at, render, rgbd_frame
 from majordomo.perception.objects.scripted import furnished_memory
+from majordomo.perception.objects.shape import Shape
 from majordomo.perception.objects.sight import Sight
 from majordomo.perception.objects.surface import Box, SurfaceBelief, SurfaceMemory, furniture_box, turned_like
 from majordomo.perception.objects.track import Track, TrackSettings
@@ -319,6 +320,27 @@ def thing(number, label="bottle", color="blue", size_m=(0.07, 0.07, 0.24), seen=
     track.state = state
     track.log_odds = -2.0 if state is ObjectState.MISSING else 4.6
     return track
+
+
+def measured(belief, width_m, *, side, frames, x_m=0.0):
+    shape = Shape(
+        center=np.array((x_m, 0.0, 0.8)), size_m=(width_m, width_m, 0.12), yaw_rad=0.0, oriented=False,
+        covariance=np.eye(3) * 1e-4, complete=True,
+    )  # fmt: skip
+    for _ in range(frames):
+        belief.observe(shape, SE3.identity(), np.eye(3) * 1e-6, side)
+
+
+@pytest.mark.parametrize(("x_m", "width_m"), [(0.0, 0.066), (0.5, 0.15)])
+def test_a_can_does_not_grow_though_from_one_side_it_is_long_taken_for_one_with_its_neighbor(x_m, width_m):
+    belief = CenterBelief(
+        Box(np.array((0.0, 0.0, 0.8)), (0.066, 0.066, 0.12), 0.0), np.eye(3) * 1e-4, settings=CenterSettings(),
+        random=np.random.default_rng(0),
+    )  # fmt: skip
+    for side in range(3):
+        measured(belief, 0.066, side=side, frames=15)
+    measured(belief, 0.15, side=3, frames=60, x_m=x_m)
+    assert belief.box.size_m[0] == pytest.approx(width_m), "only what was pushed may lie otherwise than it stood"
 
 
 def moved(sighting, known, *, place_known=True):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Hashable
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -25,11 +26,14 @@ _BIAS_SIGMA_M = 0.008
 
 @dataclass(frozen=True, kw_only=True)
 class CenterSettings:
-    """``jump_sigmas``: smoothed innovation from which on the thing must have been pushed."""
+    """``jump_sigmas``: smoothed innovation from which on the thing must have been pushed. ``size_memory``: how many
+    sizes are kept that were measured from one side; ``size_sides``: from how many sides.
+    """
 
     particles: ParticleSettings = field(default_factory=ParticleSettings)
     jump_sigmas: float = 3.5
     size_memory: int = 15
+    size_sides: int = 6
 
 
 class CenterBelief:
@@ -43,7 +47,8 @@ class CenterBelief:
         self._settings = settings
         self._filter = ParticleFilter(box.center, covariance, settings=settings.particles, random=random)
         self._pose_covariance = np.zeros((3, 3))
-        self._sizes = deque([box.size_m], maxlen=settings.size_memory)
+        self._sizes: dict[Hashable, deque[tuple[float, float, float]]] = {}
+        self._keep_size(box.size_m, None)
         self._seen_whole = False
         self._axis = _doubled(box.yaw_rad) if box.yaw_rad != 0.0 else np.zeros(2)
         self._innovation = np.zeros(3)
@@ -57,38 +62,53 @@ class CenterBelief:
         """
         return self._spread + self._pose_covariance + np.eye(3) * _FLOOR_SIGMA_M**2
 
-    def observe(self, shape: Shape, T_room_view: SE3, pose_covariance: Array) -> None:
-        """Take in one measurement; ``pose_covariance`` (3, 3) is the pose's share of its uncertainty, room frame."""
+    def observe(self, shape: Shape, T_room_view: SE3, pose_covariance: Array, side: Hashable = None) -> None:
+        """Take in one measurement; ``pose_covariance`` (3, 3) is the pose's share of its uncertainty, room frame,
+        ``side`` from where it was taken.
+        """
         R = T_room_view.rotation()
         if not self._pose_covariance.any() or np.trace(pose_covariance) < np.trace(self._pose_covariance):
             self._pose_covariance = pose_covariance
-        self._learn_size(shape)
+        self._learn_size(shape, side)
         if shape.oriented:
             self._axis = _AXIS_MEMORY * self._axis + _doubled(shape.yaw_rad + T_room_view.yaw_rad)
-        self._learn_place(T_room_view.apply(shape.center), R @ shape.covariance @ R.T)
+        if self._learn_place(T_room_view.apply(shape.center), R @ shape.covariance @ R.T):
+            self._sizes = {side: self._sizes[side]} if side in self._sizes else self._sizes
         self._refresh()
 
-    def _learn_size(self, shape: Shape) -> None:
-        """Whole views count; before the first one, any view does."""
+    def _learn_size(self, shape: Shape, side: Hashable) -> None:
+        """Whole views count; before the first one, any view does. A thing does not grow: what it measured from other
+        sides outweighs what it seems to be from one, where it may be taken for one with its neighbor.
+        """
         if shape.complete and not self._seen_whole:
             self._sizes.clear()
             self._seen_whole = True
         if shape.complete or not self._seen_whole:
-            self._sizes.append(shape.size_m)
+            self._keep_size(shape.size_m, side)
 
-    def _learn_place(self, center: Array, covariance: Array) -> None:
-        """Update the filter, or start it anew where the mean of the last innovations says that the thing was pushed."""
+    def _keep_size(self, size_m: tuple[float, float, float], side: Hashable) -> None:
+        sizes = self._sizes.pop(side, None) or deque(maxlen=self._settings.size_memory)
+        sizes.append(size_m)
+        self._sizes[side] = sizes
+        while len(self._sizes) > self._settings.size_sides:
+            del self._sizes[next(iter(self._sizes))]
+
+    def _learn_place(self, center: Array, covariance: Array) -> bool:
+        """Update the filter, or start it anew where the mean of the last innovations says that the thing was pushed,
+        and may lie otherwise than it stood; whether it was.
+        """
         self._innovation += _INNOVATION_GAIN * (center - self._filter.mean - self._innovation)
         S = self._filter.covariance + _INNOVATION_SHARE * covariance + np.eye(3) * _BIAS_SIGMA_M**2
         squared = float(self._innovation @ np.linalg.solve(S, self._innovation))
         if squared > self._settings.jump_sigmas**2:
             self._filter.restart(center, covariance)
             self._innovation = np.zeros(3)
-        else:
-            self._filter.update(center, covariance)
+            return True
+        self._filter.update(center, covariance)
+        return False
 
     def _refresh(self) -> None:
-        x_m, y_m, z_m = (float(side) for side in np.median(np.array(self._sizes), axis=0))
+        x_m, y_m, z_m = (float(side) for side in np.median(np.concatenate(list(self._sizes.values())), axis=0))
         yaw_rad = 0.5 * float(np.arctan2(self._axis[1], self._axis[0])) if self._axis.any() else 0.0
         self.box = Box(self._filter.mean, (x_m, y_m, z_m), yaw_rad)
         self._spread = self._filter.covariance

@@ -152,7 +152,7 @@ class Track:
         if category_of(self.label.best, size_m).furniture:
             self._observe_surface(detection, view, T_room_view, pose_covariance, others)
         else:
-            self._observe_center(detection, view, T_room_view, pose_covariance)
+            self._observe_center(detection, view, T_room_view, pose_covariance, side)
 
     def _note_place(self, camera: Array, detection: Detection, T_room_view: SE3) -> None:
         """Remember from where it is seen, unless it was seen from much the same side and distance before."""
@@ -207,7 +207,9 @@ class Track:
         """Whether a thing of known name was seen as something without one: such masks show more than the thing."""
         return category_of(self.label.best).known and not category_of(detection.label).known
 
-    def _observe_center(self, detection: Detection, view: View, T_room_view: SE3, pose_covariance: Array) -> None:
+    def _observe_center(
+        self, detection: Detection, view: View, T_room_view: SE3, pose_covariance: Array, side: tuple[int, int]
+    ) -> None:
         if isinstance(self.place, CenterBelief) and not detection.measurable:
             return
         shape = detection.shape
@@ -218,7 +220,7 @@ class Track:
             box = Box(T_room_view.apply(shape.center), shape.size_m, 0.0)
             self.place = self._center(box, R @ shape.covariance @ R.T)
         else:
-            self.place.observe(shape, T_room_view, pose_covariance)
+            self.place.observe(shape, T_room_view, pose_covariance, side)
             self.label.measure(self.box.size_m)
 
     def _center(self, box: Box, covariance: Array) -> CenterBelief:

@@ -190,6 +190,7 @@ class Stage:
             size_m=size,
             graspable=graspable,
             support=category.support and not movable,
+            back_rad=pi / 2 if item["category"] in ("chair", "sofa", "bed") else None,
             surfaces_m=tuple(sorted(share * size[2] for share in category.levels)) if len(category.levels) > 1 else (),
         )
         if movable:

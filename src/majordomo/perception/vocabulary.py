@@ -116,6 +116,12 @@ def spans_its_kind(label: str, size_m: Point3) -> bool:
     return fits and category.furniture and is_of_one_size(label)
 
 
+def has_back(label: str) -> bool:
+    """Whether something rises on one side of what things are put on: the back of a seat, the head of a bed."""
+    category = category_of(label)
+    return category.furniture and category.levels and ("seat" in category.tags or category.label == "bed")
+
+
 def is_person(label: str) -> bool:
     """Whether ``label`` names a human being."""
     return "person" in category_of(label).tags

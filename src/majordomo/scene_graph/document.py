@@ -121,6 +121,7 @@ class ObjectRecord(_NodeRecord):
     inspected_s: float | None = None
     observations: Annotated[int, Field(ge=0)] = 0
     surfaces_m: tuple[Length, ...] = ()
+    back_rad: float | None = None
 
 
 class PersonRecord(_NodeRecord):

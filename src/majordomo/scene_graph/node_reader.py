@@ -161,4 +161,5 @@ def _object(record: ObjectRecord, places: Places, stamp_s: float) -> ObjectNode:
         inspected_s=record.inspected_s,
         observations=record.observations,
         surfaces_m=tuple(sorted(record.surfaces_m)),
+        back_rad=record.back_rad,
     )

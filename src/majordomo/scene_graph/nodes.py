@@ -157,6 +157,8 @@ class ObjectNode:
     along its own x, y, z. ``label_distribution`` holds (label, probability), most likely first. ``existence``
     is the probability that it still is where it is said to be. ``surfaces_m``: heights above its own bottom on which
     things can stand, such as the boards of a shelf, as measured, lowest first; empty where none was measured.
+    ``back_rad``: from the middle towards the back that rises over a seat, from the node's own x axis, counter-clockwise
+    in (-pi, pi]; ``None`` where none was seen.
     ``color`` is the main color, ``accents`` are those of smaller parts, such as the case around a phone's screen.
     """
 
@@ -178,6 +180,7 @@ class ObjectNode:
     inspected_s: float | None = None
     observations: int = 0
     surfaces_m: tuple[float, ...] = ()
+    back_rad: float | None = None
 
 
 @dataclass(frozen=True, kw_only=True)

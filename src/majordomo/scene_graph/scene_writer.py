@@ -253,6 +253,7 @@ def _object_details(node: ObjectNode) -> Record:
         "inspected_s": node.inspected_s,
         "observations": node.observations,
         "surfaces_m": list(node.surfaces_m),
+        "back_rad": node.back_rad,
     }
 
 

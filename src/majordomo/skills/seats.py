@@ -2,10 +2,57 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from dataclasses import dataclass
+from math import cos, sin
+
+import numpy as np
+
+from majordomo.scene_graph.nodes import ObjectNode
+from majordomo.skills.geometry import Box2, Pose2
+
 SEAT_SHARES = {"chair": 0.5, "couch": 0.5, "sofa": 0.5, "bed": 0.55, "toilet": 0.5}
 """Height of the surface as a share of the whole, for furniture that rises above what things are put on."""
 SEAT_RIMS_M = {"chair": (0.03, 0.03), "couch": (0.2, 0.22), "sofa": (0.2, 0.22), "bed": (0.06, 0.06)}
 """What arms and back take of the surface at the ends and at both of the long sides: which has the back is not known."""
+
+
+ARM_SHARES = {"couch": 0.75, "sofa": 0.75}
+"""Height of the arms as a share of the whole."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Rim:
+    """What rises over a seat along one of its sides: its ``axis`` (0 or 1) and ``sign`` there, how thick and how high
+    it is, the latter from the middle of the seat's box.
+    """
+
+    axis: int
+    sign: int
+    thick_m: float
+    top_m: float
+
+    def outline(self, seat: ObjectNode, pose: Pose2) -> Box2:
+        """The rectangle that it covers, where the seat has that pose."""
+        sizes = [seat.size_m[0], seat.size_m[1]]
+        middle = [0.0, 0.0]
+        middle[self.axis] = self.sign * (sizes[self.axis] - self.thick_m) / 2
+        sizes[self.axis] = self.thick_m
+        ((x_m, y_m),) = pose.apply(np.array([middle]))
+        return Box2(Pose2(float(x_m), float(y_m), pose.yaw_rad), *sizes)
+
+
+def rims(seat: ObjectNode) -> Iterator[Rim]:
+    """The back of a seat, if it is known where it is, and its arms, if its kind has any."""
+    along_m, across_m = rims_m(seat.label)
+    if seat.back_rad is not None:
+        x, y = cos(seat.back_rad), sin(seat.back_rad)
+        axis = int(abs(y) > abs(x))
+        yield Rim(axis=axis, sign=1 if (x, y)[axis] > 0.0 else -1, thick_m=across_m, top_m=seat.size_m[2] / 2)
+    if (share := ARM_SHARES.get(_plain(seat.label))) is not None:
+        for sign in (1, -1):
+            long = int(seat.size_m[1] > seat.size_m[0])
+            yield Rim(axis=long, sign=sign, thick_m=along_m, top_m=(share - 0.5) * seat.size_m[2])
 
 
 def is_seat(label: str) -> bool:

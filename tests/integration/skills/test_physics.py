@@ -80,6 +80,30 @@ async def test_what_is_put_on_the_floor_stands_there(stage, make_house, category
     assert built.where(thing["id"])["position_m"][2] == pytest.approx(half_m, abs=0.01)
 
 
+def slow(*values):
+    return pytest.param(*values, marks=pytest.mark.slow)
+
+
+@pytest.mark.parametrize(
+    ("kind", "turn"),
+    [("chair", 1.57), slow("chair", 0.8), slow("chair", 3.14), ("sofa", 1.57), slow("sofa", 3.14), slow("sofa", 2.3)],
+)
+async def test_the_arm_reaches_a_seat_in_the_middle_of_a_room_past_its_back_and_its_arms(stage, make_house, kind, turn):
+    """The robot starts behind the seat, or beside it."""
+    furniture = [
+        {"id": "seat_1", "category": kind, "pose": [1.0, 0.0, turn]},
+        {"id": "table_1", "category": "table", "pose": [-2.0, -1.2, 0.0]},
+    ]
+    apple = {"id": "apple_1", "category": "apple", "on": "seat_1", "offset": [0.0, 0.0]}
+    built = await stage(make_house(furniture, [apple], [-0.5, 0.0, 0.0]), noise_m=0.004)
+    there = (("GOTO", "apple_1"), ("PICK", "apple_1"), ("GOTO", "table_1"), ("PLACE", "apple_1", "table_1"))
+    back = (("GOTO", "apple_1"), ("PICK", "apple_1"), ("GOTO", "seat_1"), ("PLACE", "apple_1", "seat_1"))
+    assert await built.carry_out(*there, *back) is None
+    built.truth = await built.robot.truth()
+    assert built.truth["collisions"] == 0
+    assert built.where("apple_1")["on"] == "seat_1"
+
+
 @pytest.mark.parametrize("in_m", [-0.2, pytest.param(0.05, marks=pytest.mark.slow)])
 async def test_a_can_that_touches_the_arm_of_a_sofa_is_taken_with_the_fingers_before_and_behind_it(
     stage, make_house, in_m

@@ -5,6 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from majordomo.perception.objects.back import back_of
 from majordomo.perception.objects.beliefs import AccentBelief, ColorBelief, LabelBelief, agreement, share_agreement
 from majordomo.perception.objects.center import CenterBelief, CenterSettings
 from majordomo.perception.objects.color import PALETTE, colors_of, named_color
@@ -13,6 +14,7 @@ from majordomo.perception.objects.identity import IdentitySettings, departed, li
 from majordomo.perception.objects.membership import Outline, Surroundings
 from majordomo.perception.objects.pieces import is_of_several
 from majordomo.perception.objects.projection import View
+from majordomo.perception.objects.publication import node_of
 from majordomo.perception.objects.raycast import Solid, look_at, render, rgbd_frame
 from majordomo.perception.objects.scripted import furnished_memory
 from majordomo.perception.objects.shape import Shape
@@ -23,7 +25,7 @@ from majordomo.perception.objects.tracker import Tracker, TrackerSettings
 from majordomo.perception.vocabulary import category_of, oversize
 from majordomo.scene_graph.edges import ConnectsEdge, RtEdge
 from majordomo.scene_graph.edits import PutEdge, PutNode
-from majordomo.scene_graph.nodes import UNKNOWN_LABEL, DoorNode, ObjectState
+from majordomo.scene_graph.nodes import UNKNOWN_LABEL, DoorNode, ObjectNode, ObjectState
 from majordomo.scene_graph.se3 import SE3
 
 LABELS = ("bottle", "cup", "vase", "can")
@@ -729,6 +731,39 @@ def test_a_remembered_box_of_any_length_hangs_together(size_m):
     belief = SurfaceBelief.of(Box(np.array((1.0, 1.0, size_m[2] / 2)), size_m, 0.3))
     box = furniture_box(belief.memory, category_of("chair"), np.array((1.0, -2.0, 1.3)))
     assert box.size_m == pytest.approx(size_m, abs=0.08)
+
+
+@pytest.mark.parametrize("turn", [0.0, 0.7])
+@pytest.mark.parametrize(
+    ("high", "side"),
+    [
+        (_filled((-0.22, 0.22), (0.2, 0.23), (0.5, 0.9), step_m=0.04), 1),
+        (_filled((-0.22, -0.2), (-0.2, 0.23), (0.5, 0.9), step_m=0.04), 2),
+        (_filled((-0.22, 0.22), (0.2, 0.23), (0.5, 0.6), step_m=0.04), None),  # an arm is lower
+        (_filled((-0.22, 0.22), (-0.22, 0.22), (0.5, 0.9), step_m=0.04), None),
+        (np.zeros((0, 3)), None),
+    ],
+)
+def test_the_back_of_a_chair_is_on_the_side_that_is_higher(high, side, turn):
+    """Counted in quarter turns from its own x axis."""
+    box = Box(np.array((2.0, 1.0, 0.45)), (0.45, 0.46, 0.9), turn)
+    seat = _filled((-0.22, 0.22), (-0.22, 0.22), (0.4, 0.45), step_m=0.04)
+    c, s = np.cos(turn), np.sin(turn)
+    points = np.vstack((seat, high)) @ np.array(((c, s, 0.0), (-s, c, 0.0), (0.0, 0.0, 1.0))) + (2.0, 1.0, 0.0)
+    back_rad = back_of(points, box)
+    if side is None:
+        assert back_rad is None
+    else:
+        assert np.angle(np.exp(1j * (back_rad - turn - side * np.pi / 2))) == pytest.approx(0.0, abs=1e-6)
+
+
+def test_where_the_back_of_a_chair_is_outlives_a_restart_and_a_change_of_frame():
+    node = ObjectNode(id="chair_1", label="chair", size_m=(0.45, 0.46, 0.9), back_rad=np.pi / 2)
+    track = Track(1, "room_1", settings=TrackSettings(), random=np.random.default_rng(0))
+    track.adopt(node, SE3.from_xyz_yaw(1.0, 0.0, 0.45, 0.3), np.eye(3) * 1e-4)
+    assert node_of("chair_1", track, node, None).back_rad == pytest.approx(np.pi / 2, abs=1e-3)
+    track.change_room("room_2", SE3.from_xyz_yaw(0.0, 0.0, 0.0, 1.0))
+    assert node_of("chair_1", track, node, None).back_rad == pytest.approx(np.pi / 2, abs=1e-3)
 
 
 COUNTER = _filled((0.0, 1.5), (0.0, 0.6), (0.3, 0.9), step_m=0.05)

@@ -503,6 +503,28 @@ async def test_a_small_thing_without_a_name_does_not_keep_the_hand_from_what_it_
 
 
 @pytest.mark.parametrize(
+    ("kind", "back_rad", "from_back", "from_side", "from_front"),
+    [
+        ("chair", pi / 2, inf, 0.0, 0.0),
+        ("chair", -pi / 2, 0.0, 0.0, inf),
+        ("chair", None, 0.0, 0.0, 0.0),
+        ("sofa", pi / 2, inf, inf, 0.0),
+        ("stool", None, 0.0, 0.0, 0.0),
+    ],
+)
+async def test_the_hand_comes_to_a_seat_neither_over_its_back_nor_over_an_arm_of_it(
+    flat, kind, back_rad, from_back, from_side, from_front
+):
+    long_m = 1.9 if kind == "sofa" else 0.5
+    built = flat().thing(f"{kind}_1", (0.0, 0.0, 0.45), (long_m, 0.5, 0.9), support=True, back_rad=back_rad)
+    built.thing("cup_1", (0.0, 0.0, 0.5), (0.08, 0.08, 0.1), on=f"{kind}_1", graspable=True)
+    places = np.array(((0.0, 0.6), (long_m / 2 + 0.35, 0.0), (0.0, -0.6)))
+    spared = {"cup_1", f"{kind}_1"}
+    costs = passing_over(built.memory.snapshot(), "room_1", np.array((0.0, 0.0, 0.5)), 0.6, places, spared, stamp_s=0.0)
+    assert costs.tolist() == [from_back, from_side, from_front]
+
+
+@pytest.mark.parametrize(
     ("aside_m", "stamp_s", "cost_m"),
     [(0.1, 0.0, inf), (0.25, 0.0, inf), (0.4, 0.0, 0.0), (0.25, 60.0, BARRED_COST_M), (0.4, 60.0, 0.0)],
 )

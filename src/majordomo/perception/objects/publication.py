@@ -5,6 +5,7 @@ Always computed from the newest snapshot, so that what others wrote (a name, a s
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
@@ -60,6 +61,7 @@ def node_of(node_id: str, track: Track, before: ObjectNode | None, inspected_s: 
         inspected_s=inspected_s if inspected_s is not None or before is None else before.inspected_s,
         observations=track.hits,
         surfaces_m=tuple(round(height_m, 4) for height_m in track.surfaces_m),
+        back_rad=_back_rad(track),
     )
 
 
@@ -191,8 +193,16 @@ def _worth_writing(before: ObjectNode, after: ObjectNode, settings: PublicationS
 
 def _told(node: ObjectNode) -> tuple[object, ...]:
     """What is no measure: any change of it is worth writing."""
-    looks = (node.label, node.color, frozenset(node.accents))
+    looks = (node.label, node.color, frozenset(node.accents), node.back_rad)
     return (*looks, node.state, node.graspable, node.support, node.inspected_s)
+
+
+def _back_rad(track: Track) -> float | None:
+    """Where its back is, seen from its own frame: along one of its sides."""
+    if track.back_rad is None:
+        return None
+    sides = round((track.back_rad - track.box.yaw_rad) / (math.pi / 2.0))
+    return round(math.remainder(sides * math.pi / 2.0, 2.0 * math.pi), 4)
 
 
 def _differ(before: tuple[float, ...], after: tuple[float, ...], tolerance_m: float) -> bool:

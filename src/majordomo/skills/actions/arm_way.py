@@ -5,16 +5,18 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from majordomo.scene_graph.nodes import UNKNOWN_LABEL, ObjectNode, ObjectState, PersonNode
 from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.skills.action import RobotContext
-from majordomo.skills.geometry import Point2, Points
+from majordomo.skills.geometry import Point2, Points, Pose2
 from majordomo.skills.grasping import HOVER_M
 from majordomo.skills.navigation.local_map import PERSON_FRESH_S, PERSON_RADIUS_M, draw_map, footprint
 from majordomo.skills.navigation.pose import footprint_radius_m, in_base, robot_frame
 from majordomo.skills.navigation.route import Routes, find_routes
 from majordomo.skills.navigation.walls import Walls
+from majordomo.skills.seats import rims
 
 IN_THE_WAY_COST_M = 3.0
 BARRED_COST_M = 20.0
@@ -24,6 +26,7 @@ SAMPLE_M = 0.06
 ARM_HALF_WIDTH_M = 0.09
 SURELY_MET_M = 0.06
 """So near to the middle of its way, the hand meets what is higher, however well that was measured."""
+AT_TARGET_M = 0.12
 HELD_MARGIN_M = 0.06
 NAMELESS_M = 0.35
 """What is smaller and has no name does not bar the way: the hand may have to push it, as what can be grasped."""
@@ -68,14 +71,18 @@ def passing_over(
 ) -> Points:
     """For each place, (N,), what it costs that things which reach up to ``low_m`` lie on the way of the hand from there
     straight to the target: small ones may be pushed, furniture bars it, and so does a person who was there a while ago;
-    no place will do from which the hand is sure to meet furniture, or comes near to a person who is there.
+    no place will do from which the hand is sure to meet furniture, the back or the arm of the seat itself that it
+    reaches for included, or comes near to a person who is there.
     """
     costs = np.zeros(len(points))
     farthest_m = float(np.hypot(*(points - target[:2]).T).max())
     along = np.linspace(0.0, 1.0, max(int(farthest_m / SAMPLE_M), 2))[:, None, None]
     way = target[:2] + along * (points - target[:2])
     for node in snapshot.of_type(ObjectNode):
-        if node.id in spared or node.state is not ObjectState.PRESENT or snapshot.room_of(node.id) != frame:
+        if node.state is not ObjectState.PRESENT or snapshot.room_of(node.id) != frame:
+            continue
+        if node.id in spared:
+            costs += np.where(_meets_rim(snapshot, frame, node, target, low_m, way), np.inf, 0.0)
             continue
         x_m, y_m, z_m = snapshot.position(node.id, frame)
         reach_m = float(np.hypot(x_m - target[0], y_m - target[1]))
@@ -93,6 +100,22 @@ def passing_over(
             cost_m = np.inf if stamp_s - person.last_seen_s < PERSON_FRESH_S else BARRED_COST_M
             costs += np.where(away_m.min(axis=0) < PERSON_CLEARANCE_M, cost_m, 0.0)
     return costs
+
+
+def _meets_rim(
+    snapshot: Snapshot, frame: str, seat: ObjectNode, target: Points, low_m: float, way: Points
+) -> NDArray[np.bool_]:
+    """(N,) whether the hand, on its ways (S, N, 2) at ``low_m`` to a target on a seat, meets the seat's back or an arm
+    of it; of what lies close to them, only the way there counts.
+    """
+    met = np.zeros(way.shape[1], np.bool_)
+    pose, z_m = Pose2.of(snapshot.transform(frame, seat.id)), float(snapshot.position(seat.id, frame)[2])
+    before = np.linalg.norm(way - target[:2], axis=2) > AT_TARGET_M
+    for rim in rims(seat):
+        if z_m + rim.top_m > low_m:
+            away_m = rim.outline(seat, pose).distance_m(way.reshape(-1, 2)).reshape(way.shape[:2])
+            met |= (before & (away_m < ARM_HALF_WIDTH_M + DRIFT_M)).any(axis=0)
+    return met
 
 
 def _is_small_and_nameless(node: ObjectNode) -> bool:

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import cos, sin
 
 import numpy as np
 
 from majordomo.scene_graph.nodes import ObjectNode
-from majordomo.skills.geometry import Box2, Pose2
+from majordomo.skills.geometry import Box2, Points, Pose2
 
 SEAT_SHARES = {"chair": 0.5, "couch": 0.5, "sofa": 0.5, "bed": 0.55, "toilet": 0.5}
 """Height of the surface as a share of the whole, for furniture that rises above what things are put on."""
@@ -19,18 +19,26 @@ SEAT_RIMS_M = {"chair": (0.03, 0.03), "couch": (0.2, 0.22), "sofa": (0.2, 0.22),
 
 ARM_SHARES = {"couch": 0.75, "sofa": 0.75}
 """Height of the arms as a share of the whole."""
+STANDS_M, LEAST_M = 0.03, 0.01
+"""Half of what a thing takes at least, and how thin a back or an arm is at least."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Rim:
-    """What rises over a seat along one of its sides: its ``axis`` (0 or 1) and ``sign`` there, how thick and how high
-    it is, the latter from the middle of the seat's box.
+    """What rises over a seat along one of its sides: its ``axis`` (0 or 1) and ``sign`` there, how far its outer face
+    is from the middle of the seat's box, how thick it is, and how high over that middle.
     """
 
     axis: int
     sign: int
+    half_m: float
     thick_m: float
     top_m: float
+
+    def beyond(self, point: Points) -> Rim:
+        """The same, no thicker than what stands at a point (2,) on the seat leaves room for."""
+        left_m = self.half_m - self.sign * float(point[self.axis]) - STANDS_M
+        return replace(self, thick_m=min(self.thick_m, max(left_m, LEAST_M)))
 
     def outline(self, seat: ObjectNode, pose: Pose2) -> Box2:
         """The rectangle that it covers, where the seat has that pose."""
@@ -48,11 +56,13 @@ def rims(seat: ObjectNode) -> Iterator[Rim]:
     if seat.back_rad is not None:
         x, y = cos(seat.back_rad), sin(seat.back_rad)
         axis = int(abs(y) > abs(x))
-        yield Rim(axis=axis, sign=1 if (x, y)[axis] > 0.0 else -1, thick_m=across_m, top_m=seat.size_m[2] / 2)
+        sign, half_m = 1 if (x, y)[axis] > 0.0 else -1, seat.size_m[axis] / 2
+        yield Rim(axis=axis, sign=sign, half_m=half_m, thick_m=across_m, top_m=seat.size_m[2] / 2)
     if (share := ARM_SHARES.get(_plain(seat.label))) is not None:
         for sign in (1, -1):
             long = int(seat.size_m[1] > seat.size_m[0])
-            yield Rim(axis=long, sign=sign, thick_m=along_m, top_m=(share - 0.5) * seat.size_m[2])
+            half_m, top_m = seat.size_m[long] / 2, (share - 0.5) * seat.size_m[2]
+            yield Rim(axis=long, sign=sign, half_m=half_m, thick_m=along_m, top_m=top_m)
 
 
 def is_seat(label: str) -> bool:

@@ -26,7 +26,7 @@ SAMPLE_M = 0.06
 ARM_HALF_WIDTH_M = 0.09
 SURELY_MET_M = 0.06
 """So near to the middle of its way, the hand meets what is higher, however well that was measured."""
-AT_TARGET_M = 0.12
+AT_TARGET_M, ALONG_M = 0.12, 0.01
 HELD_MARGIN_M = 0.06
 NAMELESS_M = 0.35
 """What is smaller and has no name does not bar the way: the hand may have to push it, as what can be grasped."""
@@ -106,15 +106,18 @@ def _meets_rim(
     snapshot: Snapshot, frame: str, seat: ObjectNode, target: Points, low_m: float, way: Points
 ) -> NDArray[np.bool_]:
     """(N,) whether the hand, on its ways (S, N, 2) at ``low_m`` to a target on a seat, meets the seat's back or an arm
-    of it; of what lies close to them, only the way there counts.
+    of it. To what lies close to one of them it comes along that one, no nearer than the thing itself is.
     """
     met = np.zeros(way.shape[1], np.bool_)
     pose, z_m = Pose2.of(snapshot.transform(frame, seat.id)), float(snapshot.position(seat.id, frame)[2])
     before = np.linalg.norm(way - target[:2], axis=2) > AT_TARGET_M
+    (goal,) = pose.inverse_apply(target[None, :2])
     for rim in rims(seat):
         if z_m + rim.top_m > low_m:
-            away_m = rim.outline(seat, pose).distance_m(way.reshape(-1, 2)).reshape(way.shape[:2])
-            met |= (before & (away_m < ARM_HALF_WIDTH_M + DRIFT_M)).any(axis=0)
+            outline = rim.beyond(goal).outline(seat, pose)
+            near_m = min(ARM_HALF_WIDTH_M + DRIFT_M, float(outline.distance_m(target[None, :2])[0]) - ALONG_M)
+            away_m = outline.distance_m(way.reshape(-1, 2)).reshape(way.shape[:2])
+            met |= (before & (away_m < near_m)).any(axis=0)
     return met
 
 

@@ -478,6 +478,34 @@ def test_what_slipped_is_known_by_its_looks_where_it_lies_even_if_it_is_called_o
     assert (known_as(sighting, [far, slipped], **known) is slipped) is same
 
 
+def nameless(number, size_m, color, at, **fields):
+    sighting = thing(number, "unknown", color, size_m, **fields)
+    sighting.put_at("room_1", np.array(at), 0.01)
+    return sighting
+
+
+@pytest.mark.parametrize(
+    ("look", "same"),
+    [
+        ({}, True),
+        ({"at": (2.0, 0.0, 0.04)}, False),
+        ({"color": "blue"}, False),
+        ({"size_m": (0.25, 0.2, 0.15)}, False),
+        ({"seen": (5.0, 21.0)}, False),
+    ],
+)
+def test_a_can_that_was_knocked_down_is_what_lies_below_as_large_and_as_red_though_nobody_can_name_it(look, same):
+    can = thing(1, "can", "red", (0.066, 0.066, 0.12), state=ObjectState.MISSING)
+    can.put_at("room_1", np.array((0.0, 0.0, 0.96)), 0.03)
+    lying = {"size_m": (0.12, 0.068, 0.066), "color": "red", "at": (0.2, 0.3, 0.04), "seen": (20.0, 21.0)}
+    sighting = nameless(2, **{**lying, **look})
+    settings = IdentitySettings()
+    assert (known_as(sighting, [can], taken_from={}, looked_before={}, settings=settings) is can) is same
+    assert (turned_up(can, [sighting], looked_before={"room_1": 0.0}, settings=settings) is sighting) is same
+    can.state = ObjectState.PRESENT
+    assert known_as(sighting, [can], taken_from={}, looked_before={}, settings=settings) is None
+
+
 @pytest.mark.parametrize(("long_m", "same"), [(0.2, True), (0.14, False)])
 def test_a_book_that_fell_on_its_edge_is_the_book_though_the_network_is_sure_that_it_is_a_banana(long_m, same):
     book = thing(1, "book", "yellow", (0.2, 0.09, 0.036), state=ObjectState.MISSING)

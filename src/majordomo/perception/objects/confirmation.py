@@ -55,7 +55,7 @@ def known_as(
     put_here = next((track for track in known if _was_put_here(sighting, track)), None)
     if put_here is not None:
         return put_here
-    fell_here = [track for track in known if _fell_here(sighting, track, settings)]
+    fell_here = [t for t in known if _fell_here(sighting, t, settings) or _lies_near(sighting, t, settings)]
     if fell_here:
         return min(fell_here, key=lambda track: apart_m(sighting, track))
     for track in known:
@@ -118,14 +118,29 @@ def _fell_here(sighting: Track, track: Track, settings: IdentitySettings) -> boo
     return near and (_looks_the_same(sighting, track) or _body_agreement(sighting, track) >= _SAME_BODY)
 
 
+def _lies_near(sighting: Track, missing: Track, settings: IdentitySettings) -> bool:
+    """Whether a small sighting without a name, as large and of the same color, lies near where a thing is missed, or
+    below: of what has toppled or was knocked down, nobody may be able to say what it is.
+    """
+    if missing.state is not ObjectState.MISSING or missing.is_furniture or sighting.is_furniture:
+        return False
+    if sighting.label.best != UNKNOWN_LABEL or sighting.room != missing.room:
+        return False
+    if missing.last_seen_s >= sighting.first_seen_s:
+        return False
+    away_m = float(np.hypot(*(sighting.position - missing.position)[:2]))
+    return away_m <= settings.near_m and _body_agreement(sighting, missing) >= _SAME_LOOK
+
+
 def _is_like(sighting: Track, track: Track, settings: IdentitySettings) -> bool:
     """Whether both may be one by name, color and size; in the very same place the name may differ: half hidden, or from
-    another side, a yellow book looks like a banana.
+    another side, a yellow book looks like a banana. What is missed may lie near without a name.
     """
     if likeness(sighting, track) >= settings.likeness_min:
         return True
     small = not sighting.is_furniture and not track.is_furniture
-    return small and sighting.room == track.room and _touch(sighting, track) and _looks_the_same(sighting, track)
+    in_place = small and sighting.room == track.room and _touch(sighting, track)
+    return (in_place and _looks_the_same(sighting, track)) or _lies_near(sighting, track, settings)
 
 
 def _looks_the_same(sighting: Track, track: Track) -> bool:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import hypot
+from math import hypot, pi
 
 import numpy as np
 import pytest
@@ -82,6 +82,21 @@ async def test_what_is_put_on_the_floor_stands_there(stage, make_house, category
 
 def slow(*values):
     return pytest.param(*values, marks=pytest.mark.slow)
+
+
+@pytest.mark.parametrize("aside_m", [0.125, slow(0.115)])
+async def test_a_book_is_drawn_back_over_the_bottles_that_stand_beside_its_way(stage, make_house, aside_m):
+    desk = {"id": "desk_1", "category": "desk", "pose": [1.0, 0.0, -pi / 2]}
+    book = {"id": "book_1", "category": "book", "on": "desk_1", "offset": [0.0, 0.05]}
+    bottles = [
+        {"id": f"bottle_{k + 1}", "category": "bottle", "on": "desk_1", "offset": [x_m, y_m]}
+        for k, (x_m, y_m) in enumerate([(aside_m, -0.12), (-aside_m, -0.12)])
+    ]
+    built = await stage(make_house([desk], [book, *bottles], [0.0, 0.0, 0.0]), noise_m=0.003)
+    stood = [np.array(built.where(bottle["id"])["position_m"]) for bottle in bottles]
+    assert await built.carry_out(("GOTO", "book_1"), ("PICK", "book_1")) is None
+    for bottle, at in zip(bottles, stood, strict=True):
+        assert np.linalg.norm(np.array(built.where(bottle["id"])["position_m"]) - at) < 0.005
 
 
 @pytest.mark.parametrize(

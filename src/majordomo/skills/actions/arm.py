@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from enum import Enum, auto
-from math import cos, hypot
+from math import cos, hypot, sin
 
 from py_trees.common import Status
 
 from majordomo.scene_graph.nodes import PersonNode
 from majordomo.skills.action import Action, RobotContext
-from majordomo.skills.actions.arm_way import DRIFT_M, PERSON_CLEARANCE_M
+from majordomo.skills.actions.arm_way import DRIFT_M, PERSON_CLEARANCE_M, clear_over_m
+from majordomo.skills.actions.spot_reach import above_bottom_m, held_radius_m
 from majordomo.skills.boards import is_among_boards
 from majordomo.skills.failures import FailureCode
 from majordomo.skills.grasping import DOWN_RAD
@@ -145,12 +146,18 @@ class Lift(ArmAction):
         self.object_id = object_id
 
     def begin(self) -> None:
-        """As high as the carry pose, at least 12 cm; a little only below a board."""
-        arm, (_, top_m) = self.context.body.arm, self.context.limits.lift_m
-        if is_below_board(self.context):
+        """As high as the carry pose, at least 12 cm, and over what stands on the way back; a little only below a
+        board.
+        """
+        context, arm, (_, top_m) = self.context, self.context.body.arm, self.context.limits.lift_m
+        if is_below_board(context):
             self.follow([replace(arm, lift_m=arm.lift_m + OFF_BOARD_M)])
             return
-        self.follow([replace(arm, lift_m=min(max(arm.lift_m + LIFT_M, CARRY_LIFT_M), top_m))])
+        hand_x_m, radius_m = float(context.body.T_base_gripper.x_m), held_radius_m(context)
+        over_m = clear_over_m(context, hand_x_m, self.object_id, held_radius_m=radius_m)
+        clear_m = over_m + above_bottom_m(context) - context.geometry.hand_length_m * sin(arm.wrist_pitch_rad)
+        highest_m = max(arm.lift_m + LIFT_M, CARRY_LIFT_M, clear_m if over_m > 0.0 else 0.0)
+        self.follow([replace(arm, lift_m=min(highest_m, top_m))])
 
     def step(self) -> Status:
         """Raise, watching the fingers."""

@@ -32,6 +32,7 @@ NAMELESS_M = 0.35
 """What is smaller and has no name does not bar the way: the hand may have to push it, as what can be grasped."""
 PERSON_CLEARANCE_M, DRIFT_M = 0.32, 0.04
 """So far from the middle of a person the middle of the arm keeps, from a place that is as far off as a drive may be."""
+BESIDE_HELD_M = 0.02
 CLEARANCE_M = 0.04
 """Air between the finger tips, or what they hold, and what the hand passes over."""
 AROUND_PERSON_M = PERSON_RADIUS_M + 0.1
@@ -43,18 +44,20 @@ def underside_of_held_m(z_m: float) -> float:
     return z_m + HOVER_M - HELD_MARGIN_M
 
 
-def clear_over_m(context: RobotContext, x_m: float, *targets: str) -> float:
+def clear_over_m(context: RobotContext, x_m: float, *targets: str, held_radius_m: float = 0.0) -> float:
     """Height over the floor that the lowest part of the hand keeps on its way straight ahead to ``x_m``, so that it
-    touches none of the small things there; 0 where there are none. ``targets``: as ``spared_nodes`` takes them.
+    touches none of the small things there, nor does what it holds, which reaches ``held_radius_m`` to the sides; 0
+    where there are none. ``targets``: as ``spared_nodes`` takes them.
     """
     snapshot, spared, highest_m = context.snapshot, spared_nodes(context.snapshot, *targets), 0.0
+    wide_m = max(ARM_HALF_WIDTH_M, held_radius_m + BESIDE_HELD_M)
     for node in snapshot.of_type(ObjectNode):
         here = node.state is ObjectState.PRESENT and snapshot.room_of(node.id) == robot_frame(snapshot)
         if not (here and node.graspable) or node.id in spared:
             continue
         center_x_m, y_m, z_m = in_base(context, node.id).translation_m
         half_m = max(node.size_m[:2]) / 2
-        if abs(y_m) < ARM_HALF_WIDTH_M + half_m and 0.0 < center_x_m < x_m + ARM_HALF_WIDTH_M + half_m:
+        if abs(y_m) < wide_m + half_m and 0.0 < center_x_m < x_m + wide_m + half_m:
             highest_m = max(highest_m, z_m + node.size_m[2] / 2 + CLEARANCE_M)
     return highest_m
 

@@ -10,7 +10,7 @@ from py_trees.common import Status
 from majordomo.skills.action import RobotContext
 from majordomo.skills.actions.arm import STOWED, ArmAction, ArmProgress
 from majordomo.skills.actions.arm_way import clear_over_m
-from majordomo.skills.actions.spot_reach import ABOVE_RIM_M, Placement, above_bottom_m, roll_at
+from majordomo.skills.actions.spot_reach import ABOVE_RIM_M, Placement, above_bottom_m, held_radius_m, roll_at
 from majordomo.skills.errors import Unreachable
 from majordomo.skills.failures import FailureCode
 from majordomo.skills.grasping import TIP_M
@@ -98,7 +98,9 @@ class LowerToPlace(ArmAction):
             return self._level_way(final)
         above_m = min(final.lift_m + HOVER_M, context.limits.lift_m[1])
         steps = [replace(final, lift_m=final.lift_m + k * STEP_M) for k in range(int(SLOW_M / STEP_M), -1, -1)]
-        over_m = clear_over_m(context, hypot(x_m, y_m), self._placement.target) + above_bottom_m(context)
+        radius_m = held_radius_m(context)
+        over_m = clear_over_m(context, hypot(x_m, y_m), self._placement.target, held_radius_m=radius_m)
+        over_m += above_bottom_m(context)
         clear_m = over_m - context.geometry.hand_length_m * sin(arm.wrist_pitch_rad)
         highest_m = max(above_m, arm.lift_m, min(clear_m, context.limits.lift_m[1]))
         out = replace(final, lift_m=highest_m)

@@ -16,6 +16,7 @@ from majordomo.skills.boards import LOWEST_M, TURN_RAD, headroom_m, is_before
 from majordomo.skills.geometry import Points, wrap_rad
 from majordomo.skills.grasping import DOWN_RAD
 from majordomo.skills.navigation.pose import in_base, robot_frame
+from majordomo.skills.outline import disc
 from majordomo.skills.place_spot import Spot
 
 ABOVE_RIM_M = 0.04
@@ -107,6 +108,11 @@ def held_height_m(context: RobotContext) -> float:
     robot = context.snapshot.robot
     node = context.snapshot.get(robot.holding) if robot is not None and robot.holding is not None else None
     return node.size_m[2] if isinstance(node, ObjectNode) else 0.2
+
+
+def held_radius_m(context: RobotContext) -> float:
+    """How far what the hand holds reaches to the sides, however it is turned; 0 where nothing is known of it."""
+    return disc(context.grip.size_m).radius_m if context.grip is not None else 0.0
 
 
 def above_bottom_m(context: RobotContext) -> float:

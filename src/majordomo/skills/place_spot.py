@@ -39,17 +39,25 @@ TOP_TOLERANCE_M = 0.12
 class Spot:
     """Where to put something down: a point on the surface, tied to what carries it, and how free it is there.
 
-    ``inside``: dropped into a container, from above its rim. ``free_m``: height up to the board above; below one, the
-    hand comes in level-wise, across one of the ``sides`` of the support. ``turn_rad``: where the long side of the thing
-    must point, in the frame of what carries it; ``None`` where any turn does.
+    ``room_m``: air to the nearest neighbor; ``edge_m``: what is left between the thing and the edge, of which nobody
+    knows to the centimeter where it is. ``inside``: dropped into a container, from above its rim. ``free_m``: height up
+    to the board above; below one, the hand comes in level-wise, across one of the ``sides`` of the support.
+    ``turn_rad``: where the long side of the thing must point, in the frame of what carries it; ``None`` where any turn
+    does.
     """
 
     anchor: Anchor
     room_m: float
+    edge_m: float = inf
     turn_rad: float | None = None
     inside: bool = False
     free_m: float = inf
     sides: tuple[int, ...] = BOTH_SIDES
+
+    @property
+    def air_m(self) -> float:
+        """What there is around the thing before it meets a neighbor or the edge."""
+        return min(self.room_m, self.edge_m)
 
     @property
     def is_covered(self) -> bool:
@@ -83,7 +91,7 @@ def spots_on(
             snapshot, support, board, size_m, [] if as_empty else stands_at(snapshot, support_id, board, held)
         )
     ]
-    return sorted(spots, key=lambda spot: -min(spot.room_m, AMPLE_M))
+    return sorted(spots, key=lambda spot: -min(spot.air_m, AMPLE_M))
 
 
 def _spots_at(
@@ -120,10 +128,12 @@ def _spots_for(
     points = lattice(support, outline, step_m, covered=board.is_covered)
     room = room_m(snapshot, support.id, points, outline, others)
     sides = ways_in(snapshot, support, board, points, outline, others)
+    edge = (np.array(support.size_m[:2]) / 2 - np.abs(points) - outline.half_m).min(axis=1)
     return [
         Spot(
             anchor=Anchor(support.id, (float(points[i, 0]), float(points[i, 1]), board.height_m)),
             room_m=float(room[i]),
+            edge_m=float(edge[i]),
             turn_rad=outline.turn_rad,
             free_m=board.free_m,
             sides=tuple(side for side, is_open in zip(BOTH_SIDES, sides[i], strict=True) if is_open),

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from majordomo.skills.geometry import Box2, Pose2
 from majordomo.skills.outline import disc
-from majordomo.skills.place_spot import EDGE_MARGIN_M, GAP_M, spots_on, surface_m
+from majordomo.skills.place_spot import AMPLE_M, EDGE_MARGIN_M, GAP_M, spots_on, surface_m
 
 neighbors = st.lists(
     st.tuples(
@@ -66,6 +66,14 @@ def test_a_phone_is_laid_beside_the_clock_in_the_middle_of_a_nightstand(flat):
     assert {spot.turn_rad for spot in spots} == {0.0, np.pi / 2}
     lengthwise = [spot.anchor.point_m for spot in spots if spot.turn_rad == 0.0]
     assert all(abs(y) > 0.045 + 0.035 + GAP_M for _, y, _ in lengthwise)
+
+
+def test_the_first_spots_of_a_table_are_not_at_its_edge(flat):
+    spots = spots_on(flat().table().memory.snapshot(), "table_1", (0.08, 0.08, 0.2), None)
+    assert all(spot.air_m >= AMPLE_M - 1e-9 for spot in spots[:20])
+    x, y, _ = np.abs([spot.anchor.point_m for spot in spots]).T
+    assert [spot.edge_m for spot in spots] == pytest.approx(np.minimum(0.6 - x, 0.4 - y) - 0.04)
+    assert min(spot.edge_m for spot in spots) < 0.05
 
 
 def test_a_full_table_has_no_spot(flat):

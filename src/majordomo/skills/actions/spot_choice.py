@@ -113,7 +113,7 @@ class ChooseSpot(Action):
 
     def _price_m(self, spot: Spot) -> float:
         """What a spot costs wherever one stands: a tight or hidden one is as good as one that is so much farther."""
-        tight_m = 0.0 if spot.inside else max(TIGHT_M - spot.room_m, 0.0)
+        tight_m = 0.0 if spot.inside else max(TIGHT_M - spot.air_m, 0.0)
         return TIGHT_WEIGHT * tight_m + self._hidden_m(spot)
 
     def _ways_m(self, routes: Routes, spot: Spot) -> tuple[Points, Points]:
@@ -177,7 +177,7 @@ class CheckSpot(Action):
 
     @staticmethod
     def _offset_m(spot: Spot, chosen: Spot) -> float:
-        return dist(spot.anchor.point_m, chosen.anchor.point_m) + TIGHT_WEIGHT * max(TIGHT_M - spot.room_m, 0.0)
+        return dist(spot.anchor.point_m, chosen.anchor.point_m) + TIGHT_WEIGHT * max(TIGHT_M - spot.air_m, 0.0)
 
 
 def _full(action: Action, placement: Placement) -> Status:

@@ -624,6 +624,30 @@ def test_what_is_in_no_known_room_goes_along_with_the_robot_until_its_room_is_kn
     assert track.position[:2] == pytest.approx((12.0 - 12.4, 0.5), abs=0.01)
 
 
+@pytest.mark.parametrize(("label", "size_m"), [("wardrobe", (0.8, 0.5, 1.8)), ("unknown", (0.1, 0.1, 0.1))])
+def test_what_is_not_named_yet_waits_for_it_while_the_robot_is_two_rooms_away(label, size_m):
+    tracker = Tracker(settings=TrackerSettings(), random=np.random.default_rng(0))
+    track = tracker.new_track("room_1")
+    track.label.update(((label, 0.5),))
+    track.place = SurfaceBelief.of(Box(np.array((1.0, 0.5, size_m[2] / 2)), size_m, 0.0))
+    track.hits, track.last_seen_s = 20, 1.0
+    track.seen_from = [np.array((float(i), 0.0, 0.0)) for i in range(8)]
+    memory = furnished_memory(rooms=3)
+    ways = door_between("room_1", "room_2") + door_between("room_2", "room_3")
+    snapshot = memory.commit(ways, agent="door_concept", stamp_s=0.0)
+    base = SE3.identity()
+    view = View.of(
+        rgbd_frame(render([], base), stamp_s=1.0, T_base_camera=base),
+        room="room_3",
+        T_room_base=base,
+        pose_covariance=np.zeros((6, 6)),
+    )
+    somebody = np.array(((1.0, 0.5),))
+    tracker.update(Sight(view=view, detections=[], surroundings=Surroundings(snapshot, "room_3"), persons=somebody))
+    assert track in tracker.tracks
+    assert track.node_id is None
+
+
 def test_a_thing_changes_its_room_only_when_it_is_clearly_outside():
     surroundings = Surroundings(two_rooms(), "room_1")
     assert surroundings.settled_room("room_1", np.array((3.1, 0.0, 0.5))) == "room_1"

@@ -279,9 +279,10 @@ class Tracker:
                 self.drop(track)
 
     def _confirm(self, sight: Sight) -> None:
-        """Name what has been seen often enough, or recognize it."""
+        """Name what has been seen often enough, or recognize it; of a room that is far from here, when that is near."""
         identity = self._settings.identity
-        for track in [t for t in self.tracks if t.node_id is None and not t.homeless and self._is_stable(t)]:
+        near = [t for t in self.tracks if t.room in sight.surroundings.T_here_room]
+        for track in [t for t in near if t.node_id is None and not t.homeless and self._is_stable(t)]:
             known = [t for t in self.tracks if t.node_id is not None]
             if is_piece(track, sight, self.matches, known, self._settings.pieces):
                 self.drop(track)

@@ -151,6 +151,28 @@ async def test_one_finger_alone_holds_nothing(kitchen):
     assert failure.code is FailureCode.GRASP_EMPTY
 
 
+async def test_fingers_that_come_to_no_rest_with_one_at_the_thing_push_on_and_then_let_go_of_it(kitchen):
+    rehearsal = kitchen()
+    context = await rehearsal.prepare()
+    sent, grip = [], rehearsal.body.grip
+
+    async def told(opening_m, effort_n=15.0):
+        sent.append((opening_m, effort_n))
+        await grip(opening_m, effort_n)
+
+    def to_and_fro(r):
+        rocks_m = 0.002 * (int(r.context.stamp_s / 0.4) % 2)  # it gives way to the force, and comes back
+        r.context.body = replace(r.context.body, gripper_opening_m=0.07 + rocks_m, finger_contacts=(True, False))
+
+    rehearsal.body.grip, rehearsal.observe = told, to_and_fro
+    failure = await rehearsal.run([CloseGripper(context, "bottle_1")])
+    assert failure.code is FailureCode.GRASP_EMPTY
+    efforts_n = [effort_n for opening_m, effort_n in sent if opening_m == 0.0]
+    assert efforts_n == sorted(efforts_n)
+    assert efforts_n[-1] > efforts_n[0]
+    assert sent[-1][0] > 0.069
+
+
 async def test_what_slips_while_lifting_is_told(kitchen):
     rehearsal = kitchen()
     firm, lifted = rehearsal.body.grasped_width_m, []

@@ -23,7 +23,7 @@ from majordomo.skills.place_spot import surface_m
 HAND_TOLERANCE_M = 0.02
 SIDE_TOLERANCE_M = 0.015
 CLOSE_EFFORT_N, SHIFT_EFFORT_N = 15.0, 40.0
-SETTLE_S = 0.35
+SETTLE_S, GIVE_UP_S = 0.35, 7.0
 EXTENDED_M = 0.05
 STAND_S = 0.6
 STUCK_S, RELIEF_M = 2.0, 0.015
@@ -116,38 +116,47 @@ class CloseGripper(Action):
         super().__init__(f"close on {object_id}", context)
         self.object_id = object_id
         self._last_m, self._still_s = 0.0, 0.0
+        self._open_m, self._shifts = 0.0, False
         self._size_m: tuple[float, float, float] | None = None
 
     def begin(self) -> None:
         """Remember the opening, to see when it stops changing, and the size while the object still stands."""
-        self.context.grip = None
+        self.context.grip, self._shifts = None, False
         self._size_m = self._standing_size_m() if self.object_id in self.context.snapshot else None
-        self._last_m, self._still_s = self.context.body.gripper_opening_m, self.context.stamp_s
+        self._last_m = self._open_m = self.context.body.gripper_opening_m
+        self._still_s = self.context.stamp_s
 
     def step(self) -> Status:
-        """Close, wait until the fingers stand still, and judge."""
+        """Close, wait until the fingers stand still, and judge; what is not held firmly is let go, or it would come
+        along when the arm is drawn back.
+        """
         body = self.context.body
         self.context.commands.grip = (0.0, self._effort_n())
         self.context.commands.drive = (0.0, 0.0)
         if abs(body.gripper_opening_m - self._last_m) > 0.001:
             self._last_m, self._still_s = body.gripper_opening_m, self.context.stamp_s
-        if self.context.stamp_s - self._still_s < SETTLE_S or self.elapsed_s < 2 * SETTLE_S:
+        late = self.elapsed_s > GIVE_UP_S
+        if not late and (self.context.stamp_s - self._still_s < SETTLE_S or self.elapsed_s < 2 * SETTLE_S):
             return Status.RUNNING
         if is_firm(body):
             self._hold()
             return Status.SUCCESS
         waited_s = self.context.stamp_s - self._still_s
-        if body.gripper_opening_m > EMPTY_OPENING_M and waited_s < 3 * SETTLE_S:
+        if not late and body.gripper_opening_m > EMPTY_OPENING_M and waited_s < 3 * SETTLE_S:
             return Status.RUNNING
+        self.context.commands.grip = (self._open_m, CLOSE_EFFORT_N)
         seen = f"opening {1000 * body.gripper_opening_m:.0f} mm, contacts {body.finger_contacts}"
         message = f"the fingers closed without holding {self.object_id}."
         return self.fail(FailureCode.GRASP_EMPTY, message, (self.object_id,), seen)
 
     def _effort_n(self) -> float:
-        """More force when one finger alone touches and does not get on: the object must be shifted between them."""
+        """More force once one finger alone touches and does not get on: the object must be shifted between them, and
+        stands or tilts back as soon as the force is taken away.
+        """
         left, right = self.context.body.finger_contacts
         stuck = self.context.stamp_s - self._still_s > SETTLE_S
-        return SHIFT_EFFORT_N if stuck and left != right else CLOSE_EFFORT_N
+        self._shifts |= stuck and left != right
+        return SHIFT_EFFORT_N if self._shifts else CLOSE_EFFORT_N
 
     def _hold(self) -> None:
         """Remember where the object sits in the hand; the fingers have centered it along their closing direction."""

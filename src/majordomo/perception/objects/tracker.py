@@ -125,7 +125,7 @@ class Tracker:
     def update(self, sight: Sight) -> None:
         """One frame."""
         sight = self._without_hidden(sight)
-        scope = [t for t in self.tracks if t.room in sight.surroundings.T_here_room and t.state is not ObjectState.HELD]
+        scope = [t for t in self._near(sight) if t.state is not ObjectState.HELD]
         iou = self._masks.overlap([track.number for track in scope], sight.detections, sight.view)
         costs = cost_matrix(scope, sight.detections, iou, sight.surroundings.T_here_room, self._settings.association)
         pairs = assign(costs, self._settings.association.limit)
@@ -281,8 +281,7 @@ class Tracker:
     def _confirm(self, sight: Sight) -> None:
         """Name what has been seen often enough, or recognize it; of a room that is far from here, when that is near."""
         identity = self._settings.identity
-        near = [t for t in self.tracks if t.room in sight.surroundings.T_here_room]
-        for track in [t for t in near if t.node_id is None and not t.homeless and self._is_stable(t)]:
+        for track in [t for t in self._near(sight) if t.node_id is None and not t.homeless and self._is_stable(t)]:
             known = [t for t in self.tracks if t.node_id is not None]
             if is_piece(track, sight, self.matches, known, self._settings.pieces):
                 self.drop(track)
@@ -305,12 +304,15 @@ class Tracker:
 
     def _let_go_of_somebody(self, sight: Sight) -> None:
         """Forget what was given a node before it was known that somebody stands there: furniture without a name."""
-        near = [t for t in self.tracks if t.room in sight.surroundings.T_here_room]
-        for track in [t for t in near if t.node_id is not None and t.is_furniture and has_no_name(t)]:
+        for track in [t for t in self._near(sight) if t.node_id is not None and t.is_furniture and has_no_name(t)]:
             if is_of_somebody(track, sight, self._settings.pieces):
                 self.removed.update({track.node_id} if track.node_id is not None else ())
                 self.matches = {index: other for index, other in self.matches.items() if other is not track}
                 self.drop(track)
+
+    def _near(self, sight: Sight) -> list[Track]:
+        """Everything in the robot's room and its neighbors: of the others, nobody knows here where they are."""
+        return [t for t in self.tracks if t.room in sight.surroundings.T_here_room]
 
     def _is_stable(self, track: Track) -> bool:
         settings = self._settings

@@ -23,7 +23,9 @@ from majordomo.skills.place_spot import surface_m
 HAND_TOLERANCE_M = 0.02
 SIDE_TOLERANCE_M = 0.015
 CLOSE_EFFORT_N, SHIFT_EFFORT_N = 15.0, 40.0
-SETTLE_S, GIVE_UP_S = 0.35, 7.0
+SETTLE_S = 0.35
+GIVE_UP_S = 7.0
+"""Fingers that have come to no rest by then hold nothing; short of the time limit, which would leave them closing."""
 EXTENDED_M = 0.05
 STAND_S = 0.6
 STUCK_S, RELIEF_M = 2.0, 0.015

@@ -1,5 +1,7 @@
 """Labels, colors, identity and rooms: how single frames become beliefs."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -10,6 +12,7 @@ from majordomo.perception.objects.beliefs import AccentBelief, ColorBelief, Labe
 from majordomo.perception.objects.center import CenterBelief, CenterSettings
 from majordomo.perception.objects.color import PALETTE, colors_of, named_color
 from majordomo.perception.objects.confirmation import is_double, is_fragment, known_as, turned_up
+from majordomo.perception.objects.detection import DetectionSettings, detections_of
 from majordomo.perception.objects.identity import IdentitySettings, departed, likeness, same_thing_moved
 from majordomo.perception.objects.membership import Outline, Surroundings
 from majordomo.perception.objects.pieces import is_of_several
@@ -22,6 +25,7 @@ from majordomo.perception.objects.sight import Sight
 from majordomo.perception.objects.surface import Box, SurfaceBelief, SurfaceMemory, furniture_box, turned_like
 from majordomo.perception.objects.track import Track, TrackSettings
 from majordomo.perception.objects.tracker import Tracker, TrackerSettings
+from majordomo.perception.panoptic import Instance, PanopticScene
 from majordomo.perception.vocabulary import category_of, oversize
 from majordomo.scene_graph.edges import ConnectsEdge, RtEdge
 from majordomo.scene_graph.edits import PutEdge, PutNode
@@ -345,6 +349,33 @@ def test_a_can_does_not_grow_though_from_one_side_it_is_long_taken_for_one_with_
     assert belief.box.size_m[0] == pytest.approx(width_m), "only what was pushed may lie otherwise than it stood"
 
 
+@pytest.mark.parametrize(
+    ("middle_z_m", "high_m", "center_z_m"),
+    [
+        (0.65, 0.08, 0.57),  # the upper third shows over the fingers
+        (0.46, 0.02, 0.57),  # its foot shows below them
+        (0.75, 0.08, 0.67),  # somebody has put something below it meanwhile
+    ],
+)
+def test_what_hides_a_part_of_a_bottle_does_not_shift_it_but_what_lifts_it_does(middle_z_m, high_m, center_z_m):
+    whole = Shape(
+        center=np.array((0.7, 0.0, 0.57)), size_m=(0.07, 0.07, 0.24), yaw_rad=0.0, oriented=False,
+        covariance=np.eye(3) * 6e-5, complete=True,
+    )  # fmt: skip
+    part = replace(
+        whole, center=np.array((0.7, 0.0, middle_z_m)), size_m=(0.04, 0.04, high_m), covariance=np.eye(3) * 4e-4,
+        complete=False,
+    )  # fmt: skip
+    belief = CenterBelief(
+        Box(whole.center, whole.size_m, 0.0), whole.covariance, settings=CenterSettings(),
+        random=np.random.default_rng(0),
+    )  # fmt: skip
+    for shape in [whole] * 10 + [part] * 20:
+        belief.observe(shape, SE3.identity(), np.eye(3) * 1e-6)
+    assert belief.box.center[2] == pytest.approx(center_z_m, abs=0.015)
+    assert belief.box.size_m == pytest.approx(whole.size_m, abs=0.001)
+
+
 def moved(sighting, known, *, place_known=True):
     return same_thing_moved(sighting, known, place_known=place_known, settings=IdentitySettings())
 
@@ -646,6 +677,40 @@ def test_what_is_not_named_yet_waits_for_it_while_the_robot_is_two_rooms_away(la
     tracker.update(Sight(view=view, detections=[], surroundings=Surroundings(snapshot, "room_3"), persons=somebody))
     assert track in tracker.tracks
     assert track.node_id is None
+
+
+BOOK = Solid(label="book", center=(0.0, 0.0, 0.47), size_m=(0.2, 0.09, 0.035), color=(230.0, 200.0, 20.0))
+CUP = Solid(label="cup", center=(-0.02, -0.12, 0.5), size_m=(0.08, 0.08, 0.1), cylinder=True)
+TOY = Solid(label="toy", center=(0.0, 0.2, 0.5), size_m=(0.1, 0.1, 0.1), color=(20.0, 200.0, 20.0))
+
+
+@pytest.mark.parametrize(("nameless", "nodes"), [((0, 1), 2), ((2,), 3)])
+def test_a_cup_and_the_book_behind_it_that_are_taken_for_one_are_no_third_thing_but_a_toy_beside_them_is(
+    nameless, nodes
+):
+    tracker = Tracker(settings=TrackerSettings(), random=np.random.default_rng(0))
+    surroundings, solids = Surroundings(two_rooms(), "room_1"), [BOOK, CUP, TOY]
+    for stamp_s in range(80):
+        turn_rad = 0.8 * (stamp_s // 8 % 5) - 1.6
+        eye = (1.2 * np.sin(turn_rad), -1.2 * np.cos(turn_rad), 1.3)
+        rendering = render(solids, look_at(eye, (0.0, 0.0, 0.5)))
+        masks = [rendering.ids == number for number in range(3)]
+        mask = np.logical_or.reduce([masks[number] for number in nameless])
+        given = [("book", masks[0]), ("cup", masks[1])] if stamp_s < 40 or nameless == (2,) else []
+        given += [(UNKNOWN_LABEL, mask)] if stamp_s >= 40 else []
+        scene = PanopticScene(
+            stamp_s=stamp_s, relations=(),
+            instances=tuple(
+                Instance(label=label, score=0.9, mask=mask, label_distribution=((label, 0.9),)) for label, mask in given
+            ),
+        )  # fmt: skip
+        frame = rgbd_frame(rendering, stamp_s=stamp_s, T_base_camera=look_at(eye, (0.0, 0.0, 0.5)))
+        view = View.of(frame, room="room_1", T_room_base=SE3.identity(), pose_covariance=np.eye(6) * 1e-8)
+        things, _ = detections_of(scene, frame.rgb, view, DetectionSettings(), None, lambda points: points[:, 0] > 1e9)
+        tracker.update(Sight(view=view, detections=things, surroundings=surroundings))
+    named = [track for track in tracker.tracks if track.node_id is not None]
+    assert len(named) == nodes
+    assert {track.label.best for track in named[:2]} == {"book", "cup"}
 
 
 def test_a_thing_changes_its_room_only_when_it_is_clearly_outside():

@@ -72,9 +72,22 @@ class CenterBelief:
         self._learn_size(shape, side)
         if shape.oriented:
             self._axis = _AXIS_MEMORY * self._axis + _doubled(shape.yaw_rad + T_room_view.yaw_rad)
-        if self._learn_place(T_room_view.apply(shape.center), R @ shape.covariance @ R.T):
+        center, hidden_m = T_room_view.apply(shape.center), self._hidden_m(shape)
+        away = center - self._filter.mean
+        center = center - np.clip(away, -hidden_m, hidden_m)
+        if self._learn_place(center, R @ shape.covariance @ R.T, hidden_m):
             self._sizes = {side: self._sizes[side]} if side in self._sizes else self._sizes
         self._refresh()
+
+    def _hidden_m(self, shape: Shape) -> Array:
+        """How far the center may be from that of a measurement along the room's axes, (3,): of what is known whole and
+        now seen in part, the rest may be hidden on either side.
+        """
+        if shape.complete or not self._seen_whole:
+            return np.zeros(3)
+        x_m, y_m, z_m = self.box.size_m
+        broad_m = (max(x_m, y_m) - max(shape.size_m[:2])) / 2.0
+        return np.maximum((broad_m, broad_m, (z_m - shape.size_m[2]) / 2.0), 0.0)
 
     def _learn_size(self, shape: Shape, side: Hashable) -> None:
         """Whole views count; before the first one, any view does. A thing does not grow: what it measured from other
@@ -93,7 +106,7 @@ class CenterBelief:
         while len(self._sizes) > self._settings.size_sides:
             del self._sizes[next(iter(self._sizes))]
 
-    def _learn_place(self, center: Array, covariance: Array) -> bool:
+    def _learn_place(self, center: Array, covariance: Array, hidden_m: Array) -> bool:
         """Update the filter, or start it anew where the mean of the last innovations says that the thing was pushed,
         and may lie otherwise than it stood; whether it was.
         """
@@ -104,7 +117,7 @@ class CenterBelief:
             self._filter.restart(center, covariance)
             self._innovation = np.zeros(3)
             return True
-        self._filter.update(center, covariance)
+        self._filter.update(center, covariance + np.diag(hidden_m**2))
         return False
 
     def _refresh(self) -> None:

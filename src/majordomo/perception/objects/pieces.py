@@ -74,8 +74,20 @@ def is_of_several(track: Track, known: Sequence[Track]) -> bool:
     others = [t for t in known if t.is_furniture and t.room == track.room and t.state is ObjectState.PRESENT]
     if track.seen_whole or not len(points) or not others:
         return False
-    within = np.array([other.box.contains(points, _ROW_EDGE_M) for other in others])
-    return float(within.any(axis=0).mean()) > _MOST >= float(within.mean(axis=1).max())
+    return _share_out(np.array([other.box.contains(points, _ROW_EDGE_M) for other in others]))
+
+
+def seen_as_one(detection: Detection, tracks: Sequence[Track], sight: Sight) -> list[Track]:
+    """The small things that are known where something without a name is seen, if they are several: of a cup before a
+    book, networks at times make one thing. Otherwise none.
+    """
+    if detection.label != UNKNOWN_LABEL:
+        return []
+    points, T_here_room = detection.cloud.points, sight.surroundings.T_here_room
+    small = [t for t in tracks if t.node_id is not None and t.state is ObjectState.PRESENT and t.room in T_here_room]
+    small = [t for t in small if not (t.is_furniture or t.category.container or has_no_name(t))]
+    within = [t.box.contains(T_here_room[t.room].inverse().apply(points), _PART_EDGE_M) for t in small]
+    return [t for t, some in zip(small, within, strict=True) if some.any()] if _share_out(np.array(within)) else []
 
 
 def is_part(
@@ -130,6 +142,11 @@ def is_under_arm(center: NDArray[np.float64], sight: Sight, settings: PieceSetti
     if sight.hand is None or not sight.reaching:
         return False
     return float(np.hypot(*(center - sight.hand)[:2])) < settings.hand_m
+
+
+def _share_out(within: NDArray[np.bool_]) -> bool:
+    """Whether most points are of one thing or another, and not just of one; ``within``: (things, points)."""
+    return len(within) > 1 and float(within.any(axis=0).mean()) > _MOST >= float(within.mean(axis=1).max())
 
 
 def _shows(mask: NDArray[np.bool_], pixel: tuple[float, float]) -> bool:

@@ -41,6 +41,7 @@ from majordomo.perception.objects.pieces import (
     is_part,
     is_piece,
     is_under_arm,
+    seen_as_one,
 )
 from majordomo.perception.objects.sight import Sight
 from majordomo.perception.objects.surface import Box, SurfaceBelief
@@ -124,7 +125,7 @@ class Tracker:
 
     def update(self, sight: Sight) -> None:
         """One frame."""
-        sight = self._without_hidden(sight)
+        sight, in_one = self._without_untold(sight)
         scope = [t for t in self._near(sight) if t.state is not ObjectState.HELD]
         iou = self._masks.overlap([track.number for track in scope], sight.detections, sight.view)
         costs = cost_matrix(scope, sight.detections, iou, sight.surroundings.T_here_room, self._settings.association)
@@ -136,7 +137,7 @@ class Tracker:
         unmatched = [d for j, d in enumerate(sight.detections) if j not in matched]
         unmatched = [d for d in unmatched if not self._absorb(d, scope, sight)]
         self._settle(scope, sight)
-        self._doubt_unseen(scope, sight)
+        self._doubt_unseen([track for track in scope if track.number not in in_one], sight)
         self._doubt_surfaces(sight)
         for detection in unmatched:
             self._found(detection, sight)
@@ -148,15 +149,20 @@ class Tracker:
         seen = [(d.mask, self.matches[d.index].number) for d in sight.detections if d.index in self.matches]
         self._masks.remember(seen, sight.view)
 
-    def _without_hidden(self, sight: Sight) -> Sight:
-        """Without the small things that are looked at over the arm."""
-        told = [
-            detection
-            for detection in sight.detections
-            if category_of(detection.label, detection.shape.size_m).furniture
-            or not is_under_arm(detection.shape.center, sight, self._settings.pieces)
-        ]
-        return replace(sight, detections=told) if len(told) < len(sight.detections) else sight
+    def _without_untold(self, sight: Sight) -> tuple[Sight, set[int]]:
+        """Without the small things that are looked at over the arm, and without what is several in one mask; numbers of
+        the tracks that are in one.
+        """
+        near, told, in_one = self._near(sight), [], set[int]()
+        for detection in sight.detections:
+            if not category_of(detection.label, detection.shape.size_m).furniture:
+                if is_under_arm(detection.shape.center, sight, self._settings.pieces):
+                    continue
+                if several := seen_as_one(detection, near, sight):
+                    in_one |= {track.number for track in several}
+                    continue
+            told.append(detection)
+        return (replace(sight, detections=told) if len(told) < len(sight.detections) else sight), in_one
 
     def _observe(self, track: Track, detection: Detection, sight: Sight) -> None:
         others = [

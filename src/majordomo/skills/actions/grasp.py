@@ -119,12 +119,13 @@ class CloseGripper(Action):
         self.object_id = object_id
         self._last_m, self._still_s = 0.0, 0.0
         self._open_m, self._shifts = 0.0, False
-        self._size_m: tuple[float, float, float] | None = None
+        self._standing: tuple[SE3, tuple[float, float, float]] | None = None
 
     def begin(self) -> None:
-        """Remember the opening, to see when it stops changing, and the size while the object still stands."""
-        self.context.grip, self._shifts = None, False
-        self._size_m = self._standing_size_m() if self.object_id in self.context.snapshot else None
+        """Remember the opening, to see when it stops changing, and pose and size while the object still stands."""
+        self.context.grip, self._shifts, self._standing = None, False, None
+        if self.object_id in self.context.snapshot:
+            self._standing = in_base(self.context, self.object_id), self._standing_size_m()
         self._last_m = self._open_m = self.context.body.gripper_opening_m
         self._still_s = self.context.stamp_s
 
@@ -162,14 +163,13 @@ class CloseGripper(Action):
 
     def _hold(self) -> None:
         """Remember where the object sits in the hand; the fingers have centered it along their closing direction."""
-        snapshot = self.context.snapshot
-        if self.object_id not in snapshot or self._size_m is None:
+        if self._standing is None:
             return
-        T_base_object = in_base(self.context, self.object_id)
+        T_base_object, size_m = self._standing
         T_gripper_object = self.context.body.T_base_gripper.inverse() @ T_base_object
         x_m, _, z_m = T_gripper_object.translation_m
         centered = SE3(T_gripper_object.quat_wxyz, np.array([x_m, 0.0, z_m]))
-        self.context.grip = Grip(object_id=self.object_id, T_gripper_object=centered, size_m=self._size_m)
+        self.context.grip = Grip(object_id=self.object_id, T_gripper_object=centered, size_m=size_m)
 
     def _standing_size_m(self) -> tuple[float, float, float]:
         """Its size, as high as it must be to stand on what carries it: of a thing that is half hidden, the bottom is

@@ -684,33 +684,49 @@ CUP = Solid(label="cup", center=(-0.02, -0.12, 0.5), size_m=(0.08, 0.08, 0.1), c
 TOY = Solid(label="toy", center=(0.0, 0.2, 0.5), size_m=(0.1, 0.1, 0.1), color=(20.0, 200.0, 20.0))
 
 
-@pytest.mark.parametrize(("nameless", "nodes"), [((0, 1), 2), ((2,), 3)])
-def test_a_cup_and_the_book_behind_it_that_are_taken_for_one_are_no_third_thing_but_a_toy_beside_them_is(
-    nameless, nodes
-):
+def ends_of(mask):
+    """The two ends of what has something before its middle."""
+    columns = np.flatnonzero(mask.any(axis=0))
+    third = len(columns) // 3
+    return [mask & np.isin(np.arange(mask.shape[1]), each) for each in (columns[:third], columns[-third:])]
+
+
+@pytest.mark.parametrize(
+    ("merged", "nodes"),
+    [
+        (lambda book, cup, toy: {"unknown": [book | cup]}, 2),
+        (lambda book, cup, toy: {"unknown": ends_of(book), "cup": [cup]}, 2),
+        (lambda book, cup, toy: {"unknown": [toy], "cup": [cup], "book": [book]}, 3),
+    ],
+)
+def test_a_known_book_and_cup_seen_as_one_or_in_bits_make_no_third_thing_but_a_toy_beside_them_does(merged, nodes):
     tracker = Tracker(settings=TrackerSettings(), random=np.random.default_rng(0))
     surroundings, solids = Surroundings(two_rooms(), "room_1"), [BOOK, CUP, TOY]
     for stamp_s in range(80):
         turn_rad = 0.8 * (stamp_s // 8 % 5) - 1.6
-        eye = (1.2 * np.sin(turn_rad), -1.2 * np.cos(turn_rad), 1.3)
-        rendering = render(solids, look_at(eye, (0.0, 0.0, 0.5)))
+        T_room_camera = look_at((1.2 * np.sin(turn_rad), -1.2 * np.cos(turn_rad), 1.3), (0.0, 0.0, 0.5))
+        rendering = render(solids, T_room_camera)
         masks = [rendering.ids == number for number in range(3)]
-        mask = np.logical_or.reduce([masks[number] for number in nameless])
-        given = [("book", masks[0]), ("cup", masks[1])] if stamp_s < 40 or nameless == (2,) else []
-        given += [(UNKNOWN_LABEL, mask)] if stamp_s >= 40 else []
+        calm = stamp_s < 40 or stamp_s % 8 == 0
+        given = {"book": masks[:1], "cup": masks[1:2]} if calm else merged(*masks)
         scene = PanopticScene(
             stamp_s=stamp_s, relations=(),
             instances=tuple(
-                Instance(label=label, score=0.9, mask=mask, label_distribution=((label, 0.9),)) for label, mask in given
+                Instance(label=label, score=0.9, mask=mask, label_distribution=((label, 0.9),))
+                for label, shown in given.items()
+                for mask in shown
             ),
         )  # fmt: skip
-        frame = rgbd_frame(rendering, stamp_s=stamp_s, T_base_camera=look_at(eye, (0.0, 0.0, 0.5)))
+        frame = rgbd_frame(rendering, stamp_s=stamp_s, T_base_camera=T_room_camera)
         view = View.of(frame, room="room_1", T_room_base=SE3.identity(), pose_covariance=np.eye(6) * 1e-8)
         things, _ = detections_of(scene, frame.rgb, view, DetectionSettings(), None, lambda points: points[:, 0] > 1e9)
         tracker.update(Sight(view=view, detections=things, surroundings=surroundings))
     named = [track for track in tracker.tracks if track.node_id is not None]
     assert len(named) == nodes
     assert {track.label.best for track in named[:2]} == {"book", "cup"}
+    assert [track.position[:2].tolist() for track in named[:2]] == [
+        pytest.approx(solid.center[:2], abs=0.02) for solid in (BOOK, CUP)
+    ]
 
 
 def test_a_thing_changes_its_room_only_when_it_is_clearly_outside():

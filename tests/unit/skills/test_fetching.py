@@ -567,7 +567,8 @@ async def test_who_stands_at_a_thing_is_the_reason_why_nothing_gets_there(kitche
     assert failure.evidence.nodes[0] == "person_1"
 
 
-async def test_who_stands_at_the_only_free_spot_is_the_reason_why_nothing_is_put_there(kitchen):
+@pytest.mark.parametrize("as_empty", [False, True])
+async def test_who_stands_at_the_only_free_spot_is_the_reason_why_nothing_is_put_there(kitchen, as_empty):
     built = []
     rehearsal = kitchen(lambda flat: built.append(flat) or flat)
     context = await rehearsal.prepare()
@@ -575,7 +576,12 @@ async def test_who_stands_at_the_only_free_spot_is_the_reason_why_nothing_is_put
     spot = free_spots(context, "bottle_1", "table_2")[0]
     x_m, y_m, _ = spot.anchor.position(rehearsal.memory.snapshot(), "room_1")
     built[0].person(float(x_m) + 0.1, float(y_m), stamp_s=context.stamp_s)
-    placement = Placement(object_id="bottle_1", target="table_2", spots=lambda: [spot])
+    placement = Placement(
+        object_id="bottle_1",
+        target="table_2",
+        spots=lambda: [spot],
+        spots_if_empty=lambda: free_spots(context, "bottle_1", "table_2", as_empty=True) if as_empty else [],
+    )
     failure = await rehearsal.run([ChooseSpot(context, placement)])
     assert (failure.code, failure.evidence.nodes) == (FailureCode.PERSON_IN_WAY, ("person_1", "table_2"))
 

@@ -22,6 +22,10 @@ _EDGE_M, _MOST = 0.02, 0.85
 """Such a share of the points of what is furniture is so near to it."""
 _PART_EDGE_M = 0.02
 """So near to a small thing lies the middle of what is a part of it: of its upper side, depth shows a little more."""
+_NAMED = 0.6
+"""From such a share on, the name that the network gives a detection counts."""
+_BIT_SHARE = 0.5
+"""Of the space that a thing takes: a bit of it takes less."""
 _ROW_EDGE_M = 0.1
 """The same where it is not yet known well how far the pieces of a row reach."""
 
@@ -83,11 +87,23 @@ def seen_as_one(detection: Detection, tracks: Sequence[Track], sight: Sight) -> 
     """
     if detection.label != UNKNOWN_LABEL:
         return []
-    points, T_here_room = detection.cloud.points, sight.surroundings.T_here_room
-    small = [t for t in tracks if t.node_id is not None and t.state is ObjectState.PRESENT and t.room in T_here_room]
-    small = [t for t in small if not (t.is_furniture or t.category.container or has_no_name(t))]
-    within = [t.box.contains(T_here_room[t.room].inverse().apply(points), _PART_EDGE_M) for t in small]
-    return [t for t, some in zip(small, within, strict=True) if some.any()] if _share_out(np.array(within)) else []
+    known = [track for track in tracks if _is_known_by_name(track)]
+    within = [_within(detection, track, sight) for track in known]
+    return [t for t, some in zip(known, within, strict=True) if some.any()] if _share_out(np.array(within)) else []
+
+
+def is_bit(detection: Detection, tracks: Sequence[Track], sight: Sight) -> bool:
+    """Whether what nobody can name for sure is a bit of a small thing that is known, the rest of which is hidden: an
+    end of a book that lies behind a cup. What is as large as the thing may have taken its place.
+    """
+    if detection.label != UNKNOWN_LABEL and dict(detection.distribution).get(detection.label, 0.0) >= _NAMED:
+        return False
+    space_m3 = float(np.prod(detection.shape.size_m))
+    return any(
+        float(_within(detection, track, sight).mean()) > _MOST
+        for track in tracks
+        if _is_known_by_name(track) and space_m3 < _BIT_SHARE * float(np.prod(track.box.size_m))
+    )
 
 
 def is_part(
@@ -142,6 +158,18 @@ def is_under_arm(center: NDArray[np.float64], sight: Sight, settings: PieceSetti
     if sight.hand is None or not sight.reaching:
         return False
     return float(np.hypot(*(center - sight.hand)[:2])) < settings.hand_m
+
+
+def _is_known_by_name(track: Track) -> bool:
+    """Whether it is a small thing with a node and a name, and no other thing can be where it is."""
+    known = track.node_id is not None and track.state is ObjectState.PRESENT and not has_no_name(track)
+    return known and not (track.is_furniture or track.category.container)
+
+
+def _within(detection: Detection, track: Track, sight: Sight) -> NDArray[np.bool_]:
+    """Which points of a detection, (N,), are where a thing is."""
+    points = sight.surroundings.T_here_room[track.room].inverse().apply(detection.cloud.points)
+    return track.box.contains(points, _PART_EDGE_M)
 
 
 def _share_out(within: NDArray[np.bool_]) -> bool:

@@ -37,6 +37,7 @@ from majordomo.perception.objects.pieces import (
     PieceSettings,
     has_no_name,
     is_at_hand,
+    is_bit,
     is_of_somebody,
     is_part,
     is_piece,
@@ -150,13 +151,13 @@ class Tracker:
         self._masks.remember(seen, sight.view)
 
     def _without_untold(self, sight: Sight) -> tuple[Sight, set[int]]:
-        """Without the small things that are looked at over the arm, and without what is several in one mask; numbers of
-        the tracks that are in one.
+        """Without the small things that are looked at over the arm, bits of others, and what is several in one mask;
+        numbers of the tracks that are in one.
         """
         near, told, in_one = self._near(sight), [], set[int]()
         for detection in sight.detections:
             if not category_of(detection.label, detection.shape.size_m).furniture:
-                if is_under_arm(detection.shape.center, sight, self._settings.pieces):
+                if is_under_arm(detection.shape.center, sight, self._settings.pieces) or is_bit(detection, near, sight):
                     continue
                 if several := seen_as_one(detection, near, sight):
                     in_one |= {track.number for track in several}

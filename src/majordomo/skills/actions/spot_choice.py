@@ -63,18 +63,18 @@ class ChooseSpot(Action):
         return Status.SUCCESS
 
     def _out_of_reach(self, spots: Sequence[Spot]) -> Status:
-        """Fail because of what keeps the robot from all of them: things on the support, people, or the building."""
+        """Fail because of what keeps the robot from all of them: people, who go on by themselves, or things on the
+        support, or the building.
+        """
         target, if_empty, people = self._placement.target, self._placement.spots_if_empty(), people_here(self.context)
         snapshot, frame = self.context.snapshot, robot_frame(self.context.snapshot)
         furniture = isinstance(snapshot.get(target), ObjectNode)
         things = [node.id for node in stands_on(snapshot, target, None)] if furniture else []
-        if self._cheapest(if_empty, things=things) is not None:
-            return _full(self, self._placement)
         if people and self._cheapest(spots, people=people) is not None:
             person = nearest_to(snapshot, people, spots[0].anchor.position(snapshot, frame), frame)
             message = f"{person} stands where I would have to be, or to reach, to put something down at {target}."
             return self.fail(FailureCode.PERSON_IN_WAY, message, (person, target))
-        if people and self._cheapest(if_empty, people=people, things=things) is not None:
+        if self._cheapest(if_empty, people=people, things=things) is not None:
             return _full(self, self._placement)
         message = f"there is no free place from which the arm reaches {target}."
         return self.fail(FailureCode.UNREACHABLE, message, (target,), f"{len(spots)} spots tried")

@@ -9,12 +9,12 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from math import copysign, inf, pi, sin, tan
+from math import copysign, cos, inf, pi, sin, tan
 
 import numpy as np
 from numpy.typing import NDArray
 
-from majordomo.scene_graph.nodes import ObjectNode
+from majordomo.scene_graph.nodes import ROBOT_ID, ObjectNode, ObjectState
 from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.skills.anchor import Anchor
 from majordomo.skills.containers import is_open_container
@@ -34,6 +34,10 @@ HAND_HALF_WIDTH_M = 0.09
 """Half the width of palm and open fingers: what a hand sweeps to each side of its way."""
 ASIDE_M = HAND_HALF_WIDTH_M + 0.04
 """From the end of a board, with its side, to the middle of the hand."""
+SIDE_M = 0.025
+"""How thick the side of a shelf is, at its ends."""
+PALM_BEFORE_M = 0.07
+"""A palm stays so far before the middle of what the fingers hold."""
 BESIDE_M = 0.015
 """Air between what moves in between boards and what stands there."""
 ARM_HALF_M = 0.03
@@ -152,20 +156,54 @@ def board_under(snapshot: Snapshot, object_id: str) -> Board | None:
 
 
 def off_end(snapshot: Snapshot, object_id: str, opening_m: float) -> Anchor:
-    """Where the hand goes to take a thing: at its middle; below a board, near an end, as far beside it as fingers that
-    are ``opening_m`` apart allow, so that the hand passes the end.
+    """Where the hand goes to take a thing: at its middle; below a board, near an end or a neighbor, as far beside it as
+    fingers that are ``opening_m`` apart allow, so that the hand passes both.
     """
-    support_id = snapshot.support_of(object_id) if object_id in snapshot else None
-    board = board_under(snapshot, object_id) if support_id is not None else None
-    if board is None or support_id is None or not board.is_covered:
+    room_m = palm_room_m(snapshot, object_id)
+    support_id = snapshot.support_of(object_id) if room_m is not None else None
+    if room_m is None or support_id is None:
         return Anchor(object_id)
     support, node = snapshot.object(support_id), snapshot.object(object_id)
     long, _ = axes(support)
     point = [float(value) for value in snapshot.position(object_id, support_id)]
-    short_by_m = ASIDE_M - (support.size_m[long] / 2 - abs(point[long]))
-    spare_m = (opening_m - max(node.size_m[:2])) / 2 - FINGER_AIR_M
-    point[long] -= copysign(max(min(short_by_m, spare_m), 0.0), point[long])
+    spare_m = max((opening_m - max(node.size_m[:2])) / 2 - FINGER_AIR_M, 0.0)
+    low_m, high_m = room_m
+    short_m = max(ASIDE_M - SIDE_M - min(low_m, high_m), 0.0)
+    point[long] += copysign(min(short_m, spare_m, abs(high_m - low_m) / 2), high_m - low_m)
     return Anchor(support_id, (point[0], point[1], point[2]))
+
+
+def palm_room_m(snapshot: Snapshot, object_id: str) -> tuple[float, float] | None:
+    """How far a palm that comes to a thing below a board may be to both sides of the thing's middle, along the
+    support's long axis: to the ends, or to what stands on the board beside its way; ``None`` for any other thing.
+    """
+    support_id = snapshot.support_of(object_id) if object_id in snapshot else None
+    board = board_under(snapshot, object_id) if support_id is not None else None
+    if board is None or support_id is None or not board.is_covered:
+        return None
+    support = snapshot.object(support_id)
+    long, short = axes(support)
+    point, half_m = snapshot.position(object_id, support_id), support.size_m[long] / 2 - SIDE_M
+    rooms = [half_m + float(point[long]), half_m - float(point[long])]
+    robot = snapshot.transform(support_id, ROBOT_ID).translation_m if ROBOT_ID in snapshot else np.zeros(3)
+    side = float(np.sign(robot[short]))
+    for other in snapshot.of_type(ObjectNode):
+        beside = other.id != object_id and snapshot.support_of(other.id) == support_id
+        if not beside or other.state is not ObjectState.PRESENT or board_under(snapshot, other.id) != board:
+            continue
+        along_m, deep_m = _half_extents(snapshot, support_id, other, long)
+        away = snapshot.position(other.id, support_id) - point
+        if side * float(away[short]) + deep_m > PALM_BEFORE_M:
+            rooms[int(away[long] > 0.0)] = min(rooms[int(away[long] > 0.0)], abs(float(away[long])) - along_m)
+    return max(rooms[0], 0.0), max(rooms[1], 0.0)
+
+
+def _half_extents(snapshot: Snapshot, support_id: str, node: ObjectNode, long: int) -> tuple[float, float]:
+    """Half of what a thing takes along the long axis of what it stands on, and across."""
+    yaw_rad = snapshot.transform(support_id, node.id).yaw_rad
+    x_m, y_m = (abs(cos(yaw_rad)), abs(sin(yaw_rad))) if long == 0 else (abs(sin(yaw_rad)), abs(cos(yaw_rad)))
+    along_m = (x_m * node.size_m[0] + y_m * node.size_m[1]) / 2
+    return along_m, (y_m * node.size_m[0] + x_m * node.size_m[1]) / 2
 
 
 def is_among_boards(snapshot: Snapshot, frame: str, point: Points) -> bool:

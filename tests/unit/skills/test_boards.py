@@ -141,6 +141,21 @@ def test_near_an_end_of_a_board_the_hand_takes_a_thing_a_little_from_the_inside(
     assert at == pytest.approx((x_m + aside_m, 0.0, 0.07), abs=1e-6)
 
 
+@pytest.mark.parametrize(
+    ("box_y_m", "aside_m"),
+    [
+        (-0.08, -0.006),  # beside the way of the palm: as much room to it as to the end
+        (0.06, -0.017),  # behind the palm: only the end counts
+    ],
+)
+def test_between_an_end_and_a_neighbor_the_hand_comes_in_the_middle(flat, box_y_m, aside_m):
+    built = on_board(shelved(flat), "glass_1", 0.36, 0.05, 0.8, (0.07, 0.07, 0.14), graspable=True)
+    on_board(built, "box_1", 0.213, box_y_m, 0.8, (0.14, 0.08, 0.1), graspable=True)
+    snapshot = built.memory.snapshot()
+    at = off_end(snapshot, "glass_1", 0.12).position(snapshot, "shelf_1")
+    assert at == pytest.approx((0.36 + aside_m, 0.05, 0.07), abs=1e-3)
+
+
 def test_what_stands_on_top_or_is_gone_is_taken_at_its_middle(flat):
     snapshot = on_board(shelved(flat), "glass_1", 0.4, 0.0, 1.6, (0.07, 0.07, 0.14)).memory.snapshot()
     assert off_end(snapshot, "glass_1", 0.12) == Anchor("glass_1")

@@ -447,6 +447,28 @@ async def test_from_where_the_arm_was_stopped_it_is_not_reached_again_while_ther
     assert await carry_out(rehearsal, ("PICK", "bottle_1")) is None
 
 
+@pytest.mark.parametrize(("gap_m", "code"), [(0.165, FailureCode.UNREACHABLE), (0.24, None)])
+async def test_between_boxes_on_a_board_that_leave_no_room_for_the_hand_it_does_not_even_begin(
+    flat, onlooker, fingers, gap_m, code
+):
+    built = flat().thing("shelf_1", (1.0, 2.3, 0.8), (0.9, 0.35, 1.6), support=True, surfaces_m=(0.4, 0.8, 1.2))
+    built.thing("glass_1", (1.0, 2.35, 0.87), (0.07, 0.07, 0.14), on="shelf_1", graspable=True)
+    for name, side in (("box_1", -1), ("box_2", 1)):
+        x_m = 1.0 + side * (gap_m / 2 + 0.05)
+        built.thing(name, (x_m, 2.25, 0.85), (0.1, 0.08, 0.1), on="shelf_1", graspable=True)
+    body = FakeBody(pose=Pose2(1.0, 1.0, 1.5), grasped_width_m=fingers(built.memory))
+    rehearsal, farthest_m = Rehearsal(memory=built.memory, body=body, observe=onlooker), []
+
+    def measure(r):
+        onlooker(r)
+        farthest_m.append(r.body.arm.extension_m)
+
+    rehearsal.observe = measure
+    failure = await carry_out(rehearsal, ("PICK", "glass_1"))
+    assert (failure.code if failure else None) is code
+    assert (max(farthest_m) > 0.1) is (code is None)
+
+
 async def test_what_stops_the_arm_on_its_way_in_between_boards_is_not_the_board(flat, onlooker, fingers):
     built = flat().table().bottle()
     built.thing("shelf_1", (-1.5, 2.3, 0.8), (0.9, 0.35, 1.6), support=True, surfaces_m=(0.4, 0.8, 1.2))

@@ -13,6 +13,7 @@ from majordomo.skills.action import Action, Grip, RobotContext
 from majordomo.skills.actions.arm import EMPTY_OPENING_M, ArmAction, ArmProgress, avoid_side, is_firm
 from majordomo.skills.actions.arm_way import clear_over_m
 from majordomo.skills.actions.finger_room import fingers_met
+from majordomo.skills.boards import HAND_HALF_WIDTH_M, palm_room_m
 from majordomo.skills.containers import is_open_container
 from majordomo.skills.errors import Unreachable
 from majordomo.skills.failures import FailureCode
@@ -24,7 +25,8 @@ HAND_TOLERANCE_M = 0.02
 SIDE_TOLERANCE_M = 0.015
 CLOSE_EFFORT_N, SHIFT_EFFORT_N = 15.0, 40.0
 SETTLE_S = 0.35
-GIVE_UP_S = 7.0
+CLOSE_LIMIT_S = 8.0
+GIVE_UP_S = CLOSE_LIMIT_S - 1.0
 """Fingers that have come to no rest by then hold nothing; short of the time limit, which would leave them closing."""
 EXTENDED_M = 0.05
 STAND_S = 0.6
@@ -96,6 +98,10 @@ class Reach(ArmAction):
         if abs(T_base_object.y_m) > SIDE_TOLERANCE_M + (self._grasp.opening_m - 0.06) / 4:
             where = f"{100 * T_base_object.y_m:.1f} cm beside the arm's plane"
             raise Unreachable(T_base_object.x_m, T_base_object.z_m, self._grasp.pitch_rad, where)
+        room_m = palm_room_m(snapshot, self.object_id) if self._grasp.is_level else None
+        if room_m is not None and sum(room_m) < 2 * HAND_HALF_WIDTH_M:
+            where = f"{100 * sum(room_m):.1f} cm wide gap, too narrow for the hand"
+            raise Unreachable(T_base_object.x_m, T_base_object.z_m, self._grasp.pitch_rad, where)
         over_m = clear_over_m(context, self._x_m, self.object_id)
         targets = self._grasp.approach(self._x_m, context.geometry, context.limits, clear_over_m=over_m)
         arm = context.body.arm
@@ -112,7 +118,7 @@ class Reach(ArmAction):
 class CloseGripper(Action):
     """Closes the fingers until they hold something; fails with GRASP_EMPTY when they meet."""
 
-    timeout_s = 8.0
+    timeout_s = CLOSE_LIMIT_S
 
     def __init__(self, context: RobotContext, object_id: str) -> None:
         super().__init__(f"close on {object_id}", context)

@@ -69,6 +69,8 @@ class Errand:
         self._job: Job | None = None
         self._phase, self._phase_s, self._wait_s = Phase.READY, 0.0, 0.0
         self._looked, self._after_look = False, Phase.READY
+        self._looked_at: set[str] = set()
+        self._worked_at: str | None = None
         self._hindrance: Failure | None = None
         self._acted_s = self._stamp_s = stamp_s
         self._replans = 0
@@ -131,12 +133,14 @@ class Errand:
         if step is None:
             if self._hunt is not None:
                 return self._replan(snapshot, "not found there")
+            self._looked_at.clear()
             self._enter(Phase.VERIFYING)
             return None
         failure = self._lookout.before(step, context)
         if failure is not None:
             return self._fail(failure, step, snapshot)
-        self._ledger.handled(step, self._stamp_s)
+        self._worked_at = next((each for each in map(snapshot.support_of, step.args) if each is not None), None)
+        self._ledger.handled(step, self._stamp_s, at=self._worked_at)
         seeking, crew = self._hunt is not None, self._crew
         make = partial(crew.look_at, step.args[0]) if seeking else partial(crew.skills.actions, step)
         actions = actions_or_refusal(lambda: make(context), context)
@@ -152,7 +156,7 @@ class Errand:
         job, step = self._job, self._progress.step
         if job is None or step is None or not job.ended:
             return None
-        self._ledger.handled(step, self._stamp_s)
+        self._ledger.handled(step, self._stamp_s, at=self._worked_at)
         self._acted_s = self._stamp_s
         if job.failure is not None:
             return self._fail(job.failure, step, snapshot)
@@ -198,6 +202,8 @@ class Errand:
         self._ledger.note(snapshot)
         open_goals = self._ledger.open(snapshot)
         if not open_goals:
+            if self._looks_at_shaken(context, snapshot):
+                return None
             mistake = self._taken_for.mistake(snapshot, at_last=True)
             if mistake is not None:
                 return self._admit(mistake, snapshot)
@@ -214,6 +220,22 @@ class Errand:
         evidence = Evidence(nodes=goal.args, revision=snapshot.revision, observation="no fresh observation confirms it")
         failure = Failure(code=FailureCode.NOT_CONFIRMED, message=unseen_sentence(goal, snapshot), evidence=evidence)
         return self._fail(self._hindrance or failure, VERIFY, snapshot)
+
+    def _looks_at_shaken(self, context: RobotContext, snapshot: Snapshot) -> bool:
+        """Look once at what was put down where the hand was again since, unless it is seen anyway: it may have been
+        pushed. Whether that still takes time.
+        """
+        shaken = self._ledger.shaken(snapshot)
+        if not shaken:
+            return False
+        if self._phase_s < self._crew.settings.confirm_s:
+            return True
+        unlooked = [node_id for node_id in shaken if node_id not in self._looked_at]
+        if not unlooked:
+            return False
+        self._looked_at.add(unlooked[0])
+        self._look_again(unlooked[0], context)
+        return True
 
     def _look_again(self, node_id: str, context: RobotContext) -> None:
         self._looked, self._after_look, self._hindrance = True, self._phase, None

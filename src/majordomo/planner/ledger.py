@@ -30,11 +30,13 @@ class Ledger:
         self._handled_s: dict[str, float] = {}
         self._reached = 0
 
-    def handled(self, step: Step, stamp_s: float) -> None:
-        """Note that a step may have changed where its arguments are; older observations of them count no more."""
+    def handled(self, step: Step, stamp_s: float, *, at: str | None = None) -> None:
+        """Note that a step may have changed where its arguments are, and what else is ``at`` the place where the hand
+        was; older observations of them count no more.
+        """
         if step.skill != "GOTO":
-            for arg in step.args:
-                self._handled_s[arg] = stamp_s
+            for name in (*step.args, *((at,) if at is not None else ())):
+                self._handled_s[name] = stamp_s
 
     @property
     def touched(self) -> bool:
@@ -51,6 +53,13 @@ class Ledger:
         if not holds_in(goal, snapshot, since_s=self._since_s):
             return False
         return goal.predicate in IMMEDIATE or self._fresh(goal, snapshot)
+
+    def shaken(self, snapshot: Snapshot) -> tuple[str, ...]:
+        """Things of goals that must last which were not seen since the hand was at what they are on or in."""
+        goals = [goal for index, goal in enumerate(self.goals) if index < self._reached and not self._passed(index)]
+        things = [node for goal in goals if isinstance(node := snapshot.get(goal.args[0]), ObjectNode)]
+        worked_s = [self._handled_s.get(snapshot.support_of(node.id) or "", self._since_s) for node in things]
+        return tuple(node.id for node, at_s in zip(things, worked_s, strict=True) if node.last_seen_s <= at_s)
 
     def open(self, snapshot: Snapshot) -> tuple[Goal, ...]:
         """Goals that are still to be confirmed: those not reached, and reached ones that must last and do not."""

@@ -43,6 +43,7 @@ BRING = "bring the blue bottle to the desk"
 ON_DESK = goal("on", "bottle_1", "desk_1")
 MEANINGS = {
     BRING: Interpretation(kind=Kind.PLAN, goals=(ON_DESK,)),
+    "bring both": Interpretation(kind=Kind.PLAN, goals=(ON_DESK, goal("on", "bottle_2", "desk_1"))),
     "tidy up": Interpretation(kind=Kind.PLAN, goals=(goal("on", "bottle_1", "shelf_1"), goal("robot_at", "room_2"))),
     "go round": Interpretation(
         kind=Kind.PLAN, goals=(goal("robot_at", "room_2"), goal("robot_at", "table_1"), goal("robot_at", "room_2"))
@@ -487,6 +488,31 @@ def test_after_a_failure_goals_that_are_over_and_done_with_are_not_done_again():
     task = show.finish("go round")
     assert task.status is TaskStatus.SUCCEEDED
     assert [step.args for step in task.plan.steps] == [("table_1",), ("room_2",)]
+
+
+@pytest.mark.parametrize("knocked_off", [True, False])
+def test_what_was_put_down_first_is_looked_at_again_when_the_hand_was_there_again(knocked_off):
+    show = Show()
+    turn_up(show)
+    look_at, see, hidden, looks = show.crew.look_at, show.stage._see, set(), []
+
+    def look(node_id, context):
+        looks.append(node_id)
+        hidden.discard(node_id)
+        return look_at(node_id, context)
+
+    show.mission = Mission(replace(show.crew, look_at=look), ScriptedInterpreter(MEANINGS))
+    show.stage._see = lambda name, snapshot, stamp_s: [] if name in hidden else see(name, snapshot, stamp_s)
+    show.ask("bring both")
+    show.run_until(lambda: show.stage.places["bottle_2"] == GRIPPER)
+    assert show.stage.places["bottle_1"] == "desk_1"
+    hidden.add("bottle_1")
+    if knocked_off:
+        show.stage.places["bottle_1"] = None
+    show.run_until(lambda: show.task.status.ended)
+    assert looks[0] == "bottle_1"
+    assert (looks == ["bottle_1"]) is not knocked_off
+    assert show.task.status is (TaskStatus.FAILED if knocked_off else TaskStatus.SUCCEEDED)
 
 
 @pytest.mark.parametrize(

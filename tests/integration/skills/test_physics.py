@@ -176,3 +176,21 @@ async def test_a_bottle_taken_away_at_the_last_moment_is_an_empty_grasp(stage, m
     await built.robot.disturb({"do": "move", "id": "bottle_1", "to": {"pose": [2.5, -2.0]}})
     failure = await built.run(actions[closing:])
     assert failure.code is FailureCode.GRASP_EMPTY
+
+
+@pytest.mark.parametrize("turn_radps", [0.1, -0.1])
+async def test_the_hand_follows_the_finger_that_touches_a_can_first_and_does_not_push_it(stage, make_house, turn_radps):
+    built = await stage(furnished(make_house, "can"))
+    assert await built.carry_out(("GOTO", "can_1")) is None
+    actions = SKILLS["PICK"].actions(built.context, ["can_1"])
+    closing = next(i for i, action in enumerate(actions) if isinstance(action, CloseGripper))
+    assert await built.run(actions[:closing]) is None
+    for _ in range(4):  # the base is not turned as exactly as it should be
+        await built.robot.drive(0.0, turn_radps)
+        built.now_s = await built.robot.advance(0.05)
+    before = (await built.robot.truth())["objects"]
+    assert await built.run(actions[closing : closing + 1]) is None
+    after = (await built.robot.truth())["objects"]
+    where = [next(each["position_m"] for each in truth if each["id"] == "can_1") for truth in (before, after)]
+    assert hypot(where[1][0] - where[0][0], where[1][1] - where[0][1]) < 0.004
+    assert await built.run(actions[closing + 1 :]) is None

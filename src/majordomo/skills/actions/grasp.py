@@ -25,6 +25,8 @@ HAND_TOLERANCE_M = 0.02
 SIDE_TOLERANCE_M = 0.015
 CLOSE_EFFORT_N, SHIFT_EFFORT_N = 15.0, 40.0
 SETTLE_S = 0.35
+FOLLOW_MPS, FOLLOW_M = 0.01, 0.03
+"""How fast, and how far at most, the hand follows a finger that touches alone."""
 CLOSE_LIMIT_S = 8.0
 GIVE_UP_S = CLOSE_LIMIT_S - 1.0
 """Fingers that have come to no rest by then hold nothing; short of the time limit, which would leave them closing."""
@@ -124,48 +126,61 @@ class CloseGripper(Action):
         super().__init__(f"close on {object_id}", context)
         self.object_id = object_id
         self._last_m, self._still_s = 0.0, 0.0
-        self._open_m, self._shifts = 0.0, False
+        self._open_m = self._moved_m = self._along_m = self._stamp_s = 0.0
+        self._follows, self._arm = True, context.body.arm
         self._standing: tuple[SE3, tuple[float, float, float]] | None = None
 
     def begin(self) -> None:
         """Remember the opening, to see when it stops changing, and pose and size while the object still stands."""
-        self.context.grip, self._shifts, self._standing = None, False, None
+        self.context.grip, self._standing, self._arm = None, None, self.context.body.arm
+        self._moved_m = self._along_m = 0.0
+        room_m = palm_room_m(self.context.snapshot, self.object_id)
+        self._follows = room_m is None or min(room_m) >= HAND_HALF_WIDTH_M + FOLLOW_M
         if self.object_id in self.context.snapshot:
             self._standing = in_base(self.context, self.object_id), self._standing_size_m()
         self._last_m = self._open_m = self.context.body.gripper_opening_m
-        self._still_s = self.context.stamp_s
+        self._still_s = self._stamp_s = self.context.stamp_s
 
     def step(self) -> Status:
         """Close, wait until the fingers stand still, and judge; what is not held firmly is let go, or it would come
         along when the arm is drawn back.
         """
         body = self.context.body
-        self.context.commands.grip = (0.0, self._effort_n())
-        self.context.commands.drive = (0.0, 0.0)
+        self.context.commands.grip, self.context.commands.drive = (0.0, CLOSE_EFFORT_N), (0.0, 0.0)
         if abs(body.gripper_opening_m - self._last_m) > 0.001:
             self._last_m, self._still_s = body.gripper_opening_m, self.context.stamp_s
         late = self.elapsed_s > GIVE_UP_S
         if not late and (self.context.stamp_s - self._still_s < SETTLE_S or self.elapsed_s < 2 * SETTLE_S):
-            return Status.RUNNING
+            return self._go_on()
         if is_firm(body):
             self._hold()
             return Status.SUCCESS
         waited_s = self.context.stamp_s - self._still_s
         if not late and body.gripper_opening_m > EMPTY_OPENING_M and waited_s < 3 * SETTLE_S:
-            return Status.RUNNING
+            return self._go_on()
         self.context.commands.grip = (self._open_m, CLOSE_EFFORT_N)
         seen = f"opening {1000 * body.gripper_opening_m:.0f} mm, contacts {body.finger_contacts}"
         message = f"the fingers closed without holding {self.object_id}."
         return self.fail(FailureCode.GRASP_EMPTY, message, (self.object_id,), seen)
 
-    def _effort_n(self) -> float:
-        """More force once one finger alone touches and does not get on: the object must be shifted between them, and
-        stands or tilts back as soon as the force is taken away.
+    def _go_on(self) -> Status:
+        """Close further. Towards a finger that alone touches, the hand is moved until the other one does too: pushed at
+        from one side, what is high and narrow tilts under the finger and is stuck. Across the arm's plane the base
+        turns, along it the arm is stretched or drawn in. Where there is no room for that, it is pushed with more force.
         """
-        left, right = self.context.body.finger_contacts
-        stuck = self.context.stamp_s - self._still_s > SETTLE_S
-        self._shifts |= stuck and left != right
-        return SHIFT_EFFORT_N if self._shifts else CLOSE_EFFORT_N
+        body, commands = self.context.body, self.context.commands
+        left, right = body.finger_contacts
+        step_m, self._stamp_s = FOLLOW_MPS * (self.context.stamp_s - self._stamp_s), self.context.stamp_s
+        if left == right:
+            return Status.RUNNING
+        if not self._follows or self._moved_m >= FOLLOW_M:
+            commands.grip = (0.0, SHIFT_EFFORT_N)
+            return Status.RUNNING
+        x, y, _ = body.T_base_gripper.rotation()[:, 1] * (1.0 if left else -1.0)
+        self._moved_m, self._along_m = self._moved_m + step_m, self._along_m + step_m * float(x)
+        commands.drive = (0.0, FOLLOW_MPS * float(y) / max(body.T_base_gripper.x_m, FOLLOW_M))
+        commands.arm = replace(self._arm, extension_m=self._arm.extension_m + self._along_m)
+        return Status.RUNNING
 
     def _hold(self) -> None:
         """Remember where the object sits in the hand; the fingers have centered it along their closing direction."""

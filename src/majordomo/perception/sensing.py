@@ -25,6 +25,8 @@ logger = logging.getLogger(__name__)
 Measurement = TypeVar("Measurement")
 _EXTRAPOLATION_LIMIT_S = 0.5
 SENSING_PERIOD_S = 0.1
+JOINTS_KEPT = 50
+"""Newest measurements of the joints: some seconds, as a frame may be as late."""
 
 
 def ray_directions_base(scan: LidarScan) -> NDArray[np.float64]:
@@ -74,7 +76,7 @@ class SensorBuffer:
 
     Attributes:
         odometry: recent odometry, oldest first.
-        scan, frame, joints: newest of each, ``None`` until the first arrives. frame_before: the one before ``frame``.
+        scan, frame: newest of each, ``None`` until the first arrives. frame_before: the one before ``frame``.
         scans, frames: how many LiDAR revolutions and camera frames arrived so far.
         silent: sensor name -> time in seconds since which it has been silent.
     """
@@ -87,7 +89,7 @@ class SensorBuffer:
         self.frame: RgbdFrame | None = None
         self.frame_before: RgbdFrame | None = None
         self.frames = 0
-        self.joints: JointState | None = None
+        self._joints: deque[JointState] = deque(maxlen=JOINTS_KEPT)
         self.silent: dict[str, float] = {}
 
     def add_odometry(self, sample: Odometry) -> None:
@@ -106,6 +108,19 @@ class SensorBuffer:
             self.frames += 1
             self.frame_before = self.frame
         self.frame = frame
+
+    def add_joints(self, joints: JointState) -> None:
+        """Take in a measurement of the joints."""
+        self._joints.append(joints)
+
+    @property
+    def joints(self) -> JointState | None:
+        """The newest measurement, ``None`` until the first arrives."""
+        return self._joints[-1] if self._joints else None
+
+    def joints_at(self, stamp_s: float) -> JointState | None:
+        """The measurement that was taken nearest to ``stamp_s``, if there is any."""
+        return min(self._joints, key=lambda joints: abs(joints.stamp_s - stamp_s), default=None)
 
     def frame_after(self, stamp_s: float) -> RgbdFrame | None:
         """Of the newest two frames the older that is newer than ``stamp_s``, if any: who is late by one misses none."""
@@ -187,7 +202,9 @@ class Sensing:
         scan = await _fetched("scan", port.scan, buffer, stamp_s)
         if scan is not None:
             buffer.add_scan(scan)
-        buffer.joints = await _fetched("joints", port.joints, buffer, stamp_s) or buffer.joints
+        joints = await _fetched("joints", port.joints, buffer, stamp_s)
+        if joints is not None:
+            buffer.add_joints(joints)
 
 
 class Filming:

@@ -43,6 +43,12 @@ def test_open_fingers_are_the_robot_and_what_lies_between_them_is_not(opening_m)
     assert body.covers(between).tolist() == [opening_m < 0.03, False, False]
 
 
+def test_the_palm_is_the_robot_to_its_ends():
+    ends = [(-0.1 + x_m, side * 0.08, z_m) for x_m in (-0.02, 0.02) for side in (-1, 1) for z_m in (-0.02, 0.02)]
+    assert OwnBody(joints(0.07)).covers(DOWN.apply(np.array(ends))).all()
+    assert not OwnBody(joints(0.07)).covers(DOWN.apply(np.array(((-0.1, 0.11, 0.0),)))).any()
+
+
 def test_around_what_is_held_all_is_the_hand_and_what_it_holds():
     body = OwnBody(joints(0.07), held_m=(0.07, 0.07, 0.2))
     assert body.covers(DOWN.apply(np.array(((0.015, 0.0, 0.0), (0.05, 0.03, 0.0))))).all()

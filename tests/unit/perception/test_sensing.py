@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from majordomo.perception.errors import OdometryUnavailable, SensorSilent
 from majordomo.perception.localization.planar import Pose2
-from majordomo.perception.ports import Intrinsics, Odometry, RgbdFrame
+from majordomo.perception.ports import Intrinsics, JointState, Odometry, RgbdFrame
 from majordomo.perception.sensing import Filming, Sensing, SensorBuffer, scan_points_base
 from majordomo.scene_graph.se3 import SE3
 from unit.perception.exploring_robot import HousePort
@@ -144,3 +144,18 @@ def test_a_measurement_that_comes_twice_counts_once() -> None:
         buffer.add_frame(gray_frame(stamp_s))
         buffer.add_scan(cast(ROOM, Pose2(1.0, 1.0, 0.0), np.random.default_rng(0), stamp_s=stamp_s))
     assert (buffer.frames, buffer.scans) == (3, 3)
+
+
+def test_the_joints_of_a_frame_are_those_measured_nearest_to_it_and_not_the_newest() -> None:
+    buffer = SensorBuffer(port())
+    assert buffer.joints_at(1.0) is None
+    for stamp_s in (0.9, 1.0, 1.1, 1.4):
+        buffer.add_joints(
+            JointState(
+                stamp_s=stamp_s, lift_m=stamp_s, extension_m=0.0, wrist_pitch_rad=0.0, wrist_roll_rad=0.0,
+                gripper_opening_m=0.1, pan_rad=0.0, tilt_rad=0.0, finger_contacts=(False, False),
+                T_base_gripper=SE3.identity(),
+            )
+        )  # fmt: skip
+    assert [buffer.joints_at(stamp_s).lift_m for stamp_s in (0.0, 1.04, 1.2, 9.0)] == [0.9, 1.0, 1.1, 1.4]
+    assert buffer.joints.lift_m == 1.4

@@ -35,7 +35,7 @@ from majordomo.perception.objects.sight import Sight
 from majordomo.perception.objects.tracker import Tracker, TrackerSettings
 from majordomo.perception.objects.viewpoint import turning_radps, view_of
 from majordomo.perception.panoptic import PanopticModel, PanopticScene
-from majordomo.perception.ports import RgbdFrame
+from majordomo.perception.ports import JointState, RgbdFrame
 from majordomo.perception.sensing import SensorBuffer
 from majordomo.perception.vocabulary import category_of
 from majordomo.scene_graph.edges import EdgeKey
@@ -178,13 +178,13 @@ class ObjectMemory:
     ) -> None:
         """Everything that takes time; runs in a worker thread while nobody else touches the tracks."""
         surroundings = Surroundings(snapshot, view.room)
-        joints = self._buffer.joints
+        joints = self._buffer.joints_at(frame.stamp_s)
         held_m = self._hand.held.track.box.size_m if self._hand.held is not None else None
         body = OwnBody(joints, held_m=held_m) if joints is not None else None
         things, persons = detections_of(
             scene, frame.rgb, view, self._settings.detection, body, surroundings.of_building
         )
-        self._held_in = frozenset(thing.index for thing in things if self._in_hand(thing, view))
+        self._held_in = frozenset(thing.index for thing in things if self._in_hand(thing, view, joints))
         turning = turning_radps(self._buffer)
         persons = [each for each in persons if not is_of_furniture(each, self._tracker.tracks, surroundings)]
         self._people.update(persons, view, surroundings)
@@ -215,11 +215,11 @@ class ObjectMemory:
             seen |= dict.fromkeys(self._held_in, self._hand.held.track.node_id)
         return {index: node_id for index, node_id in seen.items() if node_id is not None}
 
-    def _in_hand(self, thing: Detection, view: View) -> bool:
-        """Whether a detection is what the gripper holds."""
-        if self._hand.held is None:
+    def _in_hand(self, thing: Detection, view: View, joints: JointState | None) -> bool:
+        """Whether a detection is what the gripper holds; ``joints``: as they were then."""
+        if self._hand.held is None or joints is None:
             return False
-        in_room = (view.T_room_base @ self._hand.T_robot_object(self._hand.held)).translation_m
+        in_room = (view.T_room_base @ joints.T_base_gripper @ self._hand.held.T_gripper_object).translation_m
         near = np.linalg.norm(thing.cloud.points - in_room, axis=1) < self._settings.in_hand_m
         return float(near.mean()) > 0.5
 

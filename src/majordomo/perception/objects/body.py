@@ -17,7 +17,8 @@ HELD_MARGIN_M = 0.05
 class BodyGeometry:
     """Radii around the arm and hand, and of the base, in meters. ``fingers_m``: the free end of the hand, where
     things are held. ``finger_m``: length, thickness and width of a finger; ``pad_m``: how far it reaches beyond the
-    middle of its pad. ``margin_m``: by how much a finger may seem thicker.
+    middle of its pad. ``palm_m``: length, breadth and height of the palm, ``behind_m``: how far behind the pads its
+    middle is. ``margin_m``: by how much finger and palm may seem thicker.
     """
 
     base_radius_m: float = 0.25
@@ -26,11 +27,13 @@ class BodyGeometry:
     fingers_m: float = 0.05
     finger_m: tuple[float, float, float] = (0.10, 0.012, 0.03)
     pad_m: float = 0.02
+    palm_m: tuple[float, float, float] = (0.04, 0.16, 0.04)
+    behind_m: float = 0.10
     margin_m: float = 0.015
 
 
 class OwnBody:
-    """The volume of base, telescope, hand and empty fingers for one joint state, in the base frame."""
+    """The volume of base, telescope, palm and empty fingers for one joint state, in the base frame."""
 
     def __init__(
         self,
@@ -55,6 +58,7 @@ class OwnBody:
     def covers(self, points_base: Array) -> NDArray[np.bool_]:
         """Which of the points (N, 3) belong to the robot."""
         inside = np.hypot(points_base[:, 0], points_base[:, 1]) < self._geometry.base_radius_m
+        inside |= self._of_palm(points_base)
         for start, end in self._segments:
             inside |= _distance(points_base, start, end) < self._geometry.arm_radius_m
         if self._held_m is not None:
@@ -64,6 +68,12 @@ class OwnBody:
         else:
             inside |= self._of_fingers(points_base)
         return np.asarray(inside)
+
+    def _of_palm(self, points_base: Array) -> NDArray[np.bool_]:
+        """Which of the points (N, 3) are of the palm, which is broader than the arm."""
+        center, half = (-self._geometry.behind_m, 0.0, 0.0), np.array(self._geometry.palm_m) / 2.0
+        away = np.abs(self._T_gripper_base.apply(points_base) - center)
+        return np.asarray((away < half + self._geometry.margin_m).all(axis=1))
 
     def _of_fingers(self, points_base: Array) -> NDArray[np.bool_]:
         """Which of the points (N, 3) are of a finger; what lies between open fingers is of something else."""

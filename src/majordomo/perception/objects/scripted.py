@@ -87,7 +87,8 @@ class ScriptedRoom:
                 stamp_s=stamp_s, x_m=base.x_m, y_m=base.y_m, yaw_rad=base.yaw_rad, linear_mps=0.0, angular_radps=0.0
             )
         )
-        buffer.joints = replace(self.joints, stamp_s=stamp_s) if self.joints is not None else None
+        if self.joints is not None:
+            buffer.add_joints(replace(self.joints, stamp_s=stamp_s))
         if not self.silent:
             buffer.frame = self.frame(stamp_s)
 

@@ -274,6 +274,9 @@ class Errand:
         else:
             self._wait_s = recovery.wait_s
             self._enter(Phase.WAITING)
+            context = self._crew.executor.context
+            if recovery.looks and context is not None and step.args and step.args[-1] in snapshot:
+                self._look_again(step.args[-1], context)
         return None
 
     def _replan(self, snapshot: Snapshot, why: str) -> Ending | None:

@@ -14,6 +14,7 @@ from majordomo.skills.failures import FailureCode
 class Recovery:
     """After ``wait_s`` seconds of standing still a new plan is made from the graph as it is then.
 
+    ``looks``: whether the robot first looks at what it did not get to: what was in the way may long be gone.
     ``times``: how often this code may happen to the same step before the task fails. ``suggestion``: what the robot
     tries next, said to a person; ``{thing}`` stands for what the failure is about.
     """
@@ -21,6 +22,7 @@ class Recovery:
     suggestion: str
     times: int = 3
     wait_s: float = 0.0
+    looks: bool = False
 
 
 RECOVERIES: Mapping[FailureCode, Recovery] = MappingProxyType(
@@ -30,7 +32,7 @@ RECOVERIES: Mapping[FailureCode, Recovery] = MappingProxyType(
         FailureCode.GRASP_EMPTY: Recovery(suggestion="I will look again and try to grasp {thing} another way."),
         FailureCode.SLIPPED: Recovery(suggestion="I will look for {thing} and pick it up again."),
         FailureCode.DROPPED: Recovery(suggestion="I will pick {thing} up again."),
-        FailureCode.SUPPORT_FULL: Recovery(suggestion="I will look for a free spot once more.", times=2),
+        FailureCode.SUPPORT_FULL: Recovery(suggestion="I will look for a free spot once more.", times=2, looks=True),
         FailureCode.SUPPORT_GONE: Recovery(suggestion="I will look for {thing}.", times=2),
         FailureCode.WAY_BLOCKED: Recovery(suggestion="I will wait a moment and look for another way.", wait_s=3.0),
         FailureCode.DOOR_CLOSED: Recovery(suggestion="I will look for another way.", wait_s=1.0),
@@ -40,7 +42,7 @@ RECOVERIES: Mapping[FailureCode, Recovery] = MappingProxyType(
         FailureCode.SENSOR_SILENT: Recovery(suggestion="I will wait for the sensor.", wait_s=5.0),
         FailureCode.BODY_SILENT: Recovery(suggestion="I will wait for my body to answer.", wait_s=5.0),
         FailureCode.TIMEOUT: Recovery(suggestion="I will try once more.", times=2),
-        FailureCode.UNREACHABLE: Recovery(suggestion="I will try from another side.", times=2),
+        FailureCode.UNREACHABLE: Recovery(suggestion="I will try from another side.", times=2, looks=True),
         FailureCode.NOT_CONFIRMED: Recovery(suggestion="I will look again and make a new plan."),
     }
 )

@@ -490,6 +490,28 @@ def test_after_a_failure_goals_that_are_over_and_done_with_are_not_done_again():
     assert [step.args for step in task.plan.steps] == [("table_1",), ("room_2",)]
 
 
+@pytest.mark.parametrize(
+    ("skill", "code", "looked_at"),
+    [
+        ("PLACE", FailureCode.SUPPORT_FULL, ["desk_1"]),
+        ("PICK", FailureCode.UNREACHABLE, ["bottle_1"]),
+        ("PICK", FailureCode.GRASP_EMPTY, []),
+    ],
+)
+def test_what_was_in_the_way_is_looked_at_once_more_before_the_next_go(skill, code, looked_at):
+    show = Show(Script(outcomes={skill: [code]}))
+    look_at, looks = show.crew.look_at, []
+
+    def look(node_id, context):
+        looks.append(node_id)
+        return look_at(node_id, context)
+
+    show.mission = Mission(replace(show.crew, look_at=look), ScriptedInterpreter(MEANINGS))
+    assert show.finish().status is TaskStatus.SUCCEEDED
+    assert show.codes == [code]
+    assert looks == looked_at
+
+
 @pytest.mark.parametrize("knocked_off", [True, False])
 def test_what_was_put_down_first_is_looked_at_again_when_the_hand_was_there_again(knocked_off):
     show = Show()

@@ -288,6 +288,15 @@ def test_the_case_around_a_screen_is_an_accent():
     assert colors_of(rgb, mask)[1] == {"black"}
 
 
+def test_an_orange_that_lies_against_an_orange_case_does_not_hide_what_color_the_case_is():
+    rgb, mask = phone_on_table(case=(240, 130, 20), table=(245, 245, 245))
+    rgb[40:80, 80:] = (240, 130, 20)
+    assert colors_of(rgb, mask)[1] == {"orange"}
+    rgb, mask = phone_on_table(case=(20, 50, 200), table=(245, 245, 245))
+    rgb[28:80, 77:] = (240, 130, 20)  # the mask reaches onto it
+    assert colors_of(rgb, mask)[1] == frozenset()
+
+
 def test_what_shines_in_from_around_is_no_accent():
     rgb, mask = phone_on_table(case=(20, 50, 200), table=(200, 20, 20))
     loose = np.zeros_like(mask)

@@ -20,6 +20,9 @@ _MAXIMUM_PIXELS = 400
 _ACCENT_PIXELS, _ACCENT_SHARE = 60, 0.04
 _AROUND_SHARE = 0.1
 _RING_PX = 3
+_RING = np.ones((2 * _RING_PX + 1, 2 * _RING_PX + 1), np.uint8)
+_APART = np.ones((13, 13), np.uint8)
+"""Farther than half of that from where a color is outside, it does not shine in."""
 
 Image = NDArray[np.uint8]
 Mask = NDArray[np.bool_]
@@ -31,8 +34,8 @@ def colors_of(rgb: Image, mask: Mask) -> tuple[dict[str, float], frozenset[str] 
     """Share of each palette color among the pixels of ``mask``, empty where there are too few; and its accents.
 
     Accents are what colors a part of the thing has that is not of its main color: the case around a phone's screen, a
-    tag; ``None`` where it is too small in the picture to tell. A color that is all around the thing is none of them:
-    it may shine in where the mask is not exact.
+    tag; ``None`` where it is too small in the picture to tell. A color that shows only close to where it is outside as
+    well is none of them: it may shine in where the mask is not exact.
 
     Args:
         rgb: (H, W, 3) image.
@@ -51,7 +54,8 @@ def colors_of(rgb: Image, mask: Mask) -> tuple[dict[str, float], frozenset[str] 
         return shares, frozenset()
     around = _shares(_names(_surroundings(rgb, mask)))
     parts = {name for name, share in _shares(_names(rest)).items() if share * len(rest) >= least}
-    return shares, frozenset(name for name in parts - {main} if around.get(name, 0.0) < _AROUND_SHARE)
+    inner = {name for name in parts - {main} if around.get(name, 0.0) < _AROUND_SHARE}
+    return shares, frozenset(inner | {n for n in parts - inner - {main} if _share_apart(rgb, mask, n) >= _ACCENT_SHARE})
 
 
 def named_color(red: float, green: float, blue: float) -> str:
@@ -67,22 +71,39 @@ def _core(rgb: Image, mask: Mask) -> Pixels:
         return _NO_PIXELS
     rows, columns = slice(y, y + height), slice(x, x + width)
     inside = np.ascontiguousarray(mask[rows, columns]).view(np.uint8)
-    core = cv2.erode(inside, np.ones((3, 3), np.uint8), borderType=cv2.BORDER_CONSTANT, borderValue=0) > 0
+    core = _without_rim(inside)
     if np.count_nonzero(core) < _MINIMUM_PIXELS:
         core = inside > 0
     pixels = rgb[rows, columns][core]
     return pixels[:: -(-len(pixels) // _MAXIMUM_PIXELS)] if len(pixels) >= _MINIMUM_PIXELS else _NO_PIXELS
 
 
-def _surroundings(rgb: Image, mask: Mask) -> Pixels:
-    """Pixels close around the mask, (N, 3)."""
+def _without_rim(inside: NDArray[np.uint8]) -> Mask:
+    return cv2.erode(inside, np.ones((3, 3), np.uint8), borderType=cv2.BORDER_CONSTANT, borderValue=0) > 0
+
+
+def _with_ring(mask: Mask) -> tuple[slice, slice]:
+    """Rows and columns of the mask and of what is close around it."""
     x, y, width, height = cv2.boundingRect(mask.astype(np.uint8))
     rows = slice(max(y - _RING_PX, 0), y + height + _RING_PX)
-    columns = slice(max(x - _RING_PX, 0), x + width + _RING_PX)
-    inside = np.ascontiguousarray(mask[rows, columns]).view(np.uint8)
-    side = 2 * _RING_PX + 1
-    near = cv2.dilate(inside, np.ones((side, side), np.uint8)) > inside
-    return rgb[rows, columns][near]
+    return rows, slice(max(x - _RING_PX, 0), x + width + _RING_PX)
+
+
+def _surroundings(rgb: Image, mask: Mask) -> Pixels:
+    """Pixels close around the mask, (N, 3)."""
+    crop = _with_ring(mask)
+    inside = np.ascontiguousarray(mask[crop]).view(np.uint8)
+    return rgb[crop][cv2.dilate(inside, _RING) > inside]
+
+
+def _share_apart(rgb: Image, mask: Mask, name: str) -> float:
+    """Share of the mask without its rim that has a color, and is not close to where that color is outside."""
+    crop = _with_ring(mask)
+    inside, pixels = mask[crop], rgb[crop]
+    named = (_names(pixels.reshape(-1, 3)) == name).reshape(inside.shape)
+    near = cv2.dilate((named & ~inside).astype(np.uint8), _APART) > 0
+    core = _without_rim(np.ascontiguousarray(inside).view(np.uint8))
+    return float((named & core & ~near).sum() / max(core.sum(), 1))
 
 
 def _shares(names: NDArray[np.str_]) -> dict[str, float]:

@@ -24,8 +24,8 @@ _NEAR_M = 1.4
 _CRATE_M = (0.5, 0.5, 0.5)
 _LEAST_DRIVE_M = 1.2
 """Doors closer to the robot are not shut in its face, nor is anything put there: it may be within them."""
-_FROM_PEOPLE_M = 0.55
-"""The robot is not set down on anybody's feet."""
+_FROM_PEOPLE_M, _FROM_THINGS_M = 0.55, 0.45
+"""The robot is not set down on anybody's feet, nor on what lies on the floor."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -227,9 +227,11 @@ def _carry_off(moment: Moment) -> list[list[Event]]:
 
 
 def _is_taken(moment: Moment, spot: tuple[float, float]) -> bool:
-    """Whether somebody stands there."""
-    people = [entry["position_m"][:2] for entry in moment.scene.truth["people"]]
-    return any(math.dist(at, spot) < _FROM_PEOPLE_M for at in people)
+    """Whether somebody stands there, or something lies there now, as what the robot has just put on the floor."""
+    truth, held = moment.scene.truth, moment.scene.holding
+    lying = [each for each in truth["objects"] if not (each["on"] or each["in"]) and each["id"] != held]
+    taken = [(each, _FROM_PEOPLE_M) for each in truth["people"]] + [(each, _FROM_THINGS_M) for each in lying]
+    return any(math.dist(each["position_m"][:2], spot) < away_m for each, away_m in taken)
 
 
 def _onto_furniture(moment: Moment) -> bool:

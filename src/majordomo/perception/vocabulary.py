@@ -5,6 +5,7 @@ Names come from whatever network is plugged in, so an unknown name is normal: it
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -114,6 +115,13 @@ def spans_its_kind(label: str, size_m: Point3) -> bool:
     usual_m, seen_m = sorted(category.size_m[:2]), sorted(size_m[:2])
     fits = all(abs(seen - usual) < _SIDE_SHARE * usual for seen, usual in zip(seen_m, usual_m, strict=True))
     return fits and category.furniture and is_of_one_size(label)
+
+
+def may_grow_m(label: str, size_m: Point3) -> float:
+    """How much longer than it seems a thing may still be whose kind comes in one size; infinite for other kinds."""
+    if not is_of_one_size(label):
+        return math.inf
+    return max((1.0 + _SIDE_SHARE) * max(category_of(label).size_m[:2]) - max(size_m[:2]), 0.0)
 
 
 def has_back(label: str) -> bool:

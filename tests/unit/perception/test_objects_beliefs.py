@@ -919,6 +919,18 @@ def look_at_counter(belief, points, frames, **more):
     return belief.box.size_m[2]
 
 
+@pytest.mark.parametrize("called", ["stove", "counter"])
+@pytest.mark.parametrize("long_m", [0.66, 0.75])
+def test_a_stove_in_a_row_of_counters_stays_a_stove_however_long_one_mask_shows_both(long_m, called):
+    stove = seen("stove", (long_m, 0.6, 0.9), 1)
+    stove.hits = 100
+    row = _filled((-0.33, 1.5), (-0.3, 0.3), (0.0, 0.9), step_m=0.03)
+    for _ in range(300):
+        own = stove._own(row, called, [])
+        stove.place.observe(own, np.eye(3) * 1e-6, category_of("stove"), CAMERA, top_shown=True)
+    assert max(stove.box.size_m[:2]) < 0.85
+
+
 def test_what_is_put_on_a_counter_does_not_make_it_higher():
     belief = SurfaceBelief()
     assert look_at_counter(belief, COUNTER, 60) == pytest.approx(0.89, abs=0.04)

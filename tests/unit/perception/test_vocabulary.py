@@ -12,6 +12,7 @@ from majordomo.perception.vocabulary import (
     is_graspable,
     is_person,
     is_too_large,
+    may_grow_m,
     spans_its_kind,
 )
 
@@ -94,6 +95,12 @@ def test_persons_and_background_are_no_objects():
     assert is_person("person")
     assert not is_person("teddy bear")
     assert category_of("wall-other-merged").background
+
+
+@pytest.mark.parametrize(("long_m", "spare_m"), [(0.5, 0.22), (0.7, 0.02), (1.4, 0.0)])
+def test_a_stove_grows_to_the_size_of_a_stove_and_a_counter_to_any(long_m, spare_m):
+    assert may_grow_m("stove", (long_m, 0.4, 0.9)) == pytest.approx(spare_m)
+    assert may_grow_m("counter", (long_m, 0.4, 0.9)) == float("inf")
 
 
 def test_only_what_comes_in_one_size_shows_by_its_size_that_no_part_is_missing():

@@ -92,6 +92,14 @@ def seen_as_one(detection: Detection, tracks: Sequence[Track], sight: Sight) -> 
     return [t for t, some in zip(known, within, strict=True) if some.any()] if _share_out(np.array(within)) else []
 
 
+def lies_within(track: Track, known: Sequence[Track]) -> bool:
+    """Whether the middle of a small thing is where another is that is known."""
+    if track.is_furniture:
+        return False
+    others = [t for t in known if t is not track and t.room == track.room and _is_known_by_name(t)]
+    return any(bool(other.box.contains(track.position[None], _PART_EDGE_M)[0]) for other in others)
+
+
 def is_bit(detection: Detection, tracks: Sequence[Track], sight: Sight) -> bool:
     """Whether what nobody can name for sure is a bit of a small thing that is known, the rest of which is hidden: an
     end of a book that lies behind a cup. What is as large as the thing may have taken its place.

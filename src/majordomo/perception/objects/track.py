@@ -21,7 +21,14 @@ from majordomo.perception.objects.levels import LevelMemory
 from majordomo.perception.objects.projection import View
 from majordomo.perception.objects.shape import measure_shape, point_covariance
 from majordomo.perception.objects.surface import Box, SurfaceBelief
-from majordomo.perception.vocabulary import Category, category_of, has_back, is_of_one_size, spans_its_kind
+from majordomo.perception.vocabulary import (
+    Category,
+    category_of,
+    has_back,
+    is_of_one_size,
+    may_grow_m,
+    spans_its_kind,
+)
 from majordomo.scene_graph.nodes import ObjectNode, ObjectState
 from majordomo.scene_graph.se3 import SE3
 
@@ -196,8 +203,10 @@ class Track:
         own = np.ones(len(points), dtype=bool)
         for box in others:
             own &= ~box.contains(points, _AT_OTHER_M)
-        if self.stands_by_itself and (called != self.label.best or spans_its_kind(called, self.box.size_m)):
-            own &= self.box.contains(points, _BEYOND_M)
+        spare_m = may_grow_m(self.label.best, self.box.size_m)
+        whole = spare_m <= 0.0 or spans_its_kind(called, self.box.size_m)
+        if self.stands_by_itself and (called != self.label.best or whole):
+            own &= self.box.contains(points, min(spare_m / 2.0, _BEYOND_M))
         return points[own] if own.any() or len(self.surface_points) else points
 
     @property

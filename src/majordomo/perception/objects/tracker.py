@@ -42,6 +42,7 @@ from majordomo.perception.objects.pieces import (
     is_part,
     is_piece,
     is_under_arm,
+    lies_within,
     seen_as_one,
 )
 from majordomo.perception.objects.sight import Sight
@@ -63,6 +64,7 @@ class TrackerSettings:
     remains doubtful, of a small thing from ``confirm_places`` different places, or from ``nameless_places`` if it has
     no name: from one place, a part of a thing or of the clutter may look like anything for long.
 
+    ``beyond_doubt``: what is seen where another thing is must be as sure as that, and seen from as many places.
     ``patience_hits``: how many sightings to wait for a look-alike that is just being missed, or until it is clear
     whether what lies in a row of furniture is a piece of its own. ``doubtful_life_s``: how long what was seen often
     enough waits to be seen from another place; ``homeless_life_s``: how long a thing seen through a door waits for its
@@ -76,6 +78,7 @@ class TrackerSettings:
     track: TrackSettings = field(default_factory=TrackSettings)
     confirm_hits: int = 3
     confirm_label: float = 0.6
+    beyond_doubt: float = 0.9
     patience_hits: int = 15
     confirm_places: int = 2
     nameless_places: int = 3
@@ -300,6 +303,8 @@ class Tracker:
                 looked_before=sight.looked_before,
                 settings=identity,
             )
+            if same is None and lies_within(track, known) and not self._is_beyond_doubt(track):
+                continue
             doubtful = undecided(track, known, identity) if same is None else may_prove_built_in(track, same)
             if doubtful and track.hits < self._settings.patience_hits:
                 continue
@@ -328,6 +333,11 @@ class Tracker:
             return track.hits >= (settings.confirm_hits if sure else 2 * settings.confirm_hits)
         places = settings.nameless_places if has_no_name(track) else settings.confirm_places
         return self._is_doubtful(track) and len(track.seen_from) >= places
+
+    def _is_beyond_doubt(self, track: Track) -> bool:
+        """Whether it is known for sure, from more than one place: two cannot be in one place, but one on the other."""
+        settings = self._settings
+        return track.label.confidence >= settings.beyond_doubt and len(track.seen_from) >= settings.confirm_places
 
     def _is_doubtful(self, track: Track) -> bool:
         """Whether it was seen often enough to wait for sights from other places."""

@@ -24,8 +24,8 @@ _PART_EDGE_M = 0.02
 """So near to a small thing lies the middle of what is a part of it: of its upper side, depth shows a little more."""
 _NAMED = 0.6
 """From such a share on, the name that the network gives a detection counts."""
-_BIT_SHARE = 0.5
-"""Of the space that a thing takes: a bit of it takes less."""
+_BIT_SHARE = 0.6
+"""Of the length of a thing: a bit of it is shorter."""
 _ROW_EDGE_M = 0.1
 """The same where it is not yet known well how far the pieces of a row reach."""
 
@@ -102,15 +102,15 @@ def lies_within(track: Track, known: Sequence[Track]) -> bool:
 
 def is_bit(detection: Detection, tracks: Sequence[Track], sight: Sight) -> bool:
     """Whether what nobody can name for sure is a bit of a small thing that is known, the rest of which is hidden: an
-    end of a book that lies behind a cup. What is as large as the thing may have taken its place.
+    end of a book that lies behind a cup. What is as long as the thing may be the whole of it, or have taken its place.
     """
     if detection.label != UNKNOWN_LABEL and dict(detection.distribution).get(detection.label, 0.0) >= _NAMED:
         return False
-    space_m3 = float(np.prod(detection.shape.size_m))
+    long_m = max(detection.shape.size_m)
     return any(
         float(_within(detection, track, sight).mean()) > _MOST
         for track in tracks
-        if _is_known_by_name(track) and space_m3 < _BIT_SHARE * float(np.prod(track.box.size_m))
+        if _is_known_by_name(track) and long_m < _BIT_SHARE * max(track.box.size_m)
     )
 
 
@@ -169,9 +169,11 @@ def is_under_arm(center: NDArray[np.float64], sight: Sight, settings: PieceSetti
 
 
 def _is_known_by_name(track: Track) -> bool:
-    """Whether it is a small thing with a node and a name, and no other thing can be where it is."""
+    """Whether it is a small thing with a node and a name, and no other thing can be where it is; what the hand has just
+    put down is not known to be there before it is seen.
+    """
     known = track.node_id is not None and track.state is ObjectState.PRESENT and not has_no_name(track)
-    return known and not (track.is_furniture or track.category.container)
+    return known and not track.awaited and not (track.is_furniture or track.category.container)
 
 
 def _within(detection: Detection, track: Track, sight: Sight) -> NDArray[np.bool_]:

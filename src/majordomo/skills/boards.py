@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from math import copysign, cos, inf, pi, sin, tan
+from math import copysign, inf, pi, sin, tan
 
 import numpy as np
 from numpy.typing import NDArray
@@ -191,19 +191,19 @@ def palm_room_m(snapshot: Snapshot, object_id: str) -> tuple[float, float] | Non
         beside = other.id != object_id and snapshot.support_of(other.id) == support_id
         if not beside or other.state is not ObjectState.PRESENT or board_under(snapshot, other.id) != board:
             continue
-        along_m, deep_m = _half_extents(snapshot, support_id, other, long)
-        away = snapshot.position(other.id, support_id) - point
-        if side * float(away[short]) + deep_m > PALM_BEFORE_M:
-            rooms[int(away[long] > 0.0)] = min(rooms[int(away[long] > 0.0)], abs(float(away[long])) - along_m)
+        middle, half = extent_on(snapshot, support_id, other)
+        away, beyond = middle - point[:2], int(middle[long] > point[long])
+        if side * float(away[short]) + half[short] > PALM_BEFORE_M:
+            rooms[beyond] = min(rooms[beyond], float(abs(away[long]) - half[long]))
     return max(rooms[0], 0.0), max(rooms[1], 0.0)
 
 
-def _half_extents(snapshot: Snapshot, support_id: str, node: ObjectNode, long: int) -> tuple[float, float]:
-    """Half of what a thing takes along the long axis of what it stands on, and across."""
-    yaw_rad = snapshot.transform(support_id, node.id).yaw_rad
-    x_m, y_m = (abs(cos(yaw_rad)), abs(sin(yaw_rad))) if long == 0 else (abs(sin(yaw_rad)), abs(cos(yaw_rad)))
-    along_m = (x_m * node.size_m[0] + y_m * node.size_m[1]) / 2
-    return along_m, (y_m * node.size_m[0] + x_m * node.size_m[1]) / 2
+def extent_on(snapshot: Snapshot, support_id: str, node: ObjectNode) -> tuple[Points, Points]:
+    """Middle (2,) and half extents (2,) of a thing along the axes of what carries it."""
+    T_support_node = snapshot.transform(support_id, node.id)
+    c, s = abs(np.cos(T_support_node.yaw_rad)), abs(np.sin(T_support_node.yaw_rad))
+    half = np.array([[c, s], [s, c]]) @ np.array(node.size_m[:2]) / 2
+    return np.asarray(T_support_node.translation_m[:2]), half
 
 
 def is_among_boards(snapshot: Snapshot, frame: str, point: Points) -> bool:

@@ -14,7 +14,7 @@ from majordomo.scene_graph.identifiers import natural_key
 from majordomo.scene_graph.nodes import ObjectNode, ObjectState
 from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.skills.anchor import Anchor
-from majordomo.skills.boards import ASIDE_M, BOTH_SIDES, Board, axes, board_at, boards_of, open_sides
+from majordomo.skills.boards import ASIDE_M, BOTH_SIDES, Board, axes, board_at, boards_of, extent_on, open_sides
 from majordomo.skills.containers import is_open_container
 from majordomo.skills.geometry import Points
 from majordomo.skills.grasping import is_tall
@@ -158,16 +158,8 @@ def ways_in(
     if not board.is_covered:
         return np.ones((len(points), 2), dtype=bool)
     return open_sides(
-        support, points, outline.radius_m, [*(_extent(snapshot, support.id, node) for node in others), *more]
+        support, points, outline.radius_m, [*(extent_on(snapshot, support.id, node) for node in others), *more]
     )
-
-
-def _extent(snapshot: Snapshot, support_id: str, node: ObjectNode) -> tuple[Points, Points]:
-    """Middle (2,) and half extents (2,) of a thing along the axes of what carries it."""
-    T_support_node = snapshot.transform(support_id, node.id)
-    c, s = abs(np.cos(T_support_node.yaw_rad)), abs(np.sin(T_support_node.yaw_rad))
-    half = np.array([[c, s], [s, c]]) @ np.array(node.size_m[:2]) / 2
-    return np.asarray(T_support_node.translation_m[:2]), half
 
 
 def surface_m(snapshot: Snapshot, support_id: str, held: str | None) -> float:

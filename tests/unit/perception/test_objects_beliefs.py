@@ -952,6 +952,7 @@ def test_a_stove_in_a_row_of_counters_stays_a_stove_however_long_one_mask_shows_
     row = _filled((-0.33, 1.5), (-0.3, 0.3), (0.0, 0.9), step_m=0.03)
     for _ in range(300):
         own = stove._own(row, called, [])
+        assert np.ptp(own[:, 0]) < 0.8
         stove.place.observe(own, np.eye(3) * 1e-6, category_of("stove"), CAMERA, top_shown=True)
     assert max(stove.box.size_m[:2]) < 0.85
 

@@ -455,6 +455,14 @@ def test_one_of_several_present_look_alikes_is_never_taken_for_the_moved_one():
     assert moved(thing(3, seen=(500.0, 501.0)), [*twins, missing]) is missing
 
 
+def test_what_the_hand_has_put_there_is_not_the_missing_thing_that_turned_up():
+    missing, other = thing(1, state=ObjectState.MISSING), thing(2, seen=(20.0, 21.0))
+    known = {"looked_before": {"room_1": 0.0}, "settings": IdentitySettings()}
+    assert turned_up(missing, [other], **known) is other
+    other.carried = True
+    assert turned_up(missing, [other], **known) is None
+
+
 @pytest.mark.parametrize(
     ("at", "same"),
     [((0.4, 0.3, 0.12), True), ((0.3, 0.2, 0.6), True), ((3.0, 1.0, 0.12), True), ((3.0, 1.0, 0.6), False)],

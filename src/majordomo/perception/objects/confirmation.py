@@ -72,7 +72,7 @@ def turned_up(
     """The younger thing that a missing one is: it was moved, and seen at its new place before it was missed at the old.
 
     Only a look-alike that turned up after the missing one was last seen, where one had looked before and seen nothing,
-    and only if there is no second one like it.
+    and not what the hand itself has put there; and only if there is no second one like it.
     """
     alike = [
         track
@@ -83,7 +83,7 @@ def turned_up(
         and _is_like(track, missing, settings)
         and may_have_fallen_to(track, missing, settings)
     ]
-    if len(alike) != 1 or not _looked_there_before(alike[0], known, looked_before):
+    if len(alike) != 1 or alike[0].carried or not _looked_there_before(alike[0], known, looked_before):
         return None
     return alike[0]
 

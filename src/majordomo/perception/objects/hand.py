@@ -101,7 +101,7 @@ class Hand:
             track.state, track.log_odds = ObjectState.PRESENT, 2.0
             position[2] = _resting_height(position[2], track, event.place, self._tracker)
             track.put_at(room, position, _RELEASED_SIGMA_M, T_room_object.yaw_rad)
-            track.awaited = True
+            track.awaited = track.carried = True
             return frozenset({track.number})
         track.state, track.log_odds, track.fell = ObjectState.MISSING, -2.0, True
         position[2] = track.box.size_m[2] / 2.0

@@ -64,7 +64,8 @@ class Track:
             from the thing along its room's axes: a few places that are well apart as the thing sees them.
             seen_whole: whether one of them showed all of it; ``misses``: frames in a row that should have and did not.
             homeless: whether it is in none of the rooms known so far; ``room`` then is the one it was seen from.
-            awaited: whether the hand has put it down and it was not seen since; fell: whether it slipped from the hand
+            awaited: whether the hand has put it down and it was not seen since; carried: whether it is where it is
+            because the hand has put it there; fell: whether it slipped from the hand
             and was not seen since.
     """
 
@@ -83,6 +84,7 @@ class Track:
         self.log_odds = settings.log_odds
         self.homeless = False
         self.awaited = False
+        self.carried = False
         self.fell = False
         self.hits = 0
         self.seen_whole = False
@@ -262,7 +264,7 @@ class Track:
         self.back_rad = other.back_rad
         self.color, self.accents = other.color, other.accents
         self.state, self.log_odds = ObjectState.PRESENT, other.log_odds
-        self.awaited = self.fell = False
+        self.awaited = self.carried = self.fell = False
         self.label.start_from(self.label.distribution, self.hits)
         self.label.update(other.label.distribution, view=other.number)
         self.seen_from = [*self.seen_from, *other.seen_from][-_PLACES:]

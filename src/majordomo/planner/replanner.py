@@ -60,15 +60,15 @@ class Hunt:
         return seen or self.turned_up(snapshot)
 
     def turned_up(self, snapshot: Snapshot) -> bool:
-        """Whether something that looks like it was first seen after it was last seen itself."""
+        """Whether something that looks like it turned up after it was last seen itself."""
         return bool(self.look_alikes(snapshot))
 
     def look_alikes(self, snapshot: Snapshot) -> frozenset[str]:
-        """What looks like it and was first seen after it was last seen itself."""
+        """What looks like it and turned up after it was last seen itself."""
         lost = snapshot.get(self.object_id)
         if not (self.by_looks and isinstance(lost, ObjectNode) and lost.state is ObjectState.MISSING):
             return frozenset()
-        return frozenset(node.id for node in snapshot.of_type(ObjectNode) if _is_like(node, lost))
+        return frozenset(node.id for node in snapshot.of_type(ObjectNode) if _is_like(node, lost, snapshot))
 
 
 class PlanMaker(Protocol):
@@ -144,10 +144,14 @@ def _missing(goals: Sequence[Goal], snapshot: Snapshot) -> str | None:
     return next((node_id for node_id in _needed(goals) if is_missing(node_id, snapshot)), None)
 
 
-def _is_like(node: ObjectNode, lost: ObjectNode) -> bool:
-    """Whether a thing has kind and color of a lost one, and was first seen after that was last seen."""
+def _is_like(node: ObjectNode, lost: ObjectNode, snapshot: Snapshot) -> bool:
+    """Whether a thing has kind and color of a lost one, and was first seen after that was last seen, and not only
+    because what it stands on was not known then: it may always have stood there.
+    """
     alike = (node.label, node.color, node.graspable) == (lost.label, lost.color, lost.graspable)
-    later = node.first_seen_s > lost.last_seen_s
+    place = snapshot.get(snapshot.support_of(node.id) or "")
+    place_known = not isinstance(place, ObjectNode) or place.first_seen_s <= lost.last_seen_s
+    later = node.first_seen_s > lost.last_seen_s and place_known
     return node.id != lost.id and node.state is ObjectState.PRESENT and alike and later
 
 

@@ -821,6 +821,24 @@ def test_what_looks_like_a_lost_thing_and_turned_up_later_is_taken_for_it(color,
     assert (show.stage.places["bottle_2"] == "desk_1") is (status is TaskStatus.SUCCEEDED)
 
 
+@pytest.mark.parametrize("shelf_is_new", [True, False])
+def test_what_stands_on_furniture_that_was_not_known_when_the_lost_was_last_seen_may_always_have_stood_there(
+    shelf_is_new,
+):
+    show = Show()
+    show.mission = Mission(show.crew, ByName())
+    show.ask()
+    show.until_step("GOTO")
+    show.stage.places["bottle_1"] = None
+    show.run_until(lambda: show.task.plan.source == "search" and show.stage.robot_at == "desk_1")
+    shelf = show.memory.snapshot().object("shelf_1")
+    first_seen_s = show.stamp_s if shelf_is_new else shelf.first_seen_s
+    show.memory.commit([PutNode(replace(shelf, first_seen_s=first_seen_s))], agent="objects", stamp_s=show.stamp_s)
+    turn_up(show)
+    show.run_until(lambda: show.task.status.ended, limit=20_000)
+    assert show.task.status is (TaskStatus.FAILED if shelf_is_new else TaskStatus.SUCCEEDED)
+
+
 @pytest.mark.parametrize("where", ["from the table", "on the table"])
 def test_a_request_that_says_where_a_thing_was_means_it_where_it_has_been_put_since(where):
     show = talked_to()

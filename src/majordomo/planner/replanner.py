@@ -42,11 +42,13 @@ class Verifier(Protocol):
 class Hunt:
     """The search for one object: since when, where the robot has looked, and where it could not get to.
 
-    ``by_looks``: what looks like it and turned up later may be it, under another identifier.
+    ``asked_s``: when the task was planned; ``by_looks``: what looks like it and turned up since then may be it, under
+    another identifier.
     """
 
     object_id: str
     since_s: float
+    asked_s: float = 0.0
     by_looks: bool = True
     looked: list[str] = field(default_factory=list)
     skipped: list[str] = field(default_factory=list)
@@ -68,7 +70,17 @@ class Hunt:
         lost = snapshot.get(self.object_id)
         if not (self.by_looks and isinstance(lost, ObjectNode) and lost.state is ObjectState.MISSING):
             return frozenset()
-        return frozenset(node.id for node in snapshot.of_type(ObjectNode) if _is_like(node, lost, snapshot))
+        return frozenset(node.id for node in snapshot.of_type(ObjectNode) if self._is_like(node, lost, snapshot))
+
+    def _is_like(self, node: ObjectNode, lost: ObjectNode, snapshot: Snapshot) -> bool:
+        """Whether a thing has kind and color of a lost one, and was first seen after that was last seen and since the
+        task was planned, and not only because what it stands on was not known before: it may always have stood there.
+        """
+        alike = (node.label, node.color, node.graspable) == (lost.label, lost.color, lost.graspable)
+        place = snapshot.get(snapshot.support_of(node.id) or "")
+        place_known = not isinstance(place, ObjectNode) or place.first_seen_s <= lost.last_seen_s
+        later = node.first_seen_s > max(lost.last_seen_s, self.asked_s) and place_known
+        return node.id != lost.id and node.state is ObjectState.PRESENT and alike and later
 
 
 class PlanMaker(Protocol):
@@ -93,6 +105,7 @@ class Replanner:
     def __init__(self, verifier: Verifier, source: Source = Source.GRAMMAR) -> None:
         self._verifier, self._source = verifier, source
         self._hunts: dict[str, Hunt] = {}
+        self._asked_s = 0.0
 
     def hunt(self, object_id: str) -> Hunt | None:
         """The search for an object, if one has begun."""
@@ -100,6 +113,7 @@ class Replanner:
 
     def first_plan(self, goals: Sequence[Goal], snapshot: Snapshot, stamp_s: float) -> Plan | Impossible:
         """The plan to begin with: where the words mean what is missing, that is looked for, whatever looks like it."""
+        self._asked_s = stamp_s
         missing = _missing(goals, snapshot)
         if missing is None:
             return self._direct(goals, snapshot)
@@ -128,7 +142,7 @@ class Replanner:
         return self._verifier.check_plan(plan, snapshot) if plan.revision != snapshot.revision else ()
 
     def _begun(self, object_id: str, stamp_s: float) -> Hunt:
-        return self._hunts.setdefault(object_id, Hunt(object_id=object_id, since_s=stamp_s))
+        return self._hunts.setdefault(object_id, Hunt(object_id=object_id, since_s=stamp_s, asked_s=self._asked_s))
 
     def _search(self, hunt: Hunt, snapshot: Snapshot) -> Plan | Impossible:
         object_id, been = hunt.object_id, (*hunt.looked, *hunt.skipped)
@@ -142,17 +156,6 @@ class Replanner:
 def _missing(goals: Sequence[Goal], snapshot: Snapshot) -> str | None:
     """The first node that goals need and that is not where it was."""
     return next((node_id for node_id in _needed(goals) if is_missing(node_id, snapshot)), None)
-
-
-def _is_like(node: ObjectNode, lost: ObjectNode, snapshot: Snapshot) -> bool:
-    """Whether a thing has kind and color of a lost one, and was first seen after that was last seen, and not only
-    because what it stands on was not known then: it may always have stood there.
-    """
-    alike = (node.label, node.color, node.graspable) == (lost.label, lost.color, lost.graspable)
-    place = snapshot.get(snapshot.support_of(node.id) or "")
-    place_known = not isinstance(place, ObjectNode) or place.first_seen_s <= lost.last_seen_s
-    later = node.first_seen_s > lost.last_seen_s and place_known
-    return node.id != lost.id and node.state is ObjectState.PRESENT and alike and later
 
 
 def _needed(goals: Sequence[Goal]) -> list[str]:

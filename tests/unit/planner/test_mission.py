@@ -839,6 +839,22 @@ def test_what_stands_on_furniture_that_was_not_known_when_the_lost_was_last_seen
     assert show.task.status is (TaskStatus.FAILED if shelf_is_new else TaskStatus.SUCCEEDED)
 
 
+def test_what_looks_like_a_lost_thing_and_was_known_before_anybody_asked_is_not_taken_for_it():
+    show = Show()
+    show.mission = Mission(show.crew, ByName())
+    show.run_until(lambda: show.stamp_s > 3.0)
+    show.ask()
+    show.until_step("GOTO")
+    show.stage.places["bottle_1"] = None
+    show.run_until(lambda: show.task.plan.source == "search" and show.stage.robot_at == "desk_1")
+    lost = replace(show.memory.snapshot().object("bottle_1"), last_seen_s=1.0)
+    show.memory.commit([PutNode(lost)], agent="objects", stamp_s=show.stamp_s)
+    turn_up(show, first_seen_s=2.0)
+    show.run_until(lambda: show.task.status.ended, limit=20_000)
+    assert show.task.status is TaskStatus.FAILED
+    assert show.stage.places["bottle_2"] == "shelf_1"
+
+
 @pytest.mark.parametrize("where", ["from the table", "on the table"])
 def test_a_request_that_says_where_a_thing_was_means_it_where_it_has_been_put_since(where):
     show = talked_to()

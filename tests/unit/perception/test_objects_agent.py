@@ -548,6 +548,26 @@ def test_what_has_no_name_is_no_thing_on_a_thing_unless_it_stands_out_from_it(hi
     assert len(graph.of_type(ObjectNode)) == nodes
 
 
+@pytest.mark.parametrize(
+    ("on_book", "confidence", "places", "found"),
+    [(True, 0.95, 1, False), (True, 0.95, 2, True), (False, 0.95, 1, True)],
+)
+def test_what_has_a_name_is_a_thing_on_a_thing_once_that_is_beyond_doubt_from_two_places(
+    on_book, confidence, places, found
+):
+    book = Solid(label="book", center=(-0.14, 0.0, 0.78), size_m=(0.3, 0.16, 0.06), color=(200.0, 180.0, 30.0))
+    center = (-0.14, 0.0, 0.82) if on_book else (0.3, 0.0, 0.76)
+    patch = Solid(label="scissors", center=center, size_m=(0.14, 0.08, 0.02), confidence=confidence)
+    story = Story([TABLE, book])
+    story.run(8)
+    story.room.solids.append(patch)
+    graph = story.run(8)
+    if places > 1:
+        story.room.eye = (0.0, -1.3)
+        graph = story.run(8)
+    assert ("scissors" in [n.label for n in graph.of_type(ObjectNode)]) is found
+
+
 def test_what_stays_doubtful_from_one_place_is_a_node_once_it_was_seen_from_another():
     blob = Solid(label="apple", center=(0.1, 0.0, 0.8), size_m=(0.09, 0.09, 0.09), confidence=0.21)
     story = Story([TABLE, blob])

@@ -5,7 +5,7 @@ what is nobody: furniture, and what stands on it.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +15,7 @@ from majordomo.perception.objects.membership import Surroundings
 from majordomo.perception.objects.sight import Sight
 from majordomo.perception.objects.surface import Box
 from majordomo.perception.objects.track import Track
+from majordomo.perception.vocabulary import category_of
 from majordomo.scene_graph.nodes import UNKNOWN_LABEL, ObjectState
 
 _PERSON_M = 2.5
@@ -79,6 +80,22 @@ def is_of_several(track: Track, known: Sequence[Track]) -> bool:
     if track.seen_whole or not len(points) or not others:
         return False
     return _share_out(np.array([other.box.contains(points, _ROW_EDGE_M) for other in others]))
+
+
+def without_pieces(sight: Sight, tracks: Sequence[Track], settings: PieceSettings) -> tuple[Sight, set[int]]:
+    """Without the small things that are looked at over the arm, bits of others, and what is several in one mask;
+    numbers of the tracks that are in one.
+    """
+    told, in_one = list[Detection](), set[int]()
+    for detection in sight.detections:
+        if not category_of(detection.label, detection.shape.size_m).furniture:
+            if is_under_arm(detection.shape.center, sight, settings) or is_bit(detection, tracks, sight):
+                continue
+            if several := seen_as_one(detection, tracks, sight):
+                in_one |= {track.number for track in several}
+                continue
+        told.append(detection)
+    return (replace(sight, detections=told) if len(told) < len(sight.detections) else sight), in_one
 
 
 def seen_as_one(detection: Detection, tracks: Sequence[Track], sight: Sight) -> list[Track]:

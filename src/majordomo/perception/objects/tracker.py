@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 import cv2
 import numpy as np
@@ -37,14 +37,14 @@ from majordomo.perception.objects.pieces import (
     PieceSettings,
     has_no_name,
     is_at_hand,
-    is_bit,
     is_of_somebody,
     is_part,
     is_piece,
     is_under_arm,
     lies_within,
-    seen_as_one,
+    without_pieces,
 )
+from majordomo.perception.objects.probation import ProbationSettings, is_beyond_doubt, is_stable, may_come_true
 from majordomo.perception.objects.sight import Sight
 from majordomo.perception.objects.surface import Box, SurfaceBelief
 from majordomo.perception.objects.taken_names import TakenNames
@@ -60,31 +60,19 @@ _BORDER = np.ones((7, 7), np.uint8)
 
 @dataclass(frozen=True, kw_only=True)
 class TrackerSettings:
-    """``confirm_hits`` sightings with ``confirm_label`` certainty make a thing a node; so do twice as many of what
-    remains doubtful, of a small thing from ``confirm_places`` different places, or from ``nameless_places`` if it has
-    no name: from one place, a part of a thing or of the clutter may look like anything for long.
-
-    ``beyond_doubt``: what is seen where another thing is must be as sure as that, and seen from as many places.
-    ``patience_hits``: how many sightings to wait for a look-alike that is just being missed, or until it is clear
-    whether what lies in a row of furniture is a piece of its own. ``doubtful_life_s``: how long what was seen often
-    enough waits to be seen from another place; ``homeless_life_s``: how long a thing seen through a door waits for its
-    room to become known; ``wall_share``: of its points in that room's walls, from which on furniture was one of them.
+    """``patience_hits``: how many sightings to wait for a look-alike that is just being missed, or until it is clear
+    whether what lies in a row of furniture is a piece of its own. ``wall_share``: of the points of a thing seen through
+    a door that are in its room's walls, from which on furniture was one of them. ``furniture_min_px``: how large it
+    must show to be begun with.
     """
 
     association: AssociationSettings = field(default_factory=AssociationSettings)
     existence: ExistenceSettings = field(default_factory=ExistenceSettings)
     identity: IdentitySettings = field(default_factory=IdentitySettings)
     pieces: PieceSettings = field(default_factory=PieceSettings)
+    probation: ProbationSettings = field(default_factory=ProbationSettings)
     track: TrackSettings = field(default_factory=TrackSettings)
-    confirm_hits: int = 3
-    confirm_label: float = 0.6
-    beyond_doubt: float = 0.9
     patience_hits: int = 15
-    confirm_places: int = 2
-    nameless_places: int = 3
-    tentative_life_s: float = 2.0
-    doubtful_life_s: float = 300.0
-    homeless_life_s: float = 300.0
     wall_share: float = 0.85
     furniture_min_px: int = 150
 
@@ -129,7 +117,7 @@ class Tracker:
 
     def update(self, sight: Sight) -> None:
         """One frame."""
-        sight, in_one = self._without_untold(sight)
+        sight, in_one = without_pieces(sight, self._near(sight), self._settings.pieces)
         scope = [t for t in self._near(sight) if t.state is not ObjectState.HELD]
         iou = self._masks.overlap([track.number for track in scope], sight.detections, sight.view)
         costs = cost_matrix(scope, sight.detections, iou, sight.surroundings.T_here_room, self._settings.association)
@@ -152,21 +140,6 @@ class Tracker:
         self._forget_tentative(sight.view.stamp_s)
         seen = [(d.mask, self.matches[d.index].number) for d in sight.detections if d.index in self.matches]
         self._masks.remember(seen, sight.view)
-
-    def _without_untold(self, sight: Sight) -> tuple[Sight, set[int]]:
-        """Without the small things that are looked at over the arm, bits of others, and what is several in one mask;
-        numbers of the tracks that are in one.
-        """
-        near, told, in_one = self._near(sight), [], set[int]()
-        for detection in sight.detections:
-            if not category_of(detection.label, detection.shape.size_m).furniture:
-                if is_under_arm(detection.shape.center, sight, self._settings.pieces) or is_bit(detection, near, sight):
-                    continue
-                if several := seen_as_one(detection, near, sight):
-                    in_one |= {track.number for track in several}
-                    continue
-            told.append(detection)
-        return (replace(sight, detections=told) if len(told) < len(sight.detections) else sight), in_one
 
     def _observe(self, track: Track, detection: Detection, sight: Sight) -> None:
         others = [
@@ -290,8 +263,9 @@ class Tracker:
 
     def _confirm(self, sight: Sight) -> None:
         """Name what has been seen often enough, or recognize it; of a room that is far from here, when that is near."""
-        identity = self._settings.identity
-        for track in [t for t in self._near(sight) if t.node_id is None and not t.homeless and self._is_stable(t)]:
+        identity, probation = self._settings.identity, self._settings.probation
+        unnamed = [t for t in self._near(sight) if t.node_id is None and not t.homeless]
+        for track in [t for t in unnamed if is_stable(t, probation)]:
             known = [t for t in self.tracks if t.node_id is not None]
             if is_piece(track, sight, self.matches, known, self._settings.pieces):
                 self.drop(track)
@@ -303,7 +277,7 @@ class Tracker:
                 looked_before=sight.looked_before,
                 settings=identity,
             )
-            if same is None and lies_within(track, known) and not self._is_beyond_doubt(track):
+            if same is None and lies_within(track, known) and not is_beyond_doubt(track, probation):
                 continue
             doubtful = undecided(track, known, identity) if same is None else may_prove_built_in(track, same)
             if doubtful and track.hits < self._settings.patience_hits:
@@ -325,23 +299,6 @@ class Tracker:
     def _near(self, sight: Sight) -> list[Track]:
         """Everything in the robot's room and its neighbors: of the others, nobody knows here where they are."""
         return [t for t in self.tracks if t.room in sight.surroundings.T_here_room]
-
-    def _is_stable(self, track: Track) -> bool:
-        settings = self._settings
-        sure = track.label.confidence >= settings.confirm_label
-        if track.is_furniture or sure:
-            return track.hits >= (settings.confirm_hits if sure else 2 * settings.confirm_hits)
-        places = settings.nameless_places if has_no_name(track) else settings.confirm_places
-        return self._is_doubtful(track) and len(track.seen_from) >= places
-
-    def _is_beyond_doubt(self, track: Track) -> bool:
-        """Whether it is known for sure, from more than one place: two cannot be in one place, but one on the other."""
-        settings = self._settings
-        return track.label.confidence >= settings.beyond_doubt and len(track.seen_from) >= settings.confirm_places
-
-    def _is_doubtful(self, track: Track) -> bool:
-        """Whether it was seen often enough to wait for sights from other places."""
-        return track.hits >= 2 * self._settings.confirm_hits
 
     def _recognize(self, sighting: Track, known: Track) -> None:
         """The sighting is a thing we know: it goes on under that name."""
@@ -377,12 +334,5 @@ class Tracker:
                     self.drop(newer)
 
     def _forget_tentative(self, stamp_s: float) -> None:
-        self.tracks = [t for t in self.tracks if t.node_id is not None or self._may_come_true(t, stamp_s)]
-
-    def _may_come_true(self, track: Track, stamp_s: float) -> bool:
-        """Whether to wait for further sights of a tentative thing, or for its room to become known."""
-        settings = self._settings
-        patience_s = settings.doubtful_life_s if self._is_doubtful(track) else settings.tentative_life_s
-        if track.homeless and self._is_stable(track):
-            patience_s = settings.homeless_life_s
-        return track.state is ObjectState.PRESENT and stamp_s - track.last_seen_s <= patience_s
+        probation = self._settings.probation
+        self.tracks = [t for t in self.tracks if t.node_id is not None or may_come_true(t, stamp_s, probation)]

@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 from majordomo.perception.objects.agent import ObjectMemory
-from majordomo.scene_graph.edges import InEdge, RtEdge
+from majordomo.scene_graph.edges import InEdge, IntentionStatus, RelationEdge, RtEdge
 from majordomo.scene_graph.edits import PutEdge, PutNode
 from majordomo.scene_graph.long_term.long_term_store import LongTermStore
 from majordomo.scene_graph.memory import WorkingMemory
-from majordomo.scene_graph.nodes import ObjectNode
+from majordomo.scene_graph.nodes import ObjectNode, ObjectState
 from majordomo.scene_graph.se3 import SE3
-from unit.perception.test_objects_agent import BLUE_BOTTLE, TABLE, Story
+from unit.perception.test_objects_agent import BLUE_BOTTLE, TABLE, Story, finish
 
 ELSEWHERE = ObjectNode(
     id="bottle_1",
@@ -92,3 +92,31 @@ def test_what_stands_on_furniture_still_does_when_its_room_is_back(story):
     story.memory.load("room_1", agent="ltsm", stamp_s=story.now_s)
     story.agent_only(3)
     assert [edge.key for edge in story.memory.snapshot().relations(predicate="on")] == [on_table[0].key]
+
+
+def test_a_thing_missed_here_that_was_seen_in_a_room_that_is_unloaded_now_is_known_to_be_there():
+    story = Story([TABLE, BLUE_BOTTLE], rooms=2, eye=(0.0, -1.0))
+    story.memory = WorkingMemory(story.memory.snapshot(), long_term=LongTermStore())
+    story.agent = ObjectMemory(story.memory, story.buffer, story.room, random=np.random.default_rng(3))
+    assert story.run(10).support_of("bottle_1") == "table_1"
+    finish(story, "room_2", IntentionStatus.DONE)
+    shelf = ObjectNode(id="shelf_1", label="shelf", size_m=(0.8, 0.3, 1.0), support=True, inspected_s=0.5)
+    there = replace(ELSEWHERE, id="bottle_2", name="", first_seen_s=story.now_s + 2.0, last_seen_s=story.now_s + 2.2)
+    story.room.target = (0.0, -3.0, 1.0)
+    story.run(12)
+    with story.memory.edit("objects", story.now_s) as tx:
+        for node, height_m in ((shelf, 0.5), (there, 1.12)):
+            T_room_node = SE3.from_xyz_yaw(0.0, 1.0, height_m, 0.0)
+            tx.put(node, RtEdge(source="room_2", target=node.id, T_source_target=T_room_node))
+            tx.put(InEdge(source=node.id, target="room_2"))
+        tx.put(RelationEdge(source="bottle_2", target="shelf_1", predicate="on", probability=0.95))
+    story.run(2)
+    story.memory.unload("room_2", agent="ltsm", stamp_s=story.now_s)
+    story.run(2)
+    story.room.solids, story.room.target = [TABLE], (0.0, 0.0, 0.75)
+    story.run(20)
+    building = story.memory.building()
+    assert building.object("bottle_1").state is ObjectState.PRESENT
+    assert building.room_of("bottle_1") == "room_2"
+    assert building.support_of("bottle_1") == "shelf_1"
+    assert "bottle_2" not in building

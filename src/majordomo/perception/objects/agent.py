@@ -264,13 +264,14 @@ class ObjectMemory:
         self._commit(edits, stamp_s)
 
     def _bring_what_turned_up(self, stamp_s: float) -> Snapshot:
-        """Load the room in which a thing was kept that is now seen in another; the newest snapshot."""
+        """Load the room in which a thing was kept that is now seen in another, and the one in which a thing was seen
+        that is now missed here; the newest snapshot.
+        """
         snapshot = self._memory.snapshot()
-        turned_up = [
-            track.node_id
-            for track in self._tracker.tracks
-            if track.node_id is not None and track.node_id in snapshot.elsewhere and track.room in snapshot
-        ]
+        named = [(track.node_id, track.room) for track in self._tracker.tracks if track.node_id is not None]
+        turned_up = [node_id for node_id, room in named if node_id in snapshot.elsewhere and room in snapshot]
+        turned_up += [room for node_id, room in named if node_id in snapshot and room in snapshot.elsewhere]
+        turned_up += [node_id for node_id in self._tracker.removed if node_id in snapshot.elsewhere]
         return self._memory.load(*turned_up, agent=self.name, stamp_s=stamp_s) if turned_up else snapshot
 
     def _commit(self, edits: list[Edit], stamp_s: float) -> None:

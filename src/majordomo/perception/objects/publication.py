@@ -111,10 +111,12 @@ def robot_edits(snapshot: Snapshot, holding: str | None) -> list[Edit]:
     return [PutNode(replace(robot, holding=holding))]
 
 
-def united_edits(snapshot: Snapshot, removed: set[str]) -> list[Edit]:
-    """Take out nodes of furniture that turned out to be a part of another node; forgotten here once they are gone."""
-    removed &= set(snapshot.nodes)
-    return [RemoveNode(node_id) for node_id in sorted(removed)]
+def united_edits(snapshot: Snapshot, removed: dict[str, Track | None]) -> list[Edit]:
+    """Take out nodes that turned out to be a part of another, or another itself; forgotten here once they are gone."""
+    for node_id in removed.keys() - set(snapshot.nodes):
+        if node_id not in snapshot.elsewhere:
+            del removed[node_id]
+    return [RemoveNode(node_id) for node_id in sorted(removed.keys() & set(snapshot.nodes))]
 
 
 def person_edits(

@@ -68,12 +68,15 @@ class Recollection:
             track.label.teach(node.label)
 
     def _adopt_relations(self, adopted: list[Track], snapshot: Snapshot) -> set[EdgeKey]:
+        """What was said of the things that were adopted; of what turned out to be another, it is said of that."""
         number_of = {t.node_id: t.number for t in self._tracker.tracks if t.node_id is not None}
+        number_of |= {node_id: heir.number for node_id, heir in self._tracker.removed.items() if heir is not None}
         keys: set[EdgeKey] = set()
         for track in adopted:
             for edge in (*snapshot.relations(source=track.node_id), *snapshot.relations(target=track.node_id)):
                 if edge.source in number_of and edge.target in number_of:
                     key = (number_of[edge.source], number_of[edge.target], edge.predicate)
                     self._relations.remember(key, edge.probability)
-                    keys.add(edge.key)
+                    if not {edge.source, edge.target} & self._tracker.removed.keys():
+                        keys.add(edge.key)
         return keys

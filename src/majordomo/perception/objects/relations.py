@@ -54,7 +54,13 @@ class RelationMemory:
         self._stated.add(key)
 
     def unite(self, united: Mapping[int, Track]) -> None:
-        """What was said of a part is said of the whole."""
+        """What was said of a part is said of the whole; what was said of a thing that turned up elsewhere is not, but
+        what was said of what turned up.
+        """
+        moved = {
+            united[n].number for k in self.probability for n in k[:2] if n in united and not united[n].is_furniture
+        }
+        self.probability = {k: p for k, p in self.probability.items() if not moved & set(k[:2])}
         for key in [k for k in self.probability if k[0] in united or k[1] in united]:
             p = self.probability.pop(key)
             a, b = (united[n].number if n in united else n for n in key[:2])
@@ -72,10 +78,12 @@ class RelationMemory:
         """One frame. ``fresh``: numbers of the tracks whose place was seen or set just now."""
         present = [t for t in tracks if t.node_id and t.state is ObjectState.PRESENT and t.room in T_here_room]
         alive = {t.number for t in present}
-        elsewhere = {
-            t.number for t in tracks if t.node_id and t.state is ObjectState.PRESENT and t.room not in T_here_room
+        room_of = {t.number: t.room for t in tracks if t.node_id and t.state is ObjectState.PRESENT}
+        self.probability = {
+            (a, b, predicate): p
+            for (a, b, predicate), p in self.probability.items()
+            if a in room_of and b in room_of and room_of[a] == room_of[b]
         }
-        self.probability = {key: p for key, p in self.probability.items() if (alive | elsewhere).issuperset(key[:2])}
         boxes = {t.number: _box_here(t, T_here_room[t.room]) for t in present}
         said = _said(triplets, matches, self._settings.model_from)
         observed: dict[Key, float] = {}

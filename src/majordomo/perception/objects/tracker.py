@@ -85,7 +85,8 @@ class Tracker:
         taken: every identifier ever seen; none is given twice.
         places_before: where things in the hand were taken from.
         matches: instance index -> track, of the newest frame.
-        united: number of a track that turned out to be a part of another -> that other; ``removed``: their nodes.
+        united: number of a track that turned out to be another, or a part of it -> that other; ``removed``: their
+            nodes, and those of what turned out to be nothing (``None``), until they are gone from the graph.
     """
 
     def __init__(self, *, settings: TrackerSettings, random: Generator) -> None:
@@ -97,7 +98,7 @@ class Tracker:
         self.taken = TakenNames()
         self.matches: dict[int, Track] = {}
         self.united: dict[int, Track] = {}
-        self.removed: set[str] = set()
+        self.removed: dict[str, Track | None] = {}
         self.places_before: dict[int, tuple[str, Array]] = {}
 
     def new_track(self, room: str) -> Track:
@@ -292,7 +293,7 @@ class Tracker:
         """Forget what was given a node before it was known that somebody stands there: furniture without a name."""
         for track in [t for t in self._near(sight) if t.node_id is not None and t.is_furniture and has_no_name(t)]:
             if is_of_somebody(track, sight, self._settings.pieces):
-                self.removed.update({track.node_id} if track.node_id is not None else ())
+                self.removed.update({track.node_id: None} if track.node_id is not None else {})
                 self.matches = {index: other for index, other in self.matches.items() if other is not track}
                 self.drop(track)
 
@@ -317,7 +318,7 @@ class Tracker:
             moved = turned_up(missing, named, looked_before=sight.looked_before, settings=self._settings.identity)
             if moved is not None and moved in self.tracks and moved.node_id is not None:
                 self.united[moved.number] = missing
-                self.removed.add(moved.node_id)
+                self.removed[moved.node_id] = missing
                 self._recognize(moved, missing)
 
     def _unite(self) -> None:
@@ -329,7 +330,7 @@ class Tracker:
                 if older in self.tracks and newer in self.tracks:
                     older.absorb(newer)
                     self.united[newer.number] = older
-                    self.removed.update({newer.node_id} if newer.node_id is not None else ())
+                    self.removed.update({newer.node_id: older} if newer.node_id is not None else {})
                     self.matches = {index: older if t is newer else t for index, t in self.matches.items()}
                     self.drop(newer)
 

@@ -22,8 +22,8 @@ from majordomo.skills.seats import is_seat
 
 Size3 = tuple[float, float, float]
 Met = Callable[[float, float], int]
-"""How many of the two fingers would come down on something: by the direction in which they close, base frame, and how
-far their pads are from the middle.
+"""How many of the two fingers and of the two halves of the palm would come down on something: by the direction in
+which the fingers close, base frame, and how far their pads are from the middle.
 """
 
 
@@ -40,7 +40,8 @@ DOUBTFUL_WIDTH_M = 0.17
 """What looks wider than the fingers span, but not more than this, may be narrower when it is seen from near: from one
 side, nobody sees how deep a thing is.
 """
-OPENING_MARGIN_M = 0.05
+OPENING_MARGIN_M, NARROW_MARGIN_M = 0.05, 0.03
+"""How much wider than a thing the fingers open, and how much where neighbors stand close."""
 TIP_M = 0.028
 """From the pads' center to the finger tips, and a little air: the pads stay this high above what the object stands
 on.
@@ -204,16 +205,16 @@ def is_covered(snapshot: Snapshot, object_id: str, room: str) -> bool:
 
 
 def _from_above(size_m: Size3, pose: SE3, limits: BodyLimits, met: Met) -> Grasp | None:
-    side = _closing_side(size_m, pose.yaw_rad, lambda width_m, way: met(way, _opening_m(width_m, limits) / 2))
+    side = _closing_side(size_m, pose.yaw_rad, limits, met)
     if side is None:
         return None
-    width_m, roll_rad = side
+    opening_m, roll_rad = side
     bottom_m, top_m = pose.z_m - size_m[2] / 2, pose.z_m + size_m[2] / 2
     pads_z_m = max(bottom_m + TIP_M, top_m - min(PAD_DEPTH_M, size_m[2] / 2))
     return Grasp(
         pitch_rad=max(DOWN_RAD, limits.wrist_pitch_rad[0]),
         roll_rad=roll_rad,
-        opening_m=_opening_m(width_m, limits),
+        opening_m=opening_m,
         pads_z_m=pads_z_m,
         hover_z_m=top_m + HOVER_M,
     )
@@ -236,28 +237,30 @@ def _level(size_m: Size3, pose: SE3, limits: BodyLimits) -> Grasp | None:
     )
 
 
-def _closing_side(size_m: Size3, yaw_rad: float, met: Callable[[float, float], int]) -> tuple[float, float] | None:
-    """Width between the fingers and wrist roll for a grasp from above; ``None`` when neither side fits.
+def _closing_side(size_m: Size3, yaw_rad: float, limits: BodyLimits, met: Met) -> tuple[float, float] | None:
+    """Opening of the fingers and wrist roll for a grasp from above; ``None`` when neither side fits.
 
-    Closing along direction a (from the base's x) needs roll = pi/2 - a, modulo a half turn. The side at which fewer
-    fingers meet something is taken, ``met`` by width and direction; of two alike the narrow one; for something about as
-    wide as deep, the one that turns the wrist less.
+    Closing along direction a (from the base's x) needs roll = pi/2 - a, modulo a half turn. The side at which less of
+    the hand meets something is taken, with the fingers wide open if that is no worse than less far; of two alike the
+    narrow one; for something about as wide as deep, the one that turns the wrist less.
     """
+    wide, narrow = max(size_m[:2]), min(size_m[:2])
+    square = wide - narrow <= SQUARE_SHARE * wide
     sides = []
     for width_m, direction in ((size_m[0], yaw_rad), (size_m[1], yaw_rad + pi / 2)):
         roll = wrap_rad(2 * (pi / 2 - direction)) / 2
-        if width_m <= MAX_WIDTH_M:
-            sides.append((met(width_m, direction), width_m, roll))
+        for margin_m in (OPENING_MARGIN_M, NARROW_MARGIN_M) if width_m <= MAX_WIDTH_M else ():
+            opening_m = _opening_m(width_m, limits, margin_m)
+            cost = (met(direction, opening_m / 2), -margin_m, 0.0 if square else width_m, abs(roll))
+            sides.append((cost, opening_m, roll))
     if not sides:
         return None
-    wide, narrow = max(size_m[:2]), min(size_m[:2])
-    square = wide - narrow <= SQUARE_SHARE * wide
-    _, width_m, roll_rad = min(sides, key=lambda side: (side[0], 0.0 if square else side[1], abs(side[2])))
-    return width_m, roll_rad
+    _, opening_m, roll_rad = min(sides)
+    return opening_m, roll_rad
 
 
-def _opening_m(width_m: float, limits: BodyLimits) -> float:
-    return min(width_m + OPENING_MARGIN_M, limits.gripper_opening_m[1])
+def _opening_m(width_m: float, limits: BodyLimits, margin_m: float = OPENING_MARGIN_M) -> float:
+    return min(width_m + margin_m, limits.gripper_opening_m[1])
 
 
 def _too_wide(size_m: Size3, pose: SE3) -> Unreachable:

@@ -40,6 +40,10 @@ class Rim:
         left_m = self.half_m - self.sign * float(point[self.axis]) - STANDS_M
         return replace(self, thick_m=min(self.thick_m, max(left_m, LEAST_M)))
 
+    def covers(self, point: Points, air_m: float) -> bool:
+        """Whether a point (2,) in the frame of the seat is in it, or no farther from it than ``air_m``."""
+        return self.sign * float(point[self.axis]) > self.half_m - self.thick_m - air_m
+
     def outline(self, seat: ObjectNode, pose: Pose2) -> Box2:
         """The rectangle that it covers, where the seat has that pose."""
         sizes = [seat.size_m[0], seat.size_m[1]]
@@ -52,17 +56,24 @@ class Rim:
 
 def rims(seat: ObjectNode) -> Iterator[Rim]:
     """The back of a seat, if it is known where it is, and its arms, if its kind has any."""
-    along_m, across_m = rims_m(seat.label)
-    if seat.back_rad is not None:
-        x, y = cos(seat.back_rad), sin(seat.back_rad)
-        axis = int(abs(y) > abs(x))
-        sign, half_m = 1 if (x, y)[axis] > 0.0 else -1, seat.size_m[axis] / 2
-        yield Rim(axis=axis, sign=sign, half_m=half_m, thick_m=across_m, top_m=seat.size_m[2] / 2)
+    along_m, _ = rims_m(seat.label)
+    if (back := back_rim(seat)) is not None:
+        yield back
     if (share := ARM_SHARES.get(_plain(seat.label))) is not None:
         for sign in (1, -1):
             long = int(seat.size_m[1] > seat.size_m[0])
             half_m, top_m = seat.size_m[long] / 2, (share - 0.5) * seat.size_m[2]
             yield Rim(axis=long, sign=sign, half_m=half_m, thick_m=along_m, top_m=top_m)
+
+
+def back_rim(seat: ObjectNode) -> Rim | None:
+    """The back of a seat, ``None`` where it has none or nobody knows where it is."""
+    if seat.back_rad is None:
+        return None
+    x, y = cos(seat.back_rad), sin(seat.back_rad)
+    axis = int(abs(y) > abs(x))
+    sign, half_m = 1 if (x, y)[axis] > 0.0 else -1, seat.size_m[axis] / 2
+    return Rim(axis=axis, sign=sign, half_m=half_m, thick_m=rims_m(seat.label)[1], top_m=seat.size_m[2] / 2)
 
 
 def is_seat(label: str) -> bool:

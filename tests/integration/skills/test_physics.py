@@ -119,6 +119,23 @@ async def test_the_arm_reaches_a_seat_in_the_middle_of_a_room_past_its_back_and_
     assert built.where("apple_1")["on"] == "seat_1"
 
 
+@pytest.mark.parametrize("apart_m", [0.111, slow(0.116)])
+async def test_of_two_bottles_before_the_back_of_a_chair_one_is_taken_without_a_touch(stage, make_house, apart_m):
+    """Beside it is the other bottle, behind it the back: the palm is turned along that, and the fingers open less."""
+    chair = {"id": "chair_1", "category": "chair", "pose": [1.4, 0.0, -pi / 2]}
+    places = {"bottle_1": [-0.107, 0.135], "bottle_2": [apart_m - 0.107, 0.135], "cup_1": [-0.05, -0.03]}
+    things = [
+        {"id": name, "category": name.partition("_")[0], "on": "chair_1", "offset": offset}
+        for name, offset in places.items()
+    ]
+    built = await stage(make_house([chair], things, [0.0, 0.0, 0.0]), noise_m=0.003)
+    stood = np.array(built.where("bottle_2")["position_m"])
+    assert await built.carry_out(("GOTO", "bottle_1"), ("PICK", "bottle_1")) is None
+    built.truth = await built.robot.truth()
+    assert (built.truth["robot"]["holding"], built.truth["collisions"]) == ("bottle_1", 0)
+    assert np.linalg.norm(np.array(built.where("bottle_2")["position_m"]) - stood) < 0.005
+
+
 @pytest.mark.parametrize("in_m", [-0.2, pytest.param(0.05, marks=pytest.mark.slow)])
 async def test_a_can_that_touches_the_arm_of_a_sofa_is_taken_with_the_fingers_before_and_behind_it(
     stage, make_house, in_m

@@ -24,9 +24,9 @@ from majordomo.skills.anchor import Anchor
 from majordomo.skills.doubles import BoxWorld, FakeBody, Rehearsal
 from majordomo.skills.failures import FailureCode
 from majordomo.skills.geometry import Box2, Pose2
-from majordomo.skills.grasping import DOWN_RAD
+from majordomo.skills.grasping import DOWN_RAD, choose_grasp
 from majordomo.skills.kinematics import gripper_pose
-from majordomo.skills.navigation.pose import bearing_rad
+from majordomo.skills.navigation.pose import bearing_rad, in_base
 from majordomo.skills.place_search import free_spots
 from majordomo.skills.ports import ArmTarget
 from majordomo.skills.registry import load_registry
@@ -508,6 +508,30 @@ async def test_a_finger_does_not_come_down_on_a_neighbor(flat, beside, along, ac
     context = await Rehearsal(memory=built.memory, body=FakeBody()).prepare()
     met = fingers_met(context, "can_1")
     assert (met(0.0, 0.06), met(pi / 2, 0.06)) == (along, across)
+
+
+@pytest.mark.parametrize(("x_m", "along"), [(0.6, 0), (0.73, 1), (0.745, 2)])
+async def test_neither_a_finger_nor_the_palm_comes_down_on_the_back_of_a_chair(flat, x_m, along):
+    built = flat().thing("chair_1", (0.62, 0.0, 0.45), (0.45, 0.45, 0.9), support=True)
+    with built.memory.edit("test", 0.0) as tx:
+        tx.put(replace(built.memory.snapshot().object("chair_1"), back_rad=0.0))
+    built.thing("bottle_1", (x_m, 0.0, 0.57), (0.07, 0.07, 0.24), on="chair_1", graspable=True)
+    context = await Rehearsal(memory=built.memory, body=FakeBody()).prepare()
+    met = fingers_met(context, "bottle_1")
+    assert (met(0.0, 0.06), met(pi / 2, 0.06)) == (along, 0)
+
+
+async def test_where_a_neighbor_stands_close_the_fingers_open_less(flat):
+    built = flat().thing("table_1", (0.9, 0.0, 0.375), (1.2, 0.8, 0.75), support=True)
+    for name, at in (("bottle_1", (0.6, 0.0)), ("bottle_2", (0.6, 0.105)), ("bottle_3", (0.705, 0.0))):
+        built.thing(name, (*at, 0.87), (0.07, 0.07, 0.24), on="table_1", graspable=True)
+    context = await Rehearsal(memory=built.memory, body=FakeBody()).prepare()
+    grasp = choose_grasp(
+        (0.07, 0.07, 0.24), in_base(context, "bottle_1"), level_first=False, geometry=context.geometry,
+        limits=context.limits, met=fingers_met(context, "bottle_1"),
+    )  # fmt: skip
+    assert grasp.opening_m == pytest.approx(0.1)
+    assert fingers_met(context, "bottle_1")(pi / 2, 0.06) == 1
 
 
 @pytest.mark.parametrize(

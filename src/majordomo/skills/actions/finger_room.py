@@ -1,4 +1,6 @@
-"""Where there is room for the fingers beside what they take from above: not in a neighbor, nor in the arm of a sofa."""
+"""Where there is room for the hand around what it takes from above: no finger in a neighbor, or in the arm or the back
+of a seat, nor the palm above the fingers.
+"""
 
 from __future__ import annotations
 
@@ -12,32 +14,48 @@ from majordomo.scene_graph.se3 import SE3
 from majordomo.skills.action import RobotContext
 from majordomo.skills.actions.arm_way import spared_nodes
 from majordomo.skills.geometry import Points
-from majordomo.skills.grasping import FINGER_M, TIP_M
+from majordomo.skills.grasping import FINGER_M, PAD_DEPTH_M, TIP_M
 from majordomo.skills.navigation.pose import in_base, robot_frame
-from majordomo.skills.seats import rims_m
+from majordomo.skills.seats import back_rim, rims_m
 
 AIR_M = 0.01
 """Around a finger, and what neighbors may be larger than believed."""
+_PALM_HALF_M = (0.08, 0.02)
+"""Of the palm's sides along the direction in which the fingers close, and across."""
+_PALM_AT = tuple((along, out) for along in (0.25, 0.5, 0.75, 1.0) for out in (-1.0, 0.0, 1.0))
+"""Points of half a palm, as shares of its sides: four along, three across."""
 
 
 def fingers_met(context: RobotContext, object_id: str) -> Callable[[float, float], int]:
-    """How many of two fingers would come down on something, as a function of the direction in which they close, in the
-    base frame, and of how far their pads then are from the middle of the object.
+    """How many of two fingers, and of the two halves of the palm, would come down on something, as a function of the
+    direction in which the fingers close, in the base frame, and of how far their pads then are from the middle of the
+    object.
     """
     snapshot, T_base_object = context.snapshot, in_base(context, object_id)
-    lowest_m = T_base_object.z_m - snapshot.object(object_id).size_m[2] / 2 + TIP_M
-    solids = [_Solid(context, node) for node in _neighbors(context, object_id)]
-    solids = [solid for solid in solids if solid.top_m > lowest_m]
+    high_m = snapshot.object(object_id).size_m[2]
+    lowest_m = T_base_object.z_m - high_m / 2 + TIP_M
+    palm_m = max(lowest_m, T_base_object.z_m + high_m / 2 - min(PAD_DEPTH_M, high_m / 2)) + PAD_DEPTH_M
+    neighbors = [_Solid(context, node) for node in _neighbors(context, object_id)]
+    solids = [solid for solid in neighbors if solid.top_m > lowest_m]
+    high = [solid for solid in neighbors if solid.top_m > palm_m + AIR_M]
     support_id = snapshot.support_of(object_id)
     seat = _Seat(context, snapshot.object(support_id), object_id) if support_id is not None else None
 
     def count(direction_rad: float, pad_m: float) -> int:
         toward = np.array((cos(direction_rad), sin(direction_rad)))
-        fingers = [T_base_object.translation_m[:2] + sign * (pad_m + FINGER_M / 2) * toward for sign in (1, -1)]
-        return sum(
+        middle, aside = T_base_object.translation_m[:2], np.array((-toward[1], toward[0]))
+        fingers = [middle + sign * (pad_m + FINGER_M / 2) * toward for sign in (1, -1)]
+        met = sum(
             any(solid.covers(finger) for solid in solids) or (seat is not None and seat.covers(finger))
             for finger in fingers
         )
+        half_m, broad_m = _PALM_HALF_M
+        for sign in (1, -1):
+            palm = [middle + sign * along * half_m * toward + out * broad_m * aside for along, out in _PALM_AT]
+            met += any(solid.covers(point) for solid in high for point in palm) or (
+                seat is not None and any(seat.is_back(point, palm_m) for point in palm)
+            )
+        return met
 
     return count
 
@@ -77,7 +95,14 @@ class _Seat(_Solid):
         narrow_m = min(context.snapshot.object(carried_id).size_m[:2])
         inner_m = max(float(self._half_m[self._long]) - arm_m, carried_m + narrow_m / 2)
         self._inner_m = inner_m if arm_m > 0.0 else inf
+        back = back_rim(node)
+        self._back = back.beyond(context.snapshot.position(carried_id, node.id)[:2]) if back is not None else None
 
     def covers(self, point: Points) -> bool:
-        """Whether a finger there would meet an arm."""
-        return abs(float(self.local(point)[self._long])) > self._inner_m - AIR_M
+        """Whether a finger there would meet an arm, or the back."""
+        met = abs(float(self.local(point)[self._long])) > self._inner_m - AIR_M
+        return met or (self._back is not None and self._back.covers(self.local(point), AIR_M))
+
+    def is_back(self, point: Points, low_m: float) -> bool:
+        """Whether what is there, ``low_m`` over the floor, would meet the back."""
+        return self._back is not None and self.top_m > low_m and self._back.covers(self.local(point), AIR_M)

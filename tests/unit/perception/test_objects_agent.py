@@ -298,6 +298,34 @@ def test_a_released_thing_stands_on_its_support_before_and_after_it_is_seen_agai
     assert [n.id for n in graph.of_type(ObjectNode)] == ["bottle_1", "cup_1", "table_1"]
 
 
+def test_what_the_hand_puts_where_a_look_alike_is_missed_is_what_was_in_the_hand():
+    mine, theirs = (0.2, 0.2, 0.87), BLUE_BOTTLE.center
+    story = Story([TABLE, BLUE_BOTTLE, RED_CUP, BLUE_BOTTLE.moved_to(mine)])
+    graph = story.run(6)
+    node_id = min(("bottle_1", "bottle_2"), key=lambda each: np.linalg.norm(graph.position(each, "room_1") - mine))
+    other_id = {"bottle_1": "bottle_2", "bottle_2": "bottle_1"}[node_id]
+    say(story.memory, f"grasping {node_id}", story.now_s)
+    story.room.joints = joints(graph.position(node_id, "robot"), (True, True), 0.068)
+    story.run(3)
+    say(story.memory, "driving table_1", story.now_s)
+    story.room.solids, story.room.eye = [TABLE, RED_CUP], (-1.6, 0.0)
+    story.room.joints = joints((0.4, 0.0, 0.9), (True, True), 0.068)
+    assert story.run(12).object(other_id).state is ObjectState.MISSING
+    story.room.eye = (-0.9, 0.0)
+    say(story.memory, f"releasing {node_id} table_1", story.now_s)
+    at_hand = story.room.T_room_base.inverse().apply(np.array(theirs))
+    for contacts, opening_m in (((True, True), 0.068), ((False, False), 0.12)):
+        story.room.joints = joints(at_hand, contacts, opening_m)
+        story.run(1)
+        story.room.silent = True
+    story.room.silent, story.room.joints = False, joints((0.1, 0.0, 0.75))
+    story.room.solids = [TABLE, RED_CUP, BLUE_BOTTLE.moved_to((theirs[0] + 0.02, *theirs[1:]))]
+    graph = story.run(10)
+    assert graph.object(node_id).state is ObjectState.PRESENT
+    assert graph.object(node_id).last_seen_s > story.now_s - 0.5
+    assert graph.object(other_id).state is ObjectState.MISSING
+
+
 def test_what_shows_beside_the_hand_is_no_new_thing_until_the_hand_is_away():
     story = Story([TABLE, BLUE_BOTTLE, RED_CUP])
     above = np.array(BLUE_BOTTLE.center) + np.array((0.0, 0.0, 0.2))

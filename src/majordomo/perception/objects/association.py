@@ -20,6 +20,7 @@ from majordomo.perception.objects.detection import Detection
 from majordomo.perception.objects.projection import View, back_project, project
 from majordomo.perception.objects.track import Track
 from majordomo.perception.vocabulary import category_of
+from majordomo.scene_graph.nodes import ObjectState
 from majordomo.scene_graph.se3 import SE3
 
 Array = NDArray[np.float64]
@@ -122,7 +123,9 @@ def cost_matrix(
     T_view_room: dict[str, SE3],
     settings: AssociationSettings,
 ) -> Array:
-    """(T, M) cost of taking detection j for track i; infinite where that is out of the question."""
+    """(T, M) cost of taking detection j for track i; infinite where that is out of the question, and for what is
+    missing where the hand has just put something.
+    """
     if not tracks or not detections:
         return np.zeros((len(tracks), len(detections)))
     frame = _Frame(detections, T_view_room)
@@ -135,6 +138,9 @@ def cost_matrix(
     same = np.array([[agreement(t.label.distribution, d.distribution) for d in detections] for t in tracks])
     doubt = np.minimum(settings.label_cost, -np.log(np.maximum(same, 1e-6)))
     costs: Array = np.array(rows) + doubt - settings.iou_weight * iou
+    put_there = (costs[[track.awaited for track in tracks]] <= settings.limit).any(axis=0)
+    missing = np.array([track.state is ObjectState.MISSING for track in tracks])
+    costs[missing[:, None] & put_there] = np.inf
     return costs
 
 

@@ -165,6 +165,12 @@ def underside_m(size_m: Size3, center_z_m: float) -> float:
     return center_z_m + size_m[2] / 2 + HOVER_M - TIP_M
 
 
+def pads_from_above_m(size_m: Size3, center_z_m: float) -> float:
+    """Height of the pads' center when a hand from above closes on a thing."""
+    bottom_m, top_m = center_z_m - size_m[2] / 2, center_z_m + size_m[2] / 2
+    return max(bottom_m + TIP_M, top_m - min(PAD_DEPTH_M, size_m[2] / 2))
+
+
 def _in_the_way(snapshot: Snapshot, object_id: str, T_base_object: SE3) -> bool:
     """Whether another thing reaches up into what a level hand sweeps from the base to a little beyond the object."""
     node = snapshot.object(object_id)
@@ -209,14 +215,12 @@ def _from_above(size_m: Size3, pose: SE3, limits: BodyLimits, met: Met) -> Grasp
     if side is None:
         return None
     opening_m, roll_rad = side
-    bottom_m, top_m = pose.z_m - size_m[2] / 2, pose.z_m + size_m[2] / 2
-    pads_z_m = max(bottom_m + TIP_M, top_m - min(PAD_DEPTH_M, size_m[2] / 2))
     return Grasp(
         pitch_rad=max(DOWN_RAD, limits.wrist_pitch_rad[0]),
         roll_rad=roll_rad,
         opening_m=opening_m,
-        pads_z_m=pads_z_m,
-        hover_z_m=top_m + HOVER_M,
+        pads_z_m=pads_from_above_m(size_m, pose.z_m),
+        hover_z_m=pose.z_m + size_m[2] / 2 + HOVER_M,
     )
 
 

@@ -89,16 +89,16 @@ def without_pieces(sight: Sight, tracks: Sequence[Track], settings: PieceSetting
     told, in_one = list[Detection](), set[int]()
     for detection in sight.detections:
         if not category_of(detection.label, detection.shape.size_m).furniture:
-            if is_under_arm(detection.shape.center, sight, settings) or is_bit(detection, tracks, sight):
+            if is_under_arm(detection.shape.center, sight, settings) or _is_bit(detection, tracks, sight):
                 continue
-            if several := seen_as_one(detection, tracks, sight):
+            if several := _seen_as_one(detection, tracks, sight):
                 in_one |= {track.number for track in several}
                 continue
         told.append(detection)
     return (replace(sight, detections=told) if len(told) < len(sight.detections) else sight), in_one
 
 
-def seen_as_one(detection: Detection, tracks: Sequence[Track], sight: Sight) -> list[Track]:
+def _seen_as_one(detection: Detection, tracks: Sequence[Track], sight: Sight) -> list[Track]:
     """The small things that are known where something without a name is seen, if they are several: of a cup before a
     book, networks at times make one thing. Otherwise none.
     """
@@ -117,7 +117,7 @@ def lies_within(track: Track, known: Sequence[Track]) -> bool:
     return any(bool(other.box.contains(track.position[None], _PART_EDGE_M)[0]) for other in others)
 
 
-def is_bit(detection: Detection, tracks: Sequence[Track], sight: Sight) -> bool:
+def _is_bit(detection: Detection, tracks: Sequence[Track], sight: Sight) -> bool:
     """Whether what nobody can name for sure is a bit of a small thing that is known, the rest of which is hidden: an
     end of a book that lies behind a cup. What is as long as the thing may be the whole of it, or have taken its place.
     """

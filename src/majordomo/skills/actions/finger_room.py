@@ -14,7 +14,7 @@ from majordomo.scene_graph.se3 import SE3
 from majordomo.skills.action import RobotContext
 from majordomo.skills.actions.arm_way import spared_nodes
 from majordomo.skills.geometry import Points
-from majordomo.skills.grasping import FINGER_M, PAD_DEPTH_M, TIP_M
+from majordomo.skills.grasping import FINGER_M, PAD_DEPTH_M, TIP_M, pads_from_above_m
 from majordomo.skills.navigation.pose import in_base, robot_frame
 from majordomo.skills.seats import back_rim, rims_m
 
@@ -32,9 +32,9 @@ def fingers_met(context: RobotContext, object_id: str) -> Callable[[float, float
     object.
     """
     snapshot, T_base_object = context.snapshot, in_base(context, object_id)
-    high_m = snapshot.object(object_id).size_m[2]
-    lowest_m = T_base_object.z_m - high_m / 2 + TIP_M
-    palm_m = max(lowest_m, T_base_object.z_m + high_m / 2 - min(PAD_DEPTH_M, high_m / 2)) + PAD_DEPTH_M
+    size_m = snapshot.object(object_id).size_m
+    lowest_m = T_base_object.z_m - size_m[2] / 2 + TIP_M
+    palm_m = pads_from_above_m(size_m, T_base_object.z_m) + PAD_DEPTH_M
     neighbors = [_Solid(context, node) for node in _neighbors(context, object_id)]
     solids = [solid for solid in neighbors if solid.top_m > lowest_m]
     high = [solid for solid in neighbors if solid.top_m > palm_m + AIR_M]

@@ -10,7 +10,7 @@ from majordomo.planner.naming import listed, name_of
 from majordomo.planner.plan import Flaw
 from majordomo.planner.surfaces import surfaces_near
 from majordomo.scene_graph.identifiers import natural_key
-from majordomo.scene_graph.nodes import ROBOT_ID, ROOT_ID, RoomNode
+from majordomo.scene_graph.nodes import ROBOT_ID, ROOT_ID, DoorNode, RoomNode
 from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.skills.failures import FailureCode
 from majordomo.skills.state import PlanState, Thing
@@ -30,6 +30,14 @@ def goal_flaws(goals: Sequence[Goal], snapshot: Snapshot, state: PlanState, *, o
         found += unknown or [*_unfit(goal, snapshot, state), *_unreachable(goal, snapshot, state, opens_doors)]
     found += _contradictions(goals, snapshot)
     return list({flaw.message: flaw for flaw in found}.values())
+
+
+def shut_doors(flaws: Sequence[Flaw], snapshot: Snapshot) -> tuple[str, ...]:
+    """The closed doors that flaws are about, if they are about nothing else."""
+    if any(flaw.code is not FailureCode.DOOR_CLOSED for flaw in flaws):
+        return ()
+    nodes = dict.fromkeys(node for flaw in flaws for node in flaw.nodes)
+    return tuple(node for node in nodes if isinstance(snapshot.get(node), DoorNode))
 
 
 def _unknown(goal: Goal, snapshot: Snapshot, state: PlanState) -> Iterator[Flaw]:

@@ -11,6 +11,7 @@ from majordomo.planner.executor import OnEvent, ignore_event
 from majordomo.planner.explainer import plan_sentence
 from majordomo.planner.goals import Goal
 from majordomo.planner.lessons import teach
+from majordomo.planner.openness import suppose_not_known
 from majordomo.planner.plan import Dialogue, Exchange, Impossible, Interpretation, Kind, Plan, Source
 from majordomo.planner.queue import TaskQueue
 from majordomo.planner.replanner import PlanMaker, Replanner, Verifier
@@ -80,6 +81,7 @@ class Intake:
         self._on_event, self._interpret_s, self._paper = on_event, interpret_s, paper
         self._recognizable = recognizable
         self._scouts: dict[str, Scout] = {}
+        self._doubted: frozenset[str] = frozenset()
         self._displaced: dict[str, frozenset[str]] = {}
         self._mentioned: tuple[str, ...] = ()
         self._last: tuple[str, ...] = ()
@@ -89,10 +91,28 @@ class Intake:
         """Plan for a task in status ``planning``; ``None`` when it is not to run now.
 
         ``busy``: another task has the robot, or it cannot go yet. Then what words can settle is settled, and a plan
-        goes back to the queue.
+        goes back to the queue. Where only closed doors speak against a request, the robot goes and looks at them once:
+        somebody may have opened them since it saw them.
         """
         if task.approved and task.plan is not None and not busy:
             return self._plan(task, task.plan.goals, Source(task.plan.source), stamp_s)
+        meaning = await self._understood(task, stamp_s)
+        if meaning is None:
+            return None
+        task = self._queue.task(task.id)
+        scouting = meaning.kind is Kind.REFUSE and self._scout(task, meaning.sought, stamp_s) is not None
+        looking = bool(meaning.closed) and task.id not in self._doubted and self._moves_unasked(task)
+        if busy and (meaning.kind is Kind.PLAN or scouting or looking) and not task.dry_run:
+            self._queue.move(task.id, TaskStatus.QUEUED, stamp_s=stamp_s, kind=Kind.PLAN.value)
+            return None
+        if looking:
+            self._doubted = frozenset({task.id})
+            suppose_not_known(meaning.closed, self._memory, stamp_s)
+            return await self.take(task, stamp_s)
+        return self._follow(task, meaning, stamp_s)
+
+    async def _understood(self, task: Task, stamp_s: float) -> Interpretation | None:
+        """What a request means now; None where that took too long, or the task was ended meanwhile."""
         snapshot = self._memory.building()
         dialogue = Dialogue(
             answers=task.dialogue,
@@ -109,14 +129,7 @@ class Intake:
         except TimeoutError:
             self.end(task, TaskStatus.FAILED, "I could not understand the request in time.", stamp_s)
             return None
-        task = self._queue.task(task.id)
-        if task.status is not TaskStatus.PLANNING:
-            return None
-        scouting = meaning.kind is Kind.REFUSE and self._scout(task, meaning.sought, stamp_s) is not None
-        if busy and (meaning.kind is Kind.PLAN or scouting) and not task.dry_run:
-            self._queue.move(task.id, TaskStatus.QUEUED, stamp_s=stamp_s, kind=Kind.PLAN.value)
-            return None
-        return self._follow(task, meaning, stamp_s)
+        return meaning if self._queue.task(task.id).status is TaskStatus.PLANNING else None
 
     def displace(self, task_id: str, things: frozenset[str]) -> None:
         """Take note that things have moved since a request was made: what it says of their place is over."""
@@ -171,11 +184,14 @@ class Intake:
         """Who looks for a kind of thing for a task. Nobody does where a person is to see every plan before."""
         if task.id in self._scouts:
             return self._scouts[task.id]
-        idle = self._paper or task.dry_run or task.approval is Approval.ASK
-        if idle or not kind or not kinds_called(kind) & self._recognizable:
+        if not self._moves_unasked(task) or not kind or not kinds_called(kind) & self._recognizable:
             return None
         self._scouts = {task.id: Scout(kind, self._verifier, stamp_s)}
         return self._scouts[task.id]
+
+    def _moves_unasked(self, task: Task) -> bool:
+        """Whether the robot may go and look for a task before there is a plan that a person could see."""
+        return not (self._paper or task.dry_run or task.approval is Approval.ASK)
 
     def _plan(self, task: Task, goals: tuple[Goal, ...], source: Source, stamp_s: float) -> Ready | None:
         """Plan for the goals; then refuse, show the plan, ask for approval, or let the task run."""

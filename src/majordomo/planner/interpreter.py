@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 
 from majordomo.planner.continuing import continued, place_asked
 from majordomo.planner.discourse import Discourse, Stuck
+from majordomo.planner.flaws import shut_doors
 from majordomo.planner.gathering import Trouble
 from majordomo.planner.grammar.lexicon import Lexicon
 from majordomo.planner.grammar.parser import (
@@ -247,7 +248,8 @@ class Interpreter:
         flaws = self._verifier.verify_goals(goals, snapshot)
         if flaws:
             reasons = " ".join(flaw.message[:1].upper() + flaw.message[1:] for flaw in flaws[:3])
-            return Interpretation(kind=Kind.REFUSE, reply=reasons, mentioned=mentioned)
+            closed = shut_doors(flaws, snapshot)
+            return Interpretation(kind=Kind.REFUSE, reply=reasons, mentioned=mentioned, closed=closed)
         return Interpretation(kind=Kind.PLAN, goals=goals, reply=answers, mentioned=mentioned, lessons=lessons)
 
 

@@ -2,12 +2,20 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Iterable
+from dataclasses import replace
 
 from majordomo.planner.grammar.syntax import Ask, NounPhrase, Restriction
 from majordomo.planner.naming import listed, name_of
+from majordomo.scene_graph.doors import physical_doors
+from majordomo.scene_graph.edges import TASK_AGENT
+from majordomo.scene_graph.edits import PutNode
+from majordomo.scene_graph.memory import WorkingMemory
 from majordomo.scene_graph.nodes import DoorNode, DoorState, RoomNode
 from majordomo.scene_graph.snapshot import Snapshot
+
+logger = logging.getLogger(__name__)
 
 OPENNESS = ("open", "closed")
 """Words for the state of a door, and of a room by its doors."""
@@ -24,6 +32,21 @@ def is_open(node_id: str, snapshot: Snapshot) -> bool | None:
     if DoorState.OPEN in states:
         return True
     return None if DoorState.UNKNOWN in states or not states else False
+
+
+def suppose_not_known(doors: Iterable[str], memory: WorkingMemory, stamp_s: float) -> None:
+    """Take back that doors are closed, on both sides: somebody may have opened them since they were seen."""
+    building = memory.building()
+    for door in physical_doors(building):
+        if not {member.id for member in door.members} & set(doors):
+            continue
+        logger.info("%s may have been opened", door.id, extra={"door": door.id})
+        edits = [
+            PutNode(replace(member, state=DoorState.UNKNOWN))
+            for member in door.members
+            if member.state is DoorState.CLOSED
+        ]
+        memory.commit(edits, agent=TASK_AGENT, stamp_s=stamp_s)
 
 
 def about_openness(ask: Ask) -> bool:

@@ -167,7 +167,7 @@ class Interpretation:
     ``reply`` is the question to ask, ``candidates`` the identifiers to choose from, if that is the question.
     refuse: ``reply`` says why. ``lessons``: for the graph.
     ``mentioned``: identifiers that were spoken of, for later pronouns, the newest first. ``sought``: the kind of thing
-    that was never seen, if that is why nothing can be done.
+    that was never seen, if that is why nothing can be done; ``closed``: the doors that are, if that is all that is why.
     """
 
     kind: Kind
@@ -179,6 +179,7 @@ class Interpretation:
     mentioned: tuple[str, ...] = ()
     lessons: tuple[Lesson, ...] = ()
     sought: str = ""
+    closed: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from math import cos, sin
 
@@ -54,16 +53,20 @@ class Rim:
         return Box2(Pose2(float(x_m), float(y_m), pose.yaw_rad), *sizes)
 
 
-def rims(seat: ObjectNode) -> Iterator[Rim]:
+def rims(seat: ObjectNode) -> tuple[Rim, ...]:
     """The back of a seat, if it is known where it is, and its arms, if its kind has any."""
-    along_m, _ = rims_m(seat.label)
-    if (back := back_rim(seat)) is not None:
-        yield back
-    if (share := ARM_SHARES.get(_plain(seat.label))) is not None:
-        for sign in (1, -1):
-            long = int(seat.size_m[1] > seat.size_m[0])
-            half_m, top_m = seat.size_m[long] / 2, (share - 0.5) * seat.size_m[2]
-            yield Rim(axis=long, sign=sign, half_m=half_m, thick_m=along_m, top_m=top_m)
+    back, share = back_rim(seat), ARM_SHARES.get(_plain(seat.label))
+    arms = ends(seat, top_m=(share - 0.5) * seat.size_m[2]) if share is not None else ()
+    return (*((back,) if back is not None else ()), *arms)
+
+
+def ends(seat: ObjectNode, *, top_m: float) -> tuple[Rim, ...]:
+    """What is, or may be, along both of the short sides of a seat, so high; nothing of what is no seat."""
+    long, (along_m, _) = int(seat.size_m[1] > seat.size_m[0]), rims_m(seat.label)
+    if along_m <= 0.0:
+        return ()
+    half_m = seat.size_m[long] / 2
+    return tuple(Rim(axis=long, sign=sign, half_m=half_m, thick_m=along_m, top_m=top_m) for sign in (1, -1))
 
 
 def back_rim(seat: ObjectNode) -> Rim | None:

@@ -488,13 +488,25 @@ async def test_what_stops_the_arm_on_its_way_in_between_boards_is_not_the_board(
     assert (await rehearsal.run(actions[lowering:], 900.0)).code is FailureCode.UNREACHABLE
 
 
-@pytest.mark.parametrize(("glass_y_m", "across"), [(0.06, 1), (0.0, 1), (-0.3, 0)])
-async def test_a_finger_does_not_come_down_on_the_arm_of_a_sofa(flat, glass_y_m, across):
+@pytest.mark.parametrize(
+    ("glass_y_m", "height_m", "across"),
+    [(0.06, 0.14, 2), (0.0, 0.14, 2), (-0.03, 0.14, 1), (-0.03, 0.34, 0), (0.0, 0.34, 1), (-0.3, 0.14, 0)],
+)
+async def test_neither_a_finger_nor_the_palm_comes_down_on_the_arm_of_a_sofa(flat, glass_y_m, height_m, across):
     built = flat().thing("sofa_1", (0.7, -0.7, 0.4), (1.9, 0.9, 0.8), yaw=pi / 2, support=True)
-    built.thing("glass_1", (0.6, glass_y_m, 0.47), (0.074, 0.074, 0.14), on="sofa_1", graspable=True)
+    size_m = (0.074, 0.074, height_m)
+    built.thing("glass_1", (0.6, glass_y_m, 0.4 + height_m / 2), size_m, on="sofa_1", graspable=True)
     context = await Rehearsal(memory=built.memory, body=FakeBody()).prepare()
     met = fingers_met(context, "glass_1")
-    assert (met(0.0, 0.06), met(pi / 2, 0.06)) == (0, across)
+    assert (met(0.0, 0.04), met(pi / 2, 0.04)) == (0, across)
+
+
+async def test_of_a_chair_whose_back_nobody_has_seen_it_may_be_at_either_end(flat):
+    built = flat().thing("chair_1", (0.62, 0.0, 0.45), (0.5, 0.45, 0.9), support=True)
+    built.thing("can_1", (0.8, 0.0, 0.51), (0.066, 0.066, 0.12), on="chair_1", graspable=True)
+    context = await Rehearsal(memory=built.memory, body=FakeBody()).prepare()
+    met = fingers_met(context, "can_1")
+    assert (met(0.0, 0.06), met(pi / 2, 0.06)) == (2, 0)
 
 
 @pytest.mark.parametrize(

@@ -16,7 +16,7 @@ from majordomo.skills.actions.arm_way import spared_nodes
 from majordomo.skills.geometry import Points
 from majordomo.skills.grasping import FINGER_M, PAD_DEPTH_M, TIP_M, pads_from_above_m
 from majordomo.skills.navigation.pose import in_base, robot_frame
-from majordomo.skills.seats import back_rim, rims_m
+from majordomo.skills.seats import ends, rims
 
 AIR_M = 0.01
 """Around a finger, and what neighbors may be larger than believed."""
@@ -53,7 +53,7 @@ def fingers_met(context: RobotContext, object_id: str) -> Callable[[float, float
         for sign in (1, -1):
             palm = [middle + sign * along * half_m * toward + out * broad_m * aside for along, out in _PALM_AT]
             met += any(solid.covers(point) for solid in high for point in palm) or (
-                seat is not None and any(seat.is_back(point, palm_m) for point in palm)
+                seat is not None and any(seat.covers_above(point, palm_m) for point in palm)
             )
         return met
 
@@ -85,24 +85,22 @@ class _Solid:
 
 
 class _Seat(_Solid):
-    """What carries a thing: where its arms are, at the ends of its longer side, and no nearer than the thing itself."""
+    """What carries a thing: its back and its arms, no nearer than the thing itself. Of a seat whose back nobody has
+    seen, it may be at either end.
+    """
 
     def __init__(self, context: RobotContext, node: ObjectNode, carried_id: str) -> None:
         super().__init__(context, node)
-        self._long = int(node.size_m[1] > node.size_m[0])
-        arm_m = rims_m(node.label)[0]
-        carried_m = abs(float(context.snapshot.position(carried_id, node.id)[self._long]))
-        narrow_m = min(context.snapshot.object(carried_id).size_m[:2])
-        inner_m = max(float(self._half_m[self._long]) - arm_m, carried_m + narrow_m / 2)
-        self._inner_m = inner_m if arm_m > 0.0 else inf
-        back = back_rim(node)
-        self._back = back.beyond(context.snapshot.position(carried_id, node.id)[:2]) if back is not None else None
+        at = context.snapshot.position(carried_id, node.id)[:2]
+        known = rims(node) or ends(node, top_m=node.size_m[2] / 2)
+        self._rims = tuple(rim.beyond(at) for rim in known)
+        self._middle_m = self.top_m - node.size_m[2] / 2
 
     def covers(self, point: Points) -> bool:
         """Whether a finger there would meet an arm, or the back."""
-        met = abs(float(self.local(point)[self._long])) > self._inner_m - AIR_M
-        return met or (self._back is not None and self._back.covers(self.local(point), AIR_M))
+        return self.covers_above(point, -inf)
 
-    def is_back(self, point: Points, low_m: float) -> bool:
-        """Whether what is there, ``low_m`` over the floor, would meet the back."""
-        return self._back is not None and self.top_m > low_m and self._back.covers(self.local(point), AIR_M)
+    def covers_above(self, point: Points, low_m: float) -> bool:
+        """Whether what is there, ``low_m`` over the floor, would meet an arm, or the back."""
+        local = self.local(point)
+        return any(self._middle_m + rim.top_m > low_m and rim.covers(local, AIR_M) for rim in self._rims)

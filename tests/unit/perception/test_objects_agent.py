@@ -42,18 +42,25 @@ class Story:
         self.now_s = 0.0
 
     def run(self, steps):
-        for _ in range(steps):
-            self.now_s = round(self.now_s + 0.2, 3)
-            self.room.locate(self.memory, self.now_s, error=self.pose_error, std_rad=self.pose_std_rad)
-            self.room.fill(self.buffer, self.now_s)
-            asyncio.run(self.agent.step(self.now_s))
+        async def stepping():
+            for _ in range(steps):
+                self.now_s = round(self.now_s + 0.2, 3)
+                self.room.locate(self.memory, self.now_s, error=self.pose_error, std_rad=self.pose_std_rad)
+                self.room.fill(self.buffer, self.now_s)
+                await self.agent.step(self.now_s)
+
+        asyncio.run(stepping())
         return self.memory.snapshot()
 
     def agent_only(self, steps):
         """The agent's steps, without new measurements."""
-        for _ in range(steps):
-            self.now_s = round(self.now_s + 0.2, 3)
-            asyncio.run(self.agent.step(self.now_s))
+
+        async def stepping():
+            for _ in range(steps):
+                self.now_s = round(self.now_s + 0.2, 3)
+                await self.agent.step(self.now_s)
+
+        asyncio.run(stepping())
 
     def wait(self, seconds):
         self.now_s += seconds

@@ -21,6 +21,8 @@ from majordomo.scene_graph.se3 import SE3
 Array = NDArray[np.float64]
 INTRINSICS = Intrinsics(fx=277.1, fy=277.1, cx=159.5, cy=119.5, width=320, height=240)
 _LIGHT = np.array((0.3, 0.5, 0.81))
+_NEAREST_M = 0.01
+"""Nearer than that to the camera, a corner is not projected."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -40,6 +42,12 @@ class Solid:
     def moved_to(self, center: Point3) -> Solid:
         """The same thing elsewhere."""
         return replace(self, center=center)
+
+    def corners(self) -> Array:
+        """(8, 3) of the upright box around it, in the room frame."""
+        size_m = (self.size_m[0], self.size_m[0], self.size_m[2]) if self.cylinder else self.size_m
+        signs = np.array([(x, y, z) for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)])
+        return SE3.from_xyz_yaw(*self.center, self.yaw_rad).apply(signs * size_m)
 
     def intersect(self, origin: Array, rays: Array) -> tuple[Array, Array]:
         """Distance along each ray (N, 3), infinite for a miss, and the unit normal (N, 3) there."""
@@ -105,22 +113,34 @@ def render(solids: Sequence[Solid], T_room_camera: SE3, intrinsics: Intrinsics =
     """What a camera sees of the solids, a floor at z = 0 and walls five meters around the origin."""
     v, u = np.mgrid[0 : intrinsics.height, 0 : intrinsics.width]
     x, y = (u - intrinsics.cx) / intrinsics.fx, (v - intrinsics.cy) / intrinsics.fy
-    rays = np.stack((x, y, np.ones_like(x)), axis=-1).reshape(-1, 3) @ T_room_camera.rotation().T
+    rays = np.stack((x, y, np.ones_like(x)), axis=-1) @ T_room_camera.rotation().T
     origin = T_room_camera.translation_m
-    depth, ids = _enclosure(origin, rays), np.full(len(rays), -1, dtype=np.int32)
-    rgb = np.full((len(rays), 3), 150.0)
+    depth = _enclosure(origin, rays.reshape(-1, 3)).reshape(v.shape)
+    ids, rgb = np.full(v.shape, -1, dtype=np.int32), np.full((*v.shape, 3), 150.0)
     for index, solid in enumerate(solids):
-        distance, normal = solid.intersect(origin, rays)
-        nearer = distance < depth
-        depth[nearer], ids[nearer] = distance[nearer], index
+        window = _window(solid, T_room_camera, intrinsics)
+        distance, normal = solid.intersect(origin, rays[window].reshape(-1, 3))
+        nearer = distance < depth[window].reshape(-1)
+        rows, columns = (places[window].reshape(-1)[nearer] for places in (v, u))
+        depth[rows, columns], ids[rows, columns] = distance[nearer], index
         light = 0.45 + 0.55 * np.clip(normal[nearer] @ _LIGHT, 0.0, 1.0)
-        rgb[nearer] = np.array(solid.color) * light[:, None]
-    shape = (intrinsics.height, intrinsics.width)
-    return Rendering(
-        rgb=rgb.reshape(*shape, 3).astype(np.uint8),
-        depth_m=depth.reshape(shape).astype(np.float32),
-        ids=ids.reshape(shape),
-    )
+        rgb[rows, columns] = np.array(solid.color) * light[:, None]
+    return Rendering(rgb=rgb.astype(np.uint8), depth_m=depth.astype(np.float32), ids=ids)
+
+
+def _window(solid: Solid, T_room_camera: SE3, intrinsics: Intrinsics) -> tuple[slice, slice]:
+    """Rows and columns of the image outside of which the solid is not seen: those of all where it reaches behind the
+    camera.
+    """
+    corners = T_room_camera.inverse().apply(solid.corners())
+    depth = corners[:, 2]
+    if depth.min() < _NEAREST_M:
+        everywhere = slice(0, None) if depth.max() > 0.0 else slice(0, 0)
+        return everywhere, everywhere
+    u = corners[:, 0] / depth * intrinsics.fx + intrinsics.cx
+    v = corners[:, 1] / depth * intrinsics.fy + intrinsics.cy
+    (top, bottom), (left, right) = ((max(0, int(each.min()) - 1), max(0, int(each.max()) + 2)) for each in (v, u))
+    return slice(top, bottom), slice(left, right)
 
 
 def rgbd_frame(

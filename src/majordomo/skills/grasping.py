@@ -53,6 +53,8 @@ FINGER_M = 0.012
 HOVER_M = 0.08
 LEVEL_CLEARANCE_M = 0.06
 LEVEL_STANDOFF_M = 0.06
+LEVEL_AIR_M = 0.015
+"""Between the top of a thing and a level hand that passes over it, as both are measured."""
 LEVEL_SHARE = 0.5
 TALL_M, TALL_RATIO = 0.16, 2.0
 SQUARE_SHARE = 0.15
@@ -172,9 +174,11 @@ def pads_from_above_m(size_m: Size3, center_z_m: float) -> float:
 
 
 def _in_the_way(snapshot: Snapshot, object_id: str, T_base_object: SE3) -> bool:
-    """Whether another thing reaches up into what a level hand sweeps from the base to a little beyond the object."""
+    """Whether another thing reaches up into what a level hand sweeps from the base to a little beyond the object, or
+    so nearly that nobody has measured it so well.
+    """
     node = snapshot.object(object_id)
-    hand_low_m = underside_m(node.size_m, T_base_object.z_m)
+    hand_low_m = underside_m(node.size_m, T_base_object.z_m) - LEVEL_AIR_M
     for other in snapshot.of_type(ObjectNode):
         if other.id == object_id or other.state is not ObjectState.PRESENT:
             continue

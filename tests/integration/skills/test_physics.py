@@ -136,6 +136,27 @@ async def test_of_two_bottles_before_the_back_of_a_chair_one_is_taken_without_a_
     assert np.linalg.norm(np.array(built.where("bottle_2")["position_m"]) - stood) < 0.005
 
 
+@pytest.mark.parametrize(
+    ("turn", "places"),
+    [
+        (1.57, {"bottle_1": [0.104, 0.132], "bottle_2": [-0.143, -0.115], "cup_1": [-0.042, -0.122]}),
+        slow(3.14, {"bottle_1": [-0.071, 0.105], "bottle_2": [0.032, 0.092], "cup_1": [0.039, -0.041]}),
+    ],
+)
+async def test_to_a_bottle_close_to_the_back_of_a_chair_the_palm_does_not_come_along_the_back(
+    stage, make_house, turn, places
+):
+    chair = {"id": "chair_1", "category": "chair", "pose": [1.6, 0.0, turn]}
+    things = [
+        {"id": name, "category": name.partition("_")[0], "on": "chair_1", "offset": offset}
+        for name, offset in places.items()
+    ]
+    built = await stage(make_house([chair], things, [0.0, 0.0, 0.0]), noise_m=0.003)
+    assert await built.carry_out(("GOTO", "bottle_1"), ("PICK", "bottle_1")) is None
+    built.truth = await built.robot.truth()
+    assert (built.truth["robot"]["holding"], built.truth["collisions"]) == ("bottle_1", 0)
+
+
 @pytest.mark.parametrize("in_m", [-0.2, pytest.param(0.05, marks=pytest.mark.slow)])
 async def test_a_can_that_touches_the_arm_of_a_sofa_is_taken_with_the_fingers_before_and_behind_it(
     stage, make_house, in_m

@@ -503,7 +503,7 @@ async def test_neither_a_finger_nor_the_palm_comes_down_on_the_arm_of_a_sofa(fla
 
 async def test_of_a_chair_whose_back_nobody_has_seen_it_may_be_at_either_end(flat):
     built = flat().thing("chair_1", (0.62, 0.0, 0.45), (0.5, 0.45, 0.9), support=True)
-    built.thing("can_1", (0.8, 0.0, 0.51), (0.066, 0.066, 0.12), on="chair_1", graspable=True)
+    built.thing("can_1", (0.785, 0.0, 0.51), (0.066, 0.066, 0.12), on="chair_1", graspable=True)
     context = await Rehearsal(memory=built.memory, body=FakeBody()).prepare()
     met = fingers_met(context, "can_1")
     assert (met(0.0, 0.06), met(pi / 2, 0.06)) == (2, 0)
@@ -522,7 +522,7 @@ async def test_a_finger_does_not_come_down_on_a_neighbor(flat, beside, along, ac
     assert (met(0.0, 0.06), met(pi / 2, 0.06)) == (along, across)
 
 
-@pytest.mark.parametrize(("x_m", "along"), [(0.6, 0), (0.73, 1), (0.745, 2)])
+@pytest.mark.parametrize(("x_m", "along"), [(0.6, 0), (0.72, 1), (0.745, 2)])
 async def test_neither_a_finger_nor_the_palm_comes_down_on_the_back_of_a_chair(flat, x_m, along):
     built = flat().thing("chair_1", (0.62, 0.0, 0.45), (0.45, 0.45, 0.9), support=True)
     with built.memory.edit("test", 0.0) as tx:
@@ -602,6 +602,18 @@ async def test_the_hand_comes_to_a_seat_neither_over_its_back_nor_over_an_arm_of
     spared = {"cup_1", f"{kind}_1"}
     costs = passing_over(built.memory.snapshot(), "room_1", np.array((0.0, 0.0, 0.5)), 0.6, places, spared, stamp_s=0.0)
     assert costs.tolist() == [from_back, from_side, from_front]
+
+
+@pytest.mark.parametrize(
+    ("at_m", "along", "aslant"), [(0.0, 0.0, 0.0), (0.11, BARRED_COST_M, 0.0), (0.17, BARRED_COST_M, BARRED_COST_M)]
+)
+async def test_to_what_is_close_to_the_back_of_a_chair_the_hand_comes_from_the_front(flat, at_m, along, aslant):
+    built = flat().thing("chair_1", (0.0, 0.0, 0.45), (0.45, 0.45, 0.9), support=True, back_rad=pi / 2)
+    built.thing("cup_1", (0.0, at_m, 0.5), (0.08, 0.08, 0.1), on="chair_1", graspable=True)
+    places = np.array(((0.6, at_m), (0.5, at_m - 0.35), (0.0, at_m - 0.6)))
+    target, spared = np.array((0.0, at_m, 0.5)), {"cup_1", "chair_1"}
+    costs = passing_over(built.memory.snapshot(), "room_1", target, 0.6, places, spared, stamp_s=0.0)
+    assert costs.tolist() == [along, aslant, 0.0]
 
 
 @pytest.mark.parametrize(

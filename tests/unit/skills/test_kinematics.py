@@ -108,12 +108,13 @@ def test_what_is_too_wide_says_so():
         )
 
 
-def test_a_bottle_is_taken_level_unless_something_stands_before_it(flat):
+@pytest.mark.parametrize(("height_m", "level"), [(0.06, True), (0.088, False), (0.1, False)])
+def test_a_bottle_is_taken_level_unless_something_stands_before_it_as_high_as_the_hand(flat, height_m, level):
     built = flat().table().bottle("bottle_1", 1.0, 1.2)
     ahead = SE3.from_xyz_yaw(0.6, 0.0, 0.87, 0.0)  # the base is 0.6 m west of the bottle, facing east
     assert prefers_level(built.memory.snapshot(), "bottle_1", ahead)
-    built.thing("cup_1", (0.8, 1.25, 0.8), (0.08, 0.08, 0.1), on="table_1")
-    assert not prefers_level(built.memory.snapshot(), "bottle_1", ahead)
+    built.thing("cup_1", (0.8, 1.25, 0.75 + height_m / 2), (0.08, 0.08, height_m), on="table_1")
+    assert prefers_level(built.memory.snapshot(), "bottle_1", ahead) is level
 
 
 def test_a_cup_is_taken_from_above_and_level_under_a_board(flat):

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from majordomo.scene_graph.nodes import UNKNOWN_LABEL, ObjectNode, ObjectState, PersonNode
 from majordomo.scene_graph.snapshot import Snapshot
@@ -85,7 +84,7 @@ def passing_over(
         if node.state is not ObjectState.PRESENT or snapshot.room_of(node.id) != frame:
             continue
         if node.id in spared:
-            costs += np.where(_meets_rim(snapshot, frame, node, target, low_m, way), np.inf, 0.0)
+            costs += _rim_costs(snapshot, frame, node, target, low_m, way)
             continue
         x_m, y_m, z_m = snapshot.position(node.id, frame)
         reach_m = float(np.hypot(x_m - target[0], y_m - target[1]))
@@ -105,23 +104,26 @@ def passing_over(
     return costs
 
 
-def _meets_rim(
-    snapshot: Snapshot, frame: str, seat: ObjectNode, target: Points, low_m: float, way: Points
-) -> NDArray[np.bool_]:
-    """(N,) whether the hand, on its ways (S, N, 2) at ``low_m`` to a target on a seat, meets the seat's back or an arm
-    of it. To what lies close to one of them it comes along that one, no nearer than the thing itself is.
+def _rim_costs(snapshot: Snapshot, frame: str, seat: ObjectNode, target: Points, low_m: float, way: Points) -> Points:
+    """(N,) what it costs that the hand, on its ways (S, N, 2) at ``low_m`` to a target on a seat, meets the seat's back
+    or an arm of it. To what lies close to one of them it had better come from the open side; along that one only where
+    nothing else is left, and never nearer than the thing itself is.
     """
-    met = np.zeros(way.shape[1], np.bool_)
+    costs = np.zeros(way.shape[1])
     pose, z_m = Pose2.of(snapshot.transform(frame, seat.id)), float(snapshot.position(seat.id, frame)[2])
     before = np.linalg.norm(way - target[:2], axis=2) > AT_TARGET_M
     (goal,) = pose.inverse_apply(target[None, :2])
     for rim in rims(seat):
         if z_m + rim.top_m > low_m:
             outline = rim.beyond(goal).outline(seat, pose)
-            near_m = min(ARM_HALF_WIDTH_M + DRIFT_M, float(outline.distance_m(target[None, :2])[0]) - ALONG_M)
+            along_m = float(outline.distance_m(target[None, :2])[0]) - ALONG_M
             away_m = outline.distance_m(way.reshape(-1, 2)).reshape(way.shape[:2])
-            met |= (before & (away_m < near_m)).any(axis=0)
-    return met
+            nearest_m = np.where(before, away_m, np.inf).min(axis=0)
+            clear_m = ARM_HALF_WIDTH_M + DRIFT_M
+            costs += np.where(
+                nearest_m < min(clear_m, along_m), np.inf, np.where(nearest_m < clear_m, BARRED_COST_M, 0.0)
+            )
+    return costs
 
 
 def _is_small_and_nameless(node: ObjectNode) -> bool:

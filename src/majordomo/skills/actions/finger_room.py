@@ -5,6 +5,7 @@ of a seat, nor the palm above the fingers.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from math import cos, inf, sin
 
 import numpy as np
@@ -20,6 +21,8 @@ from majordomo.skills.seats import ends, rims
 
 AIR_M = 0.01
 """Around a finger, and what neighbors may be larger than believed."""
+THICKER_M = 0.01
+"""What back and arms of a seat may be thicker than believed: that is known of the kind only."""
 _PALM_HALF_M = (0.08, 0.02)
 """Of the palm's sides along the direction in which the fingers close, and across."""
 _PALM_AT = tuple((along, out) for along in (0.25, 0.5, 0.75, 1.0) for out in (-1.0, 0.0, 1.0))
@@ -93,7 +96,7 @@ class _Seat(_Solid):
         super().__init__(context, node)
         at = context.snapshot.position(carried_id, node.id)[:2]
         known = rims(node) or ends(node, top_m=node.size_m[2] / 2)
-        self._rims = tuple(rim.beyond(at) for rim in known)
+        self._rims = tuple(replace(rim, thick_m=rim.thick_m + THICKER_M).beyond(at) for rim in known)
         self._middle_m = self.top_m - node.size_m[2] / 2
 
     def covers(self, point: Points) -> bool:

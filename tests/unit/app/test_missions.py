@@ -19,7 +19,7 @@ from majordomo.app.evaluations.missions.inventing import invent
 from majordomo.app.evaluations.missions.mission import Mission
 from majordomo.app.evaluations.missions.mission_file import MissionFileError, load_missions
 from majordomo.app.evaluations.missions.outcome import HAND, Outcome, Placed, RobotIn, Scene, stirred
-from majordomo.app.evaluations.missions.playing import Verdict, touched_last
+from majordomo.app.evaluations.missions.playing import Verdict, is_within_reach, touched_last
 from majordomo.app.evaluations.missions.resident import meant
 from majordomo.app.evaluations.missions.ways import Ways
 from majordomo.planner.tasks import PlanReport, StepReport, StepStatus, Task, TaskStatus, TaskTimes
@@ -96,6 +96,17 @@ def test_the_shortest_way_is_no_shorter_than_the_line_and_a_shut_door_lengthens_
     assert ways.is_free(start)
     assert ways.length_m(start, (-50.0, 0.0)) == math.inf
     assert not ways.is_free((-50.0, 0.0))
+
+
+def test_a_room_behind_shut_doors_is_out_of_reach_for_the_robot_as_for_what_it_brings():
+    there, here = scene(CUP_ON_TABLE), scene(CUP_ON_TABLE, shut=[door.id for door in FLAT.doors])
+    away = next(room.id for room in FLAT.rooms if room.id != here.robot_room)
+    sent = [Mission(house="flat", kind="go", request="", outcomes=(Outcome(states=(state,)),)) for state in (
+        RobotIn(rooms=(away,)), RobotIn(rooms=(here.robot_room,)), RobotIn(rooms=(away, here.robot_room)),
+        Placed(things=(), places=(away,)), Placed(things=(), places=(HAND,)),
+    )]  # fmt: skip
+    assert [is_within_reach(mission, there, Ways(there)) for mission in sent] == [True] * 5
+    assert [is_within_reach(mission, here, Ways(here)) for mission in sent] == [False, True, True, False, True]
 
 
 def test_nobody_reaches_through_a_wall():

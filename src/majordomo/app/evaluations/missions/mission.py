@@ -31,3 +31,8 @@ class Mission:
     def places(self) -> tuple[str, ...]:
         """Everywhere that may go."""
         return tuple(dict.fromkeys(place for outcome in self.outcomes for place in outcome.places))
+
+    @property
+    def rooms(self) -> tuple[str, ...]:
+        """Every room that the robot itself may be sent to."""
+        return tuple(dict.fromkeys(room for outcome in self.outcomes for room in outcome.rooms))

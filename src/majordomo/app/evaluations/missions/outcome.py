@@ -133,6 +133,11 @@ class Outcome:
         """Everywhere it may go."""
         return tuple(place for state in self.states if isinstance(state, Placed) for place in state.places)
 
+    @property
+    def rooms(self) -> tuple[str, ...]:
+        """Every room that the robot may be in at last."""
+        return tuple(room for state in self.states if isinstance(state, RobotIn) for room in state.rooms)
+
     def met(self, scene: Scene, task: Task) -> bool:
         """Whether the world is as asked, and what was said is what was to be said."""
         said = f"{task.reply} {task.explanation}".casefold()

@@ -140,7 +140,7 @@ class _Play:
         ways = Ways(before, spared=self._mission.things)
         shortest_m = self._shortest_m(before, ways)
         passable = Ways(before, spared=self._mission.things, radius_m=PASSABLE_M)
-        within_reach = self._is_within_reach(before, passable)
+        within_reach = is_within_reach(self._mission, before, passable)
         task = self._runtime.submit(self._mission.request)
         await self._film(before, self._mission.request)
         task = await self._watch(task)
@@ -252,14 +252,6 @@ class _Play:
             "stirred": list(stirred(before, after, spared)),
         }
 
-    def _is_within_reach(self, scene: Scene, ways: Ways) -> bool:
-        """Whether free floor leads near all that is to be moved, and near one of the places it may go to."""
-        places = [scene.where(name) or ways.middle_of(name) for name in self._mission.places if name != HAND]
-        things = [scene.where(name) for name in self._mission.things]
-        near = all(thing is None or math.isfinite(ways.length_m(scene.robot_at, thing)) for thing in things)
-        stops = [place for place in places if place is not None]
-        return near and (not stops or any(math.isfinite(ways.length_m(scene.robot_at, stop)) for stop in stops))
-
     def _shortest_m(self, scene: Scene, ways: Ways) -> float | None:
         """The shortest way that does what is asked for; None where nothing moves, or in more orders than one."""
         things, places = self._mission.things, self._mission.places
@@ -271,6 +263,21 @@ class _Play:
 
     async def _scene(self) -> Scene:
         return await scene_of(self._runtime, self._house)
+
+
+def is_within_reach(mission: Mission, scene: Scene, ways: Ways) -> bool:
+    """Whether free floor leads near all that is to be moved, near one of the places it may go to, and to a room that
+    the robot is to be in.
+    """
+
+    def leads_to(stop: Point | None) -> bool:
+        return stop is None or math.isfinite(ways.length_m(scene.robot_at, stop))
+
+    def is_reached(name: str) -> bool:
+        return name == HAND or leads_to(scene.where(name) or ways.middle_of(name))
+
+    near = all(leads_to(scene.where(name)) for name in mission.things)
+    return near and all(not each or any(map(is_reached, each)) for each in (mission.places, mission.rooms))
 
 
 def touched_last(truth: Mapping[str, Any], collisions: int) -> list[str]:

@@ -81,7 +81,7 @@ class Intake:
         self._on_event, self._interpret_s, self._paper = on_event, interpret_s, paper
         self._recognizable = recognizable
         self._scouts: dict[str, Scout] = {}
-        self._doubted: frozenset[str] = frozenset()
+        self._looking: str | None = None
         self._displaced: dict[str, frozenset[str]] = {}
         self._mentioned: tuple[str, ...] = ()
         self._last: tuple[str, ...] = ()
@@ -101,12 +101,12 @@ class Intake:
             return None
         task = self._queue.task(task.id)
         scouting = meaning.kind is Kind.REFUSE and self._scout(task, meaning.sought, stamp_s) is not None
-        looking = bool(meaning.closed) and task.id not in self._doubted and self._moves_unasked(task)
+        looking = bool(meaning.closed) and task.id != self._looking and self._moves_unasked(task)
         if busy and (meaning.kind is Kind.PLAN or scouting or looking) and not task.dry_run:
             self._queue.move(task.id, TaskStatus.QUEUED, stamp_s=stamp_s, kind=Kind.PLAN.value)
             return None
         if looking:
-            self._doubted = frozenset({task.id})
+            self._looking = task.id
             suppose_not_known(meaning.closed, self._memory, stamp_s)
             return await self.take(task, stamp_s)
         return self._follow(task, meaning, stamp_s)

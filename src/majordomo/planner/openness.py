@@ -36,17 +36,12 @@ def is_open(node_id: str, snapshot: Snapshot) -> bool | None:
 
 def suppose_not_known(doors: Iterable[str], memory: WorkingMemory, stamp_s: float) -> None:
     """Take back that doors are closed, on both sides: somebody may have opened them since they were seen."""
-    building = memory.building()
-    for door in physical_doors(building):
-        if not {member.id for member in door.members} & set(doors):
-            continue
-        logger.info("%s may have been opened", door.id, extra={"door": door.id})
-        edits = [
-            PutNode(replace(member, state=DoorState.UNKNOWN))
-            for member in door.members
-            if member.state is DoorState.CLOSED
-        ]
-        memory.commit(edits, agent=TASK_AGENT, stamp_s=stamp_s)
+    named = frozenset(doors)
+    meant = [door for door in physical_doors(memory.building()) if named & {side.id for side in door.members}]
+    closed = [side for door in meant for side in door.members if side.state is DoorState.CLOSED]
+    logger.info("perhaps opened: %s", ", ".join(side.id for side in closed))
+    edits = [PutNode(replace(side, state=DoorState.UNKNOWN)) for side in closed]
+    memory.commit(edits, agent=TASK_AGENT, stamp_s=stamp_s)
 
 
 def about_openness(ask: Ask) -> bool:

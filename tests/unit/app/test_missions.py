@@ -279,9 +279,10 @@ def test_what_a_mission_file_may_not_say_is_named_with_its_line(tmp_path, text, 
         load_missions(file)
 
 
-def row(verdict, disturbance="", *, possible=True, collisions=0, driven_m=5.0, shortest_m=4.5, attempts=()):
+def row(verdict, disturbance="", *, possible=True, near=True, collisions=0, driven_m=5.0, shortest_m=4.5, attempts=()):
     return {
         "verdict": verdict, "disturbance": disturbance, "made": bool(disturbance), "possible": possible,
+        "within_reach": near,
         "collisions": collisions, "driven_m": driven_m, "shortest_m": shortest_m, "attempts": attempts,
     }  # fmt: skip
 
@@ -366,6 +367,18 @@ def test_goes_count_until_somebody_interferes():
     assert (summary["picks"], summary["places"]) == (1.0, None)
     bad = [{"skill": "PLACE", "done": False, "calm": True}]
     assert not met(summarize([row(Verdict.DONE, attempts=bad)]))
+
+
+def test_goes_at_what_was_out_of_reach_from_the_start_are_counted_by_themselves():
+    came, failed = ({"skill": "PICK", "done": done, "calm": True} for done in (True, False))
+    rows = [
+        row(Verdict.RIGHTLY_IMPOSSIBLE, possible=False, near=False, attempts=[failed]),
+        row(Verdict.RIGHTLY_IMPOSSIBLE, "removed", possible=False, attempts=[came, failed]),
+        row(Verdict.DONE, possible=False, near=False, attempts=[came]),
+    ]
+    summary = summarize(rows)
+    assert summary["attempts"] == {"PICK": 3, "PLACE": 0}
+    assert (summary["picks"], summary["attempts_out_of_reach"]) == (pytest.approx(2 / 3), 1)
 
 
 def test_a_filmstrip_shows_the_first_and_the_last_of_many_pictures(tmp_path):

@@ -15,6 +15,7 @@ from rich.box import SIMPLE_HEAD
 from rich.console import Console
 from rich.table import Table
 
+from majordomo.app.evaluations.missions.attempts import HANDLING
 from majordomo.app.evaluations.missions.disturbances import DISTURBANCES
 from majordomo.app.evaluations.missions.inventing import invent
 from majordomo.app.evaluations.missions.mission import Mission
@@ -91,12 +92,16 @@ def run_once(
 
 
 def summarize(rows: Sequence[Row]) -> dict[str, Any]:
-    """Figures over all missions. What was carried out was possible, whatever had been thought of it."""
+    """Figures over all missions. What was carried out was possible, whatever had been thought of it.
+
+    Single goes are counted where free floor led near enough from the start; those of the other missions by themselves.
+    """
     calm = [row for row in rows if not row["disturbance"] and _was_possible(row)]
     upset = [row for row in rows if row["disturbance"] and row["made"]]
     possible = [row for row in upset if _was_possible(row)]
     impossible = [row for row in upset if not _was_possible(row)]
-    picks, places = (_first_goes(rows, skill) for skill in ("PICK", "PLACE"))
+    near = [row for row in rows if row["within_reach"] or _done(row)]
+    picks, places = (_first_goes(near, skill) for skill in HANDLING)
     ways = [row["driven_m"] / row["shortest_m"] for row in calm if _done(row) and (row["shortest_m"] or 0.0) > 1.0]
     return {
         "missions": len(rows),
@@ -106,6 +111,7 @@ def summarize(rows: Sequence[Row]) -> dict[str, Any]:
         "picks": share(sum(picks), len(picks)),
         "places": share(sum(places), len(places)),
         "attempts": {"PICK": len(picks), "PLACE": len(places)},
+        "attempts_out_of_reach": sum(len(_first_goes(rows, skill)) - len(_first_goes(near, skill)) for skill in HANDLING),
         "disturbed": len(upset),
         "impossible": len(impossible),
         "out_of_reach": sum(not row["disturbance"] and not _was_possible(row) for row in rows),

@@ -248,6 +248,7 @@ class _Play:
         return {
             "verdict": verdict,
             "possible": possible,
+            "within_reach": within_reach,
             "reported": reported,
             "stirred": list(stirred(before, after, spared)),
         }

@@ -6,7 +6,7 @@ from majordomo.scene_graph.identifiers import is_well_formed, natural_key, next_
 from majordomo.scene_graph.nodes import NodeType
 from majordomo.scene_graph.revisions import Revisions
 
-law = settings(deadline=None, max_examples=100)
+law = settings(max_examples=100)
 identifiers = st.from_regex(r"[a-c]?[0-9_]{0,4}[a-c]?[0-9]{0,3}", fullmatch=True).filter(bool)
 
 

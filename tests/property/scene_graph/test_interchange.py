@@ -15,7 +15,7 @@ from majordomo.scene_graph.poses import MapPoses
 from majordomo.scene_graph.se3 import SE3
 from majordomo.scene_graph.snapshot import Snapshot
 
-law = settings(deadline=None, max_examples=60)
+law = settings(max_examples=60)
 
 meters = st.floats(-100.0, 100.0)
 poses = st.builds(SE3.from_xyz_yaw, meters, meters, st.floats(0.0, 2.0), st.floats(-3.2, 3.2))

@@ -24,7 +24,7 @@ from majordomo.scene_graph.nodes import NODE_CLASSES, DoorNode, ObjectNode, Robo
 from majordomo.scene_graph.se3 import SE3
 from majordomo.scene_graph.snapshot import Snapshot
 
-law = settings(deadline=None, max_examples=60)
+law = settings(max_examples=60)
 
 finite = st.floats(allow_nan=False, allow_infinity=False)
 small = st.floats(-1e3, 1e3)

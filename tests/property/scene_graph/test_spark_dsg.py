@@ -15,7 +15,7 @@ from majordomo.scene_graph.spark_dsg.reader import from_spark_dsg, is_spark_dsg
 from majordomo.scene_graph.spark_dsg.writer import CARRIED, to_spark_dsg
 from property.scene_graph.test_interchange import houses, poses, probabilities
 
-law = settings(deadline=None, max_examples=30)
+law = settings(max_examples=30)
 
 
 @st.composite

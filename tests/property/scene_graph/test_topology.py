@@ -52,7 +52,7 @@ def shortest(rooms, doors, here, goal, point, used=()):
     return best
 
 
-@settings(deadline=None, max_examples=60)
+@settings(max_examples=60)
 @given(buildings())
 def test_a_path_is_as_long_as_the_shortest_of_all_ways(building):
     rooms, doors = building
@@ -71,7 +71,7 @@ def test_a_path_is_as_long_as_the_shortest_of_all_ways(building):
             assert not closed
 
 
-@settings(deadline=None, max_examples=60)
+@settings(max_examples=60)
 @given(buildings())
 def test_neighbors_are_mutual_and_share_a_door(building):
     rooms, doors = building

@@ -44,7 +44,7 @@ from majordomo.scene_graph.nodes import (
 from majordomo.scene_graph.se3 import SE3
 from majordomo.scene_graph.snapshot import Snapshot
 
-law = settings(deadline=None, max_examples=100)
+law = settings(max_examples=100)
 
 ROOMS, OBJECTS, DOORS = ("room_1", "room_2"), ("cup_1", "cup_2"), ("door_1_0_0", "door_2_0_0")
 IDS = (*ROOMS, *OBJECTS, *DOORS, "wall_1_0", "person_1", "aff_cross_1_0_0", "robot", "root", "ghost_1")

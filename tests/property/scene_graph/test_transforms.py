@@ -15,7 +15,7 @@ from majordomo.scene_graph.errors import InvalidTransform
 from majordomo.scene_graph.rotation import skew
 from majordomo.scene_graph.se3 import SE3, wrap_angle
 
-law = settings(deadline=None, max_examples=100)
+law = settings(max_examples=100)
 
 meters = st.floats(-50.0, 50.0)
 small_and_large = st.one_of(st.floats(-1.0, 1.0), st.floats(-1e-9, 1e-9), st.just(0.0))

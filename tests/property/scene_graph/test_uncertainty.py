@@ -12,7 +12,7 @@ from majordomo.scene_graph.se3 import SE3
 from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.scene_graph.uncertainty import composed_covariance, inverse_covariance, position_covariance
 
-law = settings(deadline=None, max_examples=40)
+law = settings(max_examples=40)
 
 numbers = st.floats(-3.0, 3.0)
 transforms = st.lists(numbers, min_size=6, max_size=6).map(SE3.exp)

@@ -197,7 +197,6 @@ def test_what_a_model_was_asked_and_said_is_kept_without_secrets(queue, audit, j
     assert "abcdefghijkl" not in told
 
 
-@settings(deadline=None)
 @given(st.text(max_size=200), st.text(alphabet="abcXYZ0189-_", min_size=6, max_size=40), st.text(max_size=200))
 def test_no_known_secret_is_left_wherever_it_stands(before, secret, after):
     data = {f"{before}{secret}": [f"{before}{secret}{after}", {"deep": (secret,)}]}
@@ -286,7 +285,7 @@ def test_a_journal_of_the_version_before_is_taken_up_and_gets_traces(file):
 STATUSES = st.sampled_from(list(StepStatus))
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(st.lists(st.tuples(STATUSES, STATUSES), min_size=1, max_size=8))
 def test_the_steps_in_a_trace_end_as_those_of_the_plan(course):
     queue, told = TaskQueue(), []

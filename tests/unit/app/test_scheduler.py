@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from majordomo.app.scheduler import LockstepScheduler, RealTimeScheduler, Turns
@@ -41,7 +41,6 @@ class Simulated:
         return self.now_s
 
 
-@settings(deadline=None)
 @given(periods=st.lists(st.sampled_from([0.05, 0.1, 0.2, 0.25, 1.0]), min_size=1, max_size=4))
 def test_in_lockstep_every_agent_gets_its_rate_and_the_order_never_changes(periods):
     book = []

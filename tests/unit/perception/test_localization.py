@@ -68,7 +68,7 @@ def test_inside_an_l_shape_agrees_with_its_two_rectangles(x: float, y: float) ->
     st.floats(-2.0, 2.0), st.floats(-1.2, 1.2), st.floats(-3.1, 3.1),
     st.floats(-0.1, 0.1), st.floats(-0.1, 0.1), st.floats(-0.04, 0.04),
 )  # fmt: skip
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=25)
 def test_alignment_recovers_the_pose_from_a_wrong_guess(
     x: float, y: float, yaw: float, dx: float, dy: float, dyaw: float
 ) -> None:

@@ -107,7 +107,7 @@ def random_outputs(seed, queries=10, instances=4):
 SEEDS = st.integers(min_value=0, max_value=10_000)
 
 
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=50)
 @given(seed=SEEDS, shift=st.floats(-50, 50))
 def test_a_number_added_to_all_logits_of_a_query_changes_nothing(seed, shift):
     outputs = random_outputs(seed)
@@ -120,7 +120,7 @@ def test_a_number_added_to_all_logits_of_a_query_changes_nothing(seed, shift):
     assert facts(scene_of(shifted)) == facts(scene_of(outputs))
 
 
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=50)
 @given(seed=SEEDS)
 def test_the_order_of_queries_changes_nothing(seed):
     outputs = random_outputs(seed)
@@ -135,7 +135,7 @@ def test_the_order_of_queries_changes_nothing(seed):
     assert facts(scene_of(shuffled)) == facts(scene_of(outputs))
 
 
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=50)
 @given(seed=SEEDS)
 def test_every_mask_that_counts_is_covered_by_an_instance_and_no_pixel_comes_from_nowhere(seed):
     outputs = random_outputs(seed)
@@ -150,7 +150,7 @@ def test_every_mask_that_counts_is_covered_by_an_instance_and_no_pixel_comes_fro
     assert all((cover <= everything).all() for cover in covered)
 
 
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=50)
 @given(seed=SEEDS)
 def test_relations_join_two_different_instances_of_the_list_and_none_comes_twice(seed):
     scene = scene_of(random_outputs(seed, queries=30))
@@ -160,7 +160,7 @@ def test_relations_join_two_different_instances_of_the_list_and_none_comes_twice
     assert [t.probability for t in scene.relations] == sorted((t.probability for t in scene.relations), reverse=True)
 
 
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=50)
 @given(seed=SEEDS)
 def test_distributions_start_with_the_label_and_never_exceed_one(seed):
     for instance in scene_of(random_outputs(seed)).instances:

@@ -238,7 +238,7 @@ def test_a_slanted_wall_gives_an_outline_that_does_not_count_as_closed() -> None
 
 
 @given(st.floats(-3.0, 3.0))
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=15)
 def test_the_dominant_direction_turns_with_the_robot(yaw_rad: float) -> None:
     view = view_at(House(rooms={"a": rectangle(5.0, 3.0)}), Pose2(2.0, 1.0, yaw_rad), np.random.default_rng(0))
     direction, share = dominant_direction([view])

@@ -80,7 +80,7 @@ def test_odd_text_leads_to_no_action_and_a_short_reply_in_little_time(text):
     assert time.perf_counter() - started_s < 5.0
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=150)
 @given(st.text(max_size=120))
 def test_any_text_gets_an_interpretation(text):
     found = read(text)
@@ -94,7 +94,7 @@ where is how many all two not anna with , . if open largest one there here
 WORDS = st.sampled_from(VOCABULARY.split())
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=300)
 @given(st.lists(WORDS, min_size=1, max_size=14).map(" ".join))
 def test_whatever_becomes_a_plan_from_a_heap_of_words_can_be_carried_out(text):
     found = read(text)
@@ -136,7 +136,7 @@ OPENINGS = ["", "please ", "could you ", "hey robot, ", "I want you to ", "would
 CLOSINGS = ["", " please", ", thanks", " as soon as possible", "!"]
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=200)
 @given(
     st.sampled_from(OPENINGS),
     st.sampled_from(["bring", "carry", "take", "move", "deliver"]),

@@ -678,7 +678,7 @@ def test_pronouns_reach_the_interpreter_in_the_next_request():
     assert interpreter.asked[-1][1].mentioned[0] == "bottle_1"
 
 
-@settings(max_examples=25, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=25, suppress_health_check=[HealthCheck.too_slow])
 @given(st.integers(4, 110))
 def test_cancelled_at_any_tick_the_robot_stands_still_and_the_next_task_runs(tick):
     show = Show()
@@ -696,7 +696,7 @@ def test_cancelled_at_any_tick_the_robot_stands_still_and_the_next_task_runs(tic
     assert show.task.status is TaskStatus.CANCELLED
 
 
-@settings(max_examples=25, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=25, suppress_health_check=[HealthCheck.too_slow])
 @given(st.lists(st.tuples(st.integers(2, 60), st.sampled_from(["pause", "stop"])), min_size=1, max_size=3))
 def test_paused_or_stopped_at_any_ticks_nothing_moves_and_afterwards_the_task_still_succeeds(cuts):
     show = Show()
@@ -732,7 +732,7 @@ meddling = st.lists(
 )
 
 
-@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=60, suppress_health_check=[HealthCheck.too_slow])
 @given(outcomes, outcomes, outcomes, outcomes, meddling, st.sampled_from(sorted(TRUTH)))
 def test_whatever_happens_a_task_ends_and_never_succeeds_unless_its_goals_hold_in_truth(
     goto, pick, place, look, meddles, request_

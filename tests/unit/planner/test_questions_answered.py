@@ -74,7 +74,7 @@ def test_an_empty_graph_answers_as_well():
         assert found.reply
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(st.lists(st.tuples(st.sampled_from(["cup", "jar"]), st.sampled_from([1, 2])), max_size=8))
 def test_counting_agrees_with_counting(things):
     sketch = Sketch().room("room_1", "kitchen", at=(0.0, 0.0)).room("room_2", "hall", at=(4.2, 0.0))

@@ -159,7 +159,7 @@ def least_that_search_and_brute_force_find(snapshot, goals):
     return (found.cost_s if isinstance(found, Found) else None), brute_force_s(goals, start)
 
 
-@settings(max_examples=60, deadline=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=60, suppress_health_check=list(HealthCheck))
 @given(small_worlds(), st.lists(st.one_of(pointed_goal, in_a_room), min_size=1, max_size=3))
 @example(small_world(), [goal("holding", "cup_1"), goal("found", "cup_2")])
 @example(small_world(cups_on=("table_2", "table_1")), [goal("on", "cup_1", "table_1"), goal("found", "cup_2")])
@@ -182,7 +182,7 @@ def test_no_way_is_cheaper_than_the_one_found(snapshot, goals):
 
 
 @pytest.mark.benchmark
-@settings(max_examples=3000, deadline=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=3000, suppress_health_check=list(HealthCheck))
 @given(small_worlds(), st.lists(st.one_of(pointed_goal, in_a_room), min_size=1, max_size=4))
 def test_on_thousands_of_small_problems_no_way_is_cheaper(snapshot, goals):
     found_s, least_s = least_that_search_and_brute_force_find(snapshot, goals)
@@ -222,7 +222,7 @@ def test_what_is_found_within_reach_and_wanted_later_is_picked_up_without_anothe
     assert [step.skill for step in Search([goal("found", "cup_1")], SKILLS, near).run().steps] == ["GOTO"]
 
 
-@settings(max_examples=80, deadline=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=80, suppress_health_check=list(HealthCheck))
 @given(small_worlds(), st.lists(some_goal, min_size=1, max_size=4))
 def test_the_steps_found_can_be_carried_out_and_reach_every_goal_in_turn(snapshot, goals):
     state = PlanState.from_snapshot(snapshot)
@@ -238,7 +238,7 @@ def test_the_steps_found_can_be_carried_out_and_reach_every_goal_in_turn(snapsho
     assert search.done(state, ticked)
 
 
-@settings(max_examples=60, deadline=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=60, suppress_health_check=list(HealthCheck))
 @given(small_worlds(), st.lists(some_goal, min_size=1, max_size=3))
 @example(small_world(cups_on=("table_2", "table_1")), [goal("holding", "cup_1"), goal("on", "cup_2", "table_1")])
 @example(small_world(cups_on=("table_1", "table_2")), [goal("on", "cup_2", "table_1"), goal("near", "cup_1", "cup_2")])

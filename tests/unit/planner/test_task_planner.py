@@ -232,7 +232,7 @@ random_answers = st.fixed_dictionaries(
 )
 
 
-@settings(max_examples=300, deadline=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=300, suppress_health_check=list(HealthCheck))
 @given(st.lists(random_answers, min_size=1, max_size=5))
 def test_no_answer_that_fits_the_schema_leads_to_a_crash_or_an_unverified_plan(answers):
     import asyncio

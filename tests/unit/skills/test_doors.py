@@ -58,7 +58,7 @@ class Crossing:
                 tx.put(InEdge(source="robot", target="room_2"))
 
 
-@settings(max_examples=15, deadline=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=15, suppress_health_check=list(HealthCheck))
 @given(st.floats(-0.3, 0.3), st.floats(0.35, 1.2), st.floats(-0.6, 0.6))
 async def test_passes_a_gap_of_80_cm_from_wherever_it_starts(flat, y, before, yaw):
     body = FakeBody(pose=Pose2(3.0 - before, y, yaw))

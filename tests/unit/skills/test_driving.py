@@ -48,7 +48,7 @@ furniture = st.lists(
 )
 
 
-@settings(max_examples=15, deadline=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=15, suppress_health_check=list(HealthCheck))
 @given(furniture, coordinate, coordinate, st.floats(-pi, pi))
 async def test_reaches_goals_in_furnished_rooms_without_touching(flat, boxes, start, goal, yaw):
     assume(all(box.distance_m(np.array([start]))[0] > 0.4 for box in boxes))

@@ -48,7 +48,7 @@ def gap_m(obstacles, at):
     return min((float(box.distance_m(np.atleast_2d(at)).min()) for box in obstacles), default=10.0)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(boxes, points, points)
 def test_a_planned_path_never_comes_closer_to_a_box_than_the_radius(obstacles, start, goal):
     assume(gap_m(obstacles, start) > RADIUS_M + 0.08)
@@ -60,7 +60,7 @@ def test_a_planned_path_never_comes_closer_to_a_box_than_the_radius(obstacles, s
         assert path[-1] == goal
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 @given(boxes, points, points)
 def test_a_path_is_no_shorter_than_the_straight_line_and_empty_floor_gives_just_that(obstacles, start, goal):
     straight = hypot(goal[0] - start[0], goal[1] - start[1])
@@ -78,7 +78,7 @@ def test_there_is_no_way_through_a_wall_and_one_through_a_gap():
     assert find_routes(drawn(gap), (-1.0, 0.0), RADIUS_M).path_to((1.0, 0.0)) != ()
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(st.lists(points, min_size=1, max_size=30), points)
 def test_clearance_is_the_distance_to_the_nearest_point_and_not_to_its_cell(some, at):
     canvas = Canvas.covering((-2.5, -2.5), (2.5, 2.5))

@@ -20,7 +20,7 @@ neighbors = st.lists(
 sizes = st.tuples(st.floats(0.04, 0.25), st.floats(0.04, 0.25), st.floats(0.05, 0.3))
 
 
-@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(neighbors, sizes)
 def test_spots_lie_on_the_support_and_overlap_nothing(flat, things, size):
     built = flat().table("table_1", 1.0, 1.2)
@@ -41,7 +41,7 @@ def test_spots_lie_on_the_support_and_overlap_nothing(flat, things, size):
             assert spot.room_m <= air + 1e-6
 
 
-@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(neighbors, st.tuples(st.floats(0.12, 0.22), st.floats(0.04, 0.09), st.floats(0.02, 0.06)))
 def test_what_is_laid_so_that_it_fits_lies_on_the_support_and_overlaps_nothing(flat, things, size):
     built = flat().thing("nightstand_1", (1.0, 1.2, 0.28), (0.45, 0.4, 0.56), support=True)

@@ -96,7 +96,7 @@ def test_wrong_number_of_arguments_is_an_error_of_the_caller(state):
         Place().conditions(state, ("bottle_1",))
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(data=st.data())
 def test_no_sequence_of_permitted_steps_breaks_the_facts(data):
     state = initial()

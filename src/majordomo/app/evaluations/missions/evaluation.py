@@ -111,7 +111,9 @@ def summarize(rows: Sequence[Row]) -> dict[str, Any]:
         "picks": share(sum(picks), len(picks)),
         "places": share(sum(places), len(places)),
         "attempts": {"PICK": len(picks), "PLACE": len(places)},
-        "attempts_out_of_reach": sum(len(_first_goes(rows, skill)) - len(_first_goes(near, skill)) for skill in HANDLING),
+        "attempts_out_of_reach": sum(
+            len(_first_goes(rows, skill)) - len(_first_goes(near, skill)) for skill in HANDLING
+        ),
         "disturbed": len(upset),
         "impossible": len(impossible),
         "out_of_reach": sum(not row["disturbance"] and not _was_possible(row) for row in rows),

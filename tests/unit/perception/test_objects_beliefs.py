@@ -976,6 +976,17 @@ def test_a_counter_known_from_before_a_restart_does_not_grow_either():
     assert look_at_counter(belief, np.vstack((COUNTER, BOXES)), 60) == pytest.approx(0.9, abs=0.06)
 
 
+def test_a_piece_that_was_forgotten_and_remembered_time_and_again_is_as_large_as_before():
+    belief = SurfaceBelief()
+    look_at_counter(belief, COUNTER, 5)
+    before = belief.box
+    for _ in range(20):
+        belief = SurfaceBelief.of(belief.box, frames=5)
+        look_at_counter(belief, COUNTER, 5)
+    assert belief.box.size_m == pytest.approx(before.size_m, abs=0.01)
+    assert belief.box.center == pytest.approx(before.center, abs=0.01)
+
+
 def test_a_piece_grows_to_its_height_while_that_is_not_sure():
     belief = SurfaceBelief()
     look_at_counter(belief, COUNTER, 10)

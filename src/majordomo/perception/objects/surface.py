@@ -141,10 +141,15 @@ def furniture_box(memory: SurfaceMemory, category: Category, camera: Array) -> B
     low_z = 0.0 if category.floor else low_z
     rectangle = bounding_rectangle(points[:, :2], align_to_room=True)
     rectangle = _deepened(rectangle, category, camera, top_hidden=high_z > camera[2] - 0.05)
-    rim_m = 0.5 * memory.voxel_m
+    rim_m = _rim_m(memory)
     center = np.array((rectangle.center_x_m, rectangle.center_y_m, (low_z + high_z) / 2.0))
     sides_m = (rectangle.x_m + rim_m, rectangle.y_m + rim_m, max(high_z - low_z, 0.01))
     return Box(center, sides_m, rectangle.yaw_rad)
+
+
+def _rim_m(memory: SurfaceMemory) -> float:
+    """How much farther a piece reaches than its outermost points, both sides of it together."""
+    return 0.5 * memory.voxel_m
 
 
 def _of_a_piece(points: Array, category: Category) -> Array:
@@ -215,7 +220,9 @@ class SurfaceBelief:
         """A belief that starts from a remembered box, which ``frames`` frames have shown."""
         belief = cls()
         belief._as_high = min(frames, _MOST_FRAMES)
-        belief.memory.add(_faces(box), frames=2.0)
+        rim_m = _rim_m(belief.memory)
+        inner_m = (max(box.size_m[0] - rim_m, 0.0), max(box.size_m[1] - rim_m, 0.0), box.size_m[2])
+        belief.memory.add(_faces(Box(box.center, inner_m, box.yaw_rad)), frames=2.0)
         belief.box = box
         belief._top_m = _top_of(box)
         return belief

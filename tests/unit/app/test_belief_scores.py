@@ -113,6 +113,14 @@ def test_what_could_not_be_measured_is_not_met(figure):
     assert not met({**figures(), figure: None})
 
 
+def test_how_far_the_sides_of_furniture_are_off_is_told_whichever_of_them_is_the_longer():
+    assert figures()["size_error_furniture_m"] == pytest.approx(0.0)
+    table = next(thing for thing in TRUE if thing.furniture)
+    x_m, y_m, z_m = table.size_m
+    swollen = figures(changed(f"{table.id}_1", size_m=(y_m + 0.1, x_m + 0.04, z_m + 1.0)))
+    assert swollen["size_error_furniture_m"] == pytest.approx(0.1 / sum(thing.furniture for thing in TRUE))
+
+
 def test_an_empty_graph_meets_no_aim():
     report = figures(replace(RIGHT, things=(), relations=()))
     assert report["recall"] == 0.0

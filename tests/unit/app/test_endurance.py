@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from majordomo.app.evaluations.missions.endurance import GROWTH, as_it_is, grown
+from majordomo.app.evaluations.missions.endurance import GROWTH, SWOLLEN_M, WORSE, as_it_is, grown, is_as_right
 from majordomo.app.evaluations.missions.inventing import invent
 from majordomo.app.evaluations.missions.outcome import Scene
 from majordomo.simulation.house import House, load_house
@@ -61,3 +61,19 @@ def test_memory_that_grows_all_the_time_is_noticed_and_a_warm_up_is_not_held_aga
 
 def test_a_run_of_no_length_has_not_grown():
     assert grown([{"stamp_s": 0.0, "mb": 100.0}], "mb") == 1.0
+
+
+@pytest.mark.parametrize(
+    ("worse", "right"),
+    [
+        ({}, True),
+        ({"recall": 0.9 - 1.1 * WORSE}, False),
+        ({"precision": 1.0 - 1.1 * WORSE}, False),
+        ({"size_error_furniture_m": 0.05 + 1.1 * SWOLLEN_M}, False),
+        ({"size_error_furniture_m": 0.01}, True),
+        ({"size_error_furniture_m": None}, False),
+    ],
+)
+def test_a_graph_that_lost_things_or_whose_furniture_swells_is_noticed(worse, right):
+    explored = {"recall": 0.9, "precision": 1.0, "size_error_furniture_m": 0.05}
+    assert is_as_right(explored, {**explored, **worse}) is right

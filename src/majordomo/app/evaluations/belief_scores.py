@@ -83,6 +83,7 @@ def summarize(runs: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
         "position_error_m": statistics.fmean(near) if near else None,
         "position_error_small_m": _error(row for row in found if not row["furniture"]),
         "position_error_furniture_m": _error(row for row in found if row["furniture"]),
+        "size_error_furniture_m": _error((row for row in found if row["furniture"]), "size_error_m"),
         "position_error_by_distance": {f"{low:g}": _error(rows) for low, rows in _banded(found).items()},
         "recall_by_distance": {
             f"{low:g}": _share(row["found"] == "named" for row in rows)
@@ -118,11 +119,18 @@ def _thing_row(thing: TrueThing, graph: GraphContents, stock: Stocktaking, sight
         "called": node.label if node is not None else None,
         "position_m": thing.position_m.round(3).tolist(),
         "error_m": round(off_m(thing, node), 4) if node is not None else None,
+        "size_error_m": round(_size_error_m(thing, node), 4) if node is not None else None,
         "in_view_m": sightings.in_view_m.get(thing.id),
         "renewed_m": sightings.renewed_m.get(node.id) if node is not None else None,
         "room_right": node is not None and node.room == graph.rooms.get(thing.room or ""),
         "support": _support(thing, graph, stock),
     }
+
+
+def _size_error_m(thing: TrueThing, node: GraphThing) -> float:
+    """How much the longer or the shorter side, seen from above, is off, whichever is more."""
+    sides = zip(sorted(thing.size_m[:2]), sorted(node.size_m[:2]), strict=True)
+    return max(abs(true_m - said_m) for true_m, said_m in sides)
 
 
 def _support(thing: TrueThing, graph: GraphContents, stock: Stocktaking) -> str:
@@ -220,8 +228,8 @@ def _was_near(row: Mapping[str, Any]) -> bool:
     return row["in_view_m"] is not None and row["in_view_m"] <= NEAR_M
 
 
-def _error(rows: Iterable[Mapping[str, Any]]) -> float | None:
-    errors = [row["error_m"] for row in rows]
+def _error(rows: Iterable[Mapping[str, Any]], by: str = "error_m") -> float | None:
+    errors = [row[by] for row in rows]
     return statistics.fmean(errors) if errors else None
 
 

@@ -43,7 +43,9 @@ WARM = 0.1
 """Share of the time in which caches and buffers may fill."""
 WORSE = 0.05
 """So much recall and precision of the graph may be lower at the end than after exploration."""
-_GRAPH = ("recall", "precision", "duplicates", "support_right")
+SWOLLEN_M = 0.03
+"""So much farther off may the sides of furniture be, in the mean: the arm goes by them."""
+_GRAPH = ("recall", "precision", "duplicates", "support_right", "size_error_furniture_m")
 
 
 def evaluate(
@@ -196,15 +198,20 @@ def _next(disturb: Sequence[str], turn: int, mission: Mission, house: House) -> 
 def _judged(run: Mapping[str, Any]) -> dict[str, Any]:
     """Figures of the run so far."""
     growth = {name: grown(run["memory"], name) for name in ("service_mb", "simulator_mb")}
-    first, last = run["rounds"][0], run["rounds"][-1]
-    right = all(
-        first[name] is not None and last[name] is not None and last[name] >= first[name] - WORSE
-        for name in ("recall", "precision")
-    )
+    right = is_as_right(run["rounds"][0], run["rounds"][-1])
     figures = summarize(run["missions"])
     good = run["explored"] and right and not figures["phantoms"] and not figures["collisions"]
     flat = growth["service_mb"] <= GROWTH
     return {"growth": growth, "summary": figures, "met": bool(good and flat and not run["failed_turns"])}
+
+
+def is_as_right(first: Mapping[str, Any], last: Mapping[str, Any]) -> bool:
+    """Whether the graph is about as right as after exploration."""
+    names = ("recall", "precision", "size_error_furniture_m")
+    if any(account[name] is None for account in (first, last) for name in names):
+        return False
+    recall, precision, size_m = (last[name] - first[name] for name in names)
+    return bool(recall >= -WORSE and precision >= -WORSE and size_m <= SWOLLEN_M)
 
 
 def grown(samples: Sequence[Mapping[str, float]], name: str) -> float:

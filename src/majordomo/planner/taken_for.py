@@ -4,17 +4,20 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from math import hypot
 
 from majordomo.planner.goals import PLACING, Goal
 from majordomo.planner.nameless import LIKELY, likely_label
 from majordomo.planner.phrasing import article
 from majordomo.planner.vocabulary import normal, singular, words_for
-from majordomo.scene_graph.nodes import UNKNOWN_LABEL, ObjectNode
+from majordomo.scene_graph.nodes import ROBOT_ID, UNKNOWN_LABEL, ObjectNode, ObjectState
 from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.skills.failures import Evidence, Failure, FailureCode
 
 SURE, RULED_OUT = 0.8, 0.1
 """Probability of the new label, and of the old one, at which the robot was mistaken; less is flicker."""
+NEAR_M = 1.2
+"""From so near a small thing is told apart; what it looks like from farther away waits until the robot is there."""
 
 
 class TakenFor:
@@ -55,7 +58,7 @@ class TakenFor:
             node = snapshot.get(object_id)
             if not isinstance(node, ObjectNode) or normal(node.label) in _names(called) | {UNKNOWN_LABEL}:
                 continue
-            if object_id in self._fallen and not at_last:
+            if not at_last and self._is_to_be_seen(object_id, snapshot):
                 continue
             chances = {normal(label): probability for label, probability in node.label_distribution}
             old, new = chances.get(called, 0.0), chances.get(normal(node.label), 0.0)
@@ -80,7 +83,7 @@ class TakenFor:
             node = snapshot.get(object_id)
             if not isinstance(node, ObjectNode) or normal(node.label) != UNKNOWN_LABEL:
                 continue
-            if object_id in self._fallen and not at_last:
+            if not at_last and self._is_to_be_seen(object_id, snapshot):
                 continue
             chance = {normal(label): p for label, p in node.label_distribution}.get(called, 0.0)
             if chance < (LIKELY if at_last and object_id in self._guessed else RULED_OUT):
@@ -91,6 +94,17 @@ class TakenFor:
                 gone = FailureCode.SUPPORT_GONE if object_id in self._places else FailureCode.OBJECT_GONE
                 return Failure(code=gone, message=message, evidence=evidence)
         return None
+
+    def _is_to_be_seen(self, object_id: str, snapshot: Snapshot) -> bool:
+        """Whether it is too early to say what it is: it lies as it fell, or the robot is to come nearer to it."""
+        if object_id in self._fallen:
+            return True
+        if object_id in self._places or snapshot.object(object_id).state is ObjectState.HELD:
+            return False
+        if snapshot.room_of(object_id) != snapshot.room_of(ROBOT_ID):
+            return True
+        x_m, y_m, _ = snapshot.position(object_id, ROBOT_ID)
+        return hypot(x_m, y_m) > NEAR_M
 
 
 def _names(label: str) -> frozenset[str]:

@@ -94,6 +94,17 @@ def test_the_shortest_way_is_no_shorter_than_the_line_and_a_shut_door_lengthens_
     assert Ways(scene(), shut=doors[:1]).length_m(start, goal) > length_m
     assert Ways(scene(shut=[door.id for door in FLAT.doors])).length_m(start, goal) == math.inf
     assert ways.is_free(start)
+
+
+def test_a_way_into_a_room_ends_behind_its_door_and_lengthens_what_goes_before():
+    ways = Ways(scene())
+    start, goal = ways.middle_of("kitchen"), ways.middle_of("office")
+    into_m = ways.length_m(start, "office")
+    assert ways.length_m(start, "hall") < into_m < ways.length_m(start, goal) + 0.8
+    assert ways.length_m(start, "kitchen") == 0.0
+    there_and_back_m = ways.length_m(start, goal, "kitchen")
+    assert there_and_back_m > ways.length_m(start, goal) + into_m - 2.0
+    assert Ways(scene(shut=[door.id for door in FLAT.doors])).length_m(start, "office") == math.inf
     assert ways.length_m(start, (-50.0, 0.0)) == math.inf
     assert not ways.is_free((-50.0, 0.0))
 
@@ -269,6 +280,7 @@ def test_a_file_of_missions_is_read_with_outcomes_and_disturbances(tmp_path):
         ("@flat\n> refuse", "line 2: comes before any request"),
         ("@flat\ngo\n  ! earthquake", "line 3: no disturbance 'earthquake'"),
         ("@flat\ngo\n  > cup_9 -> desk_1", "line 3: the house has no cup_9"),
+        ("@flat\ngo\n  > cup_1 -> desk_1; robot -> desk_1", "line 3: the robot ends in a room, and desk_1 is none"),
         ("@flat\ngo\n  > somewhere", "line 3: 'somewhere' is no outcome"),
     ],
 )

@@ -101,6 +101,9 @@ class _Reader:
         unknown = {name for state in states for name in _names(state)} - place.ids
         if unknown:
             raise MissionFileError(number, f"the house has no {', '.join(sorted(unknown))}")
+        sent = {name for state in states if isinstance(state, RobotIn) for name in state.rooms}
+        if no_rooms := sent - {room.id for room in place.house.rooms}:
+            raise MissionFileError(number, f"the robot ends in a room, and {', '.join(sorted(no_rooms))} is none")
         return Outcome(states=tuple(states))
 
 

@@ -255,11 +255,11 @@ class _Play:
 
     def _shortest_m(self, scene: Scene, ways: Ways) -> float | None:
         """The shortest way that does what is asked for; None where nothing moves, or in more orders than one."""
-        things, places = self._mission.things, self._mission.places
-        if len(things) != 1 or len(places) != 1:
+        things, places, rooms = self._mission.things, self._mission.places, self._mission.rooms
+        if len(things) != 1 or len(places) != 1 or len(rooms) > 1:
             return None
         stops = [scene.where(name) or ways.middle_of(name) for name in (*things, *places) if name != HAND]
-        length_m = ways.length_m(scene.robot_at, *[stop for stop in stops if stop is not None])
+        length_m = ways.length_m(scene.robot_at, *[stop for stop in stops if stop is not None], *rooms)
         return length_m if math.isfinite(length_m) else None
 
     async def _scene(self) -> Scene:

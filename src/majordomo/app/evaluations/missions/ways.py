@@ -68,16 +68,16 @@ class Ways:
         self.clearance_m: NDArray[np.float64] = np.maximum(distance_transform_edt(free) - HALF, 0.0) * CELL_M
         self._number, self._graph = _grid_graph(self.clearance_m > radius_m)
 
-    def length_m(self, *stops: Point) -> float:
-        """The shortest way that comes within reach of each stop in turn, the first being where it begins; infinite
-        where there is none.
+    def length_m(self, start: Point, *stops: Point | str) -> float:
+        """The shortest way from ``start`` that comes within reach of each stop in turn, and into each that is the
+        identifier of a room; infinite where there is none.
         """
-        total_m, begin = 0.0, self._nearest(stops[0])
-        for stop in stops[1:]:
+        total_m, begin = 0.0, self._nearest(start)
+        for stop in stops:
             if begin is None:
                 return math.inf
             distance_m = dijkstra(self._graph, directed=False, indices=begin)
-            within = self._within(stop)
+            within = self._in_room(stop) if isinstance(stop, str) else self._within(stop)
             reached = within[np.isfinite(distance_m[within])]
             if not len(reached):
                 return math.inf
@@ -146,6 +146,10 @@ class Ways:
         near = np.linalg.norm(points - np.array(point), axis=1) < REACH_M
         floor = self._floors.get(room_at(self._house, *point) or "")
         return np.flatnonzero(near if floor is None else near & floor[self._number >= 0])
+
+    def _in_room(self, room_id: str) -> NDArray[np.int64]:
+        """Numbers of the cells of a room."""
+        return np.flatnonzero(self._floors[room_id][self._number >= 0])
 
     def _nearest(self, point: Point) -> int | None:
         points = self._points(np.arange(int(self._number.max()) + 1))

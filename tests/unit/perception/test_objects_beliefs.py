@@ -463,6 +463,15 @@ def test_what_the_hand_has_put_there_is_not_the_missing_thing_that_turned_up():
     assert turned_up(missing, [other], **known) is None
 
 
+def test_where_such_things_come_in_numbers_one_that_was_hidden_so_far_is_not_the_missing_one():
+    missing, hidden_so_far = thing(1, state=ObjectState.MISSING), thing(2, seen=(20.0, 21.0))
+    known = {"looked_before": {"room_1": 0.0}, "settings": IdentitySettings()}
+    assert turned_up(missing, [hidden_so_far], **known) is hidden_so_far
+    assert turned_up(missing, [thing(3, seen=(0.0, 21.0)), hidden_so_far], **known) is None
+    gone_too = thing(3, seen=(0.0, 5.0), state=ObjectState.MISSING)
+    assert turned_up(missing, [gone_too, hidden_so_far], **known) is hidden_so_far
+
+
 @pytest.mark.parametrize(
     ("at", "same"),
     [((0.4, 0.3, 0.12), True), ((0.3, 0.2, 0.6), True), ((3.0, 1.0, 0.12), True), ((3.0, 1.0, 0.6), False)],

@@ -72,20 +72,23 @@ def turned_up(
     """The younger thing that a missing one is: it was moved, and seen at its new place before it was missed at the old.
 
     Only a look-alike that turned up after the missing one was last seen, where one had looked before and seen nothing,
-    and not what the hand itself has put there; and only if there is no second one like it.
+    and not what the hand itself has put there; and only if there is no second one like it, be it known for long: where
+    such things come in numbers, one that nobody had noticed, behind another, is likelier than one that was moved.
     """
     alike = [
         track
         for track in known
         if track.state is ObjectState.PRESENT
         and track.is_furniture is missing.is_furniture
-        and track.first_seen_s > missing.last_seen_s
         and _is_like(track, missing, settings)
-        and may_have_fallen_to(track, missing, settings)
     ]
-    if len(alike) != 1 or alike[0].carried or not _looked_there_before(alike[0], known, looked_before):
+    if len(alike) != 1:
         return None
-    return alike[0]
+    (only,) = alike
+    later = only.first_seen_s > missing.last_seen_s and may_have_fallen_to(only, missing, settings)
+    if not later or only.carried or not _looked_there_before(only, known, looked_before):
+        return None
+    return only
 
 
 def _in_its_place(sighting: Track, track: Track, settings: IdentitySettings) -> bool:

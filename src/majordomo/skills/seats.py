@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from math import cos, sin
 
 import numpy as np
+from numpy.typing import NDArray
 
 from majordomo.scene_graph.nodes import ObjectNode
 from majordomo.skills.geometry import Box2, Points, Pose2
@@ -39,9 +40,9 @@ class Rim:
         left_m = self.half_m - self.sign * float(point[self.axis]) - STANDS_M
         return replace(self, thick_m=min(self.thick_m, max(left_m, LEAST_M)))
 
-    def covers(self, point: Points, air_m: float) -> bool:
-        """Whether a point (2,) in the frame of the seat is in it, or no farther from it than ``air_m``."""
-        return self.sign * float(point[self.axis]) > self.half_m - self.thick_m - air_m
+    def covers(self, points: Points, air_m: float) -> NDArray[np.bool_]:
+        """Which points (..., 2) in the frame of the seat are in it, or no farther from it than ``air_m``."""
+        return np.asarray(self.sign * points[..., self.axis] > self.half_m - self.thick_m - air_m)
 
     def outline(self, seat: ObjectNode, pose: Pose2) -> Box2:
         """The rectangle that it covers, where the seat has that pose."""

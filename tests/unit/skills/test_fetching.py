@@ -15,11 +15,11 @@ from majordomo.scene_graph.se3 import SE3
 from majordomo.skills.actions.approach import STOPPED_RAD
 from majordomo.skills.actions.arm import CARRY_LIFT_M, Retract
 from majordomo.skills.actions.arm_way import BARRED_COST_M, IN_THE_WAY_COST_M, clear_over_m, passing_over
-from majordomo.skills.actions.finger_room import fingers_met
+from majordomo.skills.actions.finger_room import fingers_met, palm_meets_rims
 from majordomo.skills.actions.grasp import CloseGripper
 from majordomo.skills.actions.place import LowerToPlace
 from majordomo.skills.actions.spot_choice import ChooseSpot
-from majordomo.skills.actions.spot_reach import Placement
+from majordomo.skills.actions.spot_reach import Placement, admitted
 from majordomo.skills.anchor import Anchor
 from majordomo.skills.doubles import BoxWorld, FakeBody, Rehearsal
 from majordomo.skills.failures import FailureCode
@@ -28,6 +28,7 @@ from majordomo.skills.grasping import DOWN_RAD, choose_grasp
 from majordomo.skills.kinematics import gripper_pose
 from majordomo.skills.navigation.pose import bearing_rad, in_base
 from majordomo.skills.place_search import free_spots
+from majordomo.skills.place_spot import Spot
 from majordomo.skills.ports import ArmTarget
 from majordomo.skills.registry import load_registry
 from majordomo.skills.state import PlanState
@@ -677,3 +678,42 @@ async def test_a_hand_that_let_go_rises_over_the_arm_of_a_sofa_before_it_is_draw
     rehearsal.observe = lambda r: highest_m.append(r.body.arm.lift_m) if r.body.arm.extension_m > 0.4 else None
     assert await rehearsal.run([Retract(await rehearsal.prepare())]) is None
     assert max(highest_m) == pytest.approx(CARRY_LIFT_M, abs=0.01)
+
+
+@pytest.mark.parametrize(
+    ("y_m", "toward_rad", "low_m", "met"),
+    [
+        (0.0, pi / 2, 0.6, False),
+        (0.13, 0.0, 0.6, False),
+        (0.13, pi / 2, 0.6, True),
+        (0.13, -pi / 2, 0.6, True),
+        (0.13, pi / 4, 0.6, True),
+        (0.13, pi / 2, 0.95, False),  # over the back
+        (0.18, 0.0, 0.6, True),
+    ],
+)
+def test_the_palm_over_what_is_put_down_keeps_off_the_back_of_a_chair(flat, y_m, toward_rad, low_m, met):
+    built = flat().thing("chair_1", (1.0, 2.0, 0.45), (0.45, 0.45, 0.9), support=True, back_rad=pi / 2, yaw=0.3)
+    snapshot, frame = built.memory.snapshot(), "room_1"
+    pose = Pose2.of(snapshot.transform(frame, "chair_1"))
+    (middle,) = pose.apply(np.array([[0.0, y_m]]))
+    chair = snapshot.object("chair_1")
+    assert palm_meets_rims(chair, pose, 0.45, middle, np.array([toward_rad + 0.3]), low_m).tolist() == [met]
+
+
+@pytest.mark.parametrize(("roll_rad", "from_front", "from_side"), [(0.0, True, False), (pi / 2, False, True)])
+async def test_what_is_put_before_the_back_of_a_chair_comes_with_the_palm_along_it(
+    kitchen, roll_rad, from_front, from_side
+):
+    """Without a roll the fingers close, and the palm lies, across the arm; with a quarter turn, along it."""
+    rehearsal = kitchen(
+        lambda built: built.thing("chair_1", (-1.0, 0.0, 0.45), (0.45, 0.45, 0.9), support=True, back_rad=pi / 2)
+    )
+    context = await rehearsal.prepare()
+    arm = replace(context.body.arm, wrist_pitch_rad=-pi / 2, wrist_roll_rad=roll_rad)
+    context.body = replace(context.body, arm=arm)
+    spot = Spot(anchor=Anchor("chair_1", (0.0, 0.13, 0.0)), room_m=1.0)
+    places = np.array([[-1.0, -0.6], [-0.3, 0.13]])
+    assert admitted(context, spot, places).tolist() == [from_front, from_side]
+    context.body = replace(context.body, arm=replace(arm, wrist_pitch_rad=0.0))
+    assert admitted(context, spot, places).all(), "a level hand is behind what it holds"

@@ -1,5 +1,5 @@
-"""Where there is room for the hand around what it takes from above: no finger in a neighbor, or in the arm or the back
-of a seat, nor the palm above the fingers.
+"""Where there is room for the hand around what it takes or puts down from above: no finger in a neighbor, or in the arm
+or the back of a seat, nor the palm above the fingers.
 """
 
 from __future__ import annotations
@@ -9,12 +9,13 @@ from dataclasses import replace
 from math import cos, inf, sin
 
 import numpy as np
+from numpy.typing import NDArray
 
 from majordomo.scene_graph.nodes import ObjectNode, ObjectState
 from majordomo.scene_graph.se3 import SE3
 from majordomo.skills.action import RobotContext
 from majordomo.skills.actions.arm_way import spared_nodes
-from majordomo.skills.geometry import Points
+from majordomo.skills.geometry import Points, Pose2
 from majordomo.skills.grasping import FINGER_M, PAD_DEPTH_M, TIP_M, pads_from_above_m
 from majordomo.skills.navigation.pose import in_base, robot_frame
 from majordomo.skills.seats import ends, rims
@@ -63,6 +64,24 @@ def fingers_met(context: RobotContext, object_id: str) -> Callable[[float, float
     return count
 
 
+def palm_meets_rims(
+    seat: ObjectNode, pose: Pose2, seat_z_m: float, middle: Points, toward_rad: Points, low_m: float
+) -> NDArray[np.bool_]:
+    """(N,) whether a palm over ``middle`` (2,) meets the back or an arm of a seat, for each of the directions
+    ``toward_rad`` (N,) in which its fingers may close; all in one frame, in which the seat has that ``pose`` and its
+    middle is ``seat_z_m`` high. ``low_m``: height of what is lowest of the palm.
+    """
+    toward = np.stack((np.cos(toward_rad), np.sin(toward_rad)), axis=-1)[:, None]
+    aside = np.stack((-toward[..., 1], toward[..., 0]), axis=-1)
+    shares = np.array([(sign * along, out) for sign in (1.0, -1.0) for along, out in _PALM_AT]) * _PALM_HALF_M
+    palm = pose.inverse_apply(middle + shares[:, :1] * toward + shares[:, 1:] * aside)
+    met = np.zeros(len(toward_rad), np.bool_)
+    for rim in rims(seat):
+        if seat_z_m + rim.top_m > low_m - AIR_M:
+            met |= rim.covers(palm, AIR_M + THICKER_M).any(axis=1)
+    return met
+
+
 def _neighbors(context: RobotContext, object_id: str) -> list[ObjectNode]:
     snapshot, spared = context.snapshot, spared_nodes(context.snapshot, object_id)
     here = [node for node in snapshot.of_type(ObjectNode) if snapshot.room_of(node.id) == robot_frame(snapshot)]
@@ -106,4 +125,4 @@ class _Seat(_Solid):
     def covers_above(self, point: Points, low_m: float) -> bool:
         """Whether what is there, ``low_m`` over the floor, would meet an arm, or the back."""
         local = self.local(point)
-        return any(self._middle_m + rim.top_m > low_m and rim.covers(local, AIR_M) for rim in self._rims)
+        return any(self._middle_m + rim.top_m > low_m and bool(rim.covers(local, AIR_M)) for rim in self._rims)

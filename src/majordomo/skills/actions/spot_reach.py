@@ -11,10 +11,11 @@ from numpy.typing import NDArray
 
 from majordomo.scene_graph.nodes import ObjectNode
 from majordomo.skills.action import RobotContext
+from majordomo.skills.actions.finger_room import palm_meets_rims
 from majordomo.skills.anchor import Anchor
 from majordomo.skills.boards import LOWEST_M, TURN_RAD, headroom_m, is_before
-from majordomo.skills.geometry import Points, wrap_rad
-from majordomo.skills.grasping import DOWN_RAD
+from majordomo.skills.geometry import Points, Pose2, wrap_rad
+from majordomo.skills.grasping import DOWN_RAD, PAD_DEPTH_M
 from majordomo.skills.navigation.pose import in_base, robot_frame
 from majordomo.skills.outline import disc
 from majordomo.skills.place_spot import Spot
@@ -60,17 +61,33 @@ class Placement:
 
 def admitted(context: RobotContext, spot: Spot, places: Points, *, turn_rad: float = TURN_RAD) -> NDArray[np.bool_]:
     """From which of (N, 2) places, in the robot's frame, the hand gets to a spot: to one below a board, from straight
-    before.
+    before; to one on a seat, where the palm meets neither back nor arms.
     """
-    if not spot.is_covered:
-        return np.ones(len(places), np.bool_)
     on, frame = spot.anchor, robot_frame(context.snapshot)
-    return is_before(context.snapshot, on.node_id, on.point_m, places, frame, sides=spot.sides, turn_rad=turn_rad)
+    if spot.is_covered:
+        return is_before(context.snapshot, on.node_id, on.point_m, places, frame, sides=spot.sides, turn_rad=turn_rad)
+    seat = context.snapshot.get(on.node_id)
+    if spot.inside or not isinstance(seat, ObjectNode) or not _points_down(context):
+        return np.ones(len(places), np.bool_)
+    x_m, y_m, surface_z_m = on.position(context.snapshot, frame)
+    pose = Pose2.of(context.snapshot.transform(frame, seat.id))
+    if spot.turn_rad is None:
+        # from above, fingers that close along a, from where the robot faces, take a roll of pi/2 - a
+        toward_rad = np.arctan2(y_m - places[:, 1], x_m - places[:, 0]) + pi / 2 - context.body.arm.wrist_roll_rad
+    else:
+        toward_rad = np.full(len(places), pose.yaw_rad + spot.turn_rad + pi / 2)
+    palm_m = float(surface_z_m) + above_bottom_m(context) + PAD_DEPTH_M
+    seat_z_m = float(context.snapshot.position(seat.id, frame)[2])
+    return ~palm_meets_rims(seat, pose, seat_z_m, np.array((x_m, y_m)), toward_rad, palm_m)
+
+
+def _points_down(context: RobotContext) -> bool:
+    return abs(context.body.arm.wrist_pitch_rad - DOWN_RAD) < STEEP_RAD
 
 
 def is_within_wrist(context: RobotContext, spot: Spot) -> bool:
     """Whether the wrist turns what is held as it must stand: that takes a hand that points down."""
-    return spot.turn_rad is None or abs(context.body.arm.wrist_pitch_rad - DOWN_RAD) < STEEP_RAD
+    return spot.turn_rad is None or _points_down(context)
 
 
 def roll_at(context: RobotContext, spot: Spot) -> float:

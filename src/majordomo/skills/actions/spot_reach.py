@@ -19,6 +19,7 @@ from majordomo.skills.grasping import DOWN_RAD, PAD_DEPTH_M
 from majordomo.skills.navigation.pose import in_base, robot_frame
 from majordomo.skills.outline import disc
 from majordomo.skills.place_spot import Spot
+from majordomo.skills.seats import rims
 
 ABOVE_RIM_M = 0.04
 SPARE_LIFT_M = 0.02
@@ -67,7 +68,7 @@ def admitted(context: RobotContext, spot: Spot, places: Points, *, turn_rad: flo
     if spot.is_covered:
         return is_before(context.snapshot, on.node_id, on.point_m, places, frame, sides=spot.sides, turn_rad=turn_rad)
     seat = context.snapshot.get(on.node_id)
-    if spot.inside or not isinstance(seat, ObjectNode) or not _points_down(context):
+    if spot.inside or not isinstance(seat, ObjectNode) or not rims(seat) or not _points_down(context):
         return np.ones(len(places), np.bool_)
     x_m, y_m, surface_z_m = on.position(context.snapshot, frame)
     pose = Pose2.of(context.snapshot.transform(frame, seat.id))

@@ -147,7 +147,7 @@ class Operators:
 
     def _put(self, state: PlanState, object_id: str, places: Sequence[str]) -> Iterator[Step]:
         for place in places:
-            if place != state.robot_room:
+            if not state.is_inside(place):
                 yield from self._goto(state, place)
             yield Step(skill=PLACE, args=(object_id, place))
 
@@ -196,7 +196,7 @@ class Operators:
     def _carry_s(self, state: PlanState, object_id: str, place: str) -> float:
         here = state.holding == object_id or state.is_at(object_id)
         together = place == state.room_of(object_id) or state.anchor(object_id) == state.anchor(place)
-        if together or (here and (state.is_at(place) or state.robot_room == place)):
+        if together or (here and (state.is_at(place) or state.is_inside(place))):
             return 0.0
         from_robot_s = self._way_s(state, None, place) if here else inf
         return from_robot_s if state.holding == object_id else min(from_robot_s, self._way_s(state, object_id, place))

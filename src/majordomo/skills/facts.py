@@ -22,6 +22,7 @@ from majordomo.scene_graph.poses import MapPoses
 from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.skills.capacity import Capacity
 from majordomo.skills.containers import is_container
+from majordomo.skills.navigation.walls import robot_beyond_m
 from majordomo.skills.nearness import is_at
 from majordomo.skills.placement import Place, Placement, PlaceRelation
 from majordomo.skills.rooms import in_room
@@ -33,11 +34,13 @@ _KINDS = (RoomNode, DoorNode, ObjectNode, PersonNode)
 def read_state(snapshot: Snapshot) -> PlanState:
     """The facts that ``snapshot`` believes. Of thousands of things only those are read that a plan asks for."""
     robot, room = snapshot.robot, snapshot.current_room
+    beyond = robot_beyond_m(snapshot) > 0.0
     places = StoodPlaces(snapshot)
     return PlanState(
         world=read_world(snapshot),
-        robot_at=room or ROOT_ID,
+        robot_at=ROOT_ID if room is None or beyond else room,
         robot_room=room,
+        beyond_walls=beyond,
         holding=robot.holding if robot is not None else None,
         places=Placement(places, places.at, {}),
         missing=frozenset(node.id for node in snapshot.of_type(ObjectNode) if node.state is ObjectState.MISSING),

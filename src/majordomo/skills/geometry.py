@@ -98,6 +98,15 @@ def inside_polygon(polygon: Sequence[Point2], points: Points) -> NDArray[np.bool
     return inside
 
 
+def boundary_distance_m(polygon: Sequence[Point2], point: Point2) -> float:
+    """Distance from ``point`` to the nearest side of ``polygon``, inside as outside."""
+    start = np.array(polygon)
+    side, offset = np.roll(start, -1, axis=0) - start, np.array(point) - start
+    length2 = np.maximum((side**2).sum(axis=1), 1e-12)
+    along = np.clip((offset * side).sum(axis=1) / length2, 0.0, 1.0)
+    return float(np.hypot(*(offset - along[:, None] * side).T).min())
+
+
 def wrap_rad(angle: float) -> float:
     """``angle`` brought to (-pi, pi]."""
     return atan2(sin(angle), cos(angle))

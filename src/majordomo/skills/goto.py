@@ -62,7 +62,7 @@ class Goto:
     def effects(self, state: PlanState, args: Sequence[str]) -> PlanState:
         """The robot is at the target."""
         (target,) = args
-        return state.after(robot_at=target, robot_room=state.room_of(target), near=frozenset())
+        return state.after(robot_at=target, robot_room=state.room_of(target), near=frozenset(), beyond_walls=False)
 
     def cost_s(self, state: PlanState, args: Sequence[str]) -> float:
         """Driving time, and a while to line up and look."""

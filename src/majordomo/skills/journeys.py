@@ -18,9 +18,8 @@ from majordomo.skills.actions.driving import DriveTo
 from majordomo.skills.actions.looking import LookAt, SweepCamera, gaze_points
 from majordomo.skills.anchor import Anchor
 from majordomo.skills.failures import Evidence, Failure, FailureCode
-from majordomo.skills.geometry import inside_polygon
 from majordomo.skills.navigation.goals import around, at_poses, freest, near_origin, overlooking
-from majordomo.skills.navigation.walls import door_gaps, whole_room
+from majordomo.skills.navigation.walls import robot_beyond_m
 
 LOOK_DWELL_S = 1.2
 LEAST_STANDOFF_M = 0.42
@@ -117,14 +116,10 @@ def _way(context: RobotContext, snapshot: Snapshot, here: str, room: str) -> Pat
 
 def _back_inside(context: RobotContext, snapshot: Snapshot, here: str) -> list[Action]:
     """Back into the room that the robot hangs from, through its nearest door, when it stands beyond its walls."""
-    room = whole_room(snapshot, here)
-    at = np.array([snapshot.position(ROBOT_ID, here)[:2]])
-    if room is None or inside_polygon(room.polygon_m, at)[0]:
-        return []
-    if any(gap.contains(at)[0] for gap in door_gaps(snapshot, here)):
+    if robot_beyond_m(snapshot) == 0.0:
         return []
     doors = [door.id for door in snapshot.of_type(DoorNode) if door.rooms[0] == here]
-    away_m = {door: float(np.hypot(*(snapshot.position(door, here)[:2] - at[0]))) for door in doors}
+    away_m = {door: float(np.hypot(*snapshot.position(door, ROBOT_ID)[:2])) for door in doors}
     return [_drive(context, min(away_m, key=lambda door: away_m[door]), 0.9)] if away_m else []
 
 

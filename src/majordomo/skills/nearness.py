@@ -6,6 +6,7 @@ from math import hypot
 
 from majordomo.scene_graph.nodes import ROBOT_ID, DoorNode, Node, ObjectNode, ObjectState, PersonNode, RoomNode
 from majordomo.scene_graph.snapshot import Snapshot
+from majordomo.skills.navigation.walls import robot_beyond_m
 
 OBJECT_M = 0.85
 """From the base's axis to the extent of a piece of furniture."""
@@ -18,13 +19,13 @@ DOOR_M = 1.50
 def excess_m(snapshot: Snapshot, node_id: str) -> float | None:
     """How much too far the robot is from a node to be at it: 0 or less when it is, ``None`` when in another room.
 
-    A room needs nothing but being in it; something missing is nowhere.
+    A room needs nothing but being within its walls; something missing is nowhere.
     """
     node, room = snapshot.get(node_id), snapshot.current_room
     if node is None or room is None or snapshot.room_of(node_id) != room:
         return None
     if isinstance(node, RoomNode):
-        return 0.0
+        return robot_beyond_m(snapshot)
     if isinstance(node, ObjectNode):
         return None if node.state is ObjectState.MISSING else extent_distance_m(snapshot, node) - _reach_m(node)
     x_m, y_m, _ = snapshot.transform(node_id, ROBOT_ID).translation_m

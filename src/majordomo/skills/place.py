@@ -160,5 +160,5 @@ def _is_at(snapshot: Snapshot, object_id: str, target: str) -> bool:
 
 def _is_there(state: PlanState, target: str) -> bool:
     if state.world.things[target].kind == "room":
-        return state.robot_room == target
+        return state.is_inside(target)
     return state.is_at(target)

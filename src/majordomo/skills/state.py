@@ -106,7 +106,7 @@ class PlanState:
     ``robot_at``: node the robot stands at (a room, object, person or door). ``holding``: object in the gripper.
     ``places``: object -> (relation, place) for every object that can be carried; held objects are absent.
     ``missing``: objects that are not where they should be. ``near``: more nodes the robot stands at, known only of the
-    state read from a snapshot.
+    state read from a snapshot. ``beyond_walls``: the robot came from ``robot_room``, but is outside of its walls.
     """
 
     world: World
@@ -116,6 +116,7 @@ class PlanState:
     places: Mapping[str, Place]
     missing: frozenset[str] = frozenset()
     near: frozenset[str] = frozenset()
+    beyond_walls: bool = False
 
     @classmethod
     def from_snapshot(cls, snapshot: Snapshot) -> PlanState:
@@ -128,7 +129,7 @@ class PlanState:
     def key(self) -> tuple[object, ...]:
         """The facts as one hashable value, the same for equal states."""
         places = self.places.key if isinstance(self.places, Placement) else frozenset(self.places.items())
-        return (self.robot_at, self.holding, places, self.missing, self.near, self.robot_room)
+        return (self.robot_at, self.holding, places, self.missing, self.near, self.robot_room, self.beyond_walls)
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, PlanState) and self.world is other.world and self.key == other.key
@@ -179,6 +180,10 @@ class PlanState:
     def distance_m(self, a: str, b: str) -> float | None:
         """Walking distance between two nodes as things stand in this state, ``None`` if there is no way."""
         return self.world.distance_m(self.anchor(a), self.anchor(b))
+
+    def is_inside(self, room: str) -> bool:
+        """Whether the robot is within the walls of a room."""
+        return self.robot_room == room and not self.beyond_walls
 
     def is_at(self, node_id: str) -> bool:
         """Whether the robot stands at ``node_id``: at the node, or at what it stands on, or at its neighbor there."""

@@ -171,6 +171,24 @@ def test_a_door_that_leads_outdoors_is_given_up_with_a_reason() -> None:
     assert run.memory.snapshot().root.explored
 
 
+def test_exploring_does_not_end_outdoors() -> None:
+    house = House(rooms={"a": rectangle(4.0, 3.0)}, doors=[Door(rooms=("a", "outside"), center=(4.1, 1.3))])
+    run = explore(house, Pose2(1.0, 1.0, 0.7), limit_s=60.0)
+    assert run.memory.snapshot().root.explored
+    assert run.port.pose.position_m[0] < 4.0
+    assert not run.memory.snapshot().intentions()
+    assert [(action, what) for _, action, what, _ in run.driver.finished][-1] == ("visit", "room_1")
+
+
+def test_a_robot_that_cannot_come_back_in_is_not_asked_for_ever() -> None:
+    house = House(rooms={"a": rectangle(4.0, 3.0)}, doors=[Door(rooms=("a", "outside"), center=(4.1, 1.3))])
+    run = Exploration.of(house, Pose2(1.0, 1.0, 0.7), 0, agents)
+    run.driver.refused.add("room_1")
+    run.run(60.0, until=lambda one: one.memory.snapshot().root.explored)
+    assert run.memory.snapshot().root.explored
+    assert not run.memory.snapshot().intentions()
+
+
 def test_a_crossing_that_fails_twice_and_once_more_at_the_end_is_given_up_with_the_executor_s_reason() -> None:
     run = Exploration.of(two_rooms(), Pose2(1.0, 1.0, 0.7), 0, agents)
     run.driver.refused |= {f"aff_cross_1_{wall}_0" for wall in range(4)}

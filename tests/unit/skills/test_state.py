@@ -7,7 +7,12 @@ from dataclasses import replace
 
 import pytest
 
+from majordomo.planner.goals import goal, holds_in
+from majordomo.scene_graph.edges import RtEdge
 from majordomo.scene_graph.nodes import DoorState, ObjectState
+from majordomo.scene_graph.se3 import SE3
+from majordomo.skills.goto import Goto
+from majordomo.skills.place import Place
 from majordomo.skills.state import DoorLink, PlaceRelation, PlanState, Thing, World
 
 
@@ -22,6 +27,34 @@ def test_state_reads_places_rooms_and_doors(flat):
     assert state.world.doors == (DoorLink(door="door_1_1_0", rooms=("room_1", "room_2"), open=True),)
     assert state.room_of("bottle_1") == state.room_of("table_1") == "room_1"
     assert state.world.things["bottle_1"].width_m == pytest.approx(0.07)
+
+
+@pytest.mark.parametrize(
+    ("place", "inside"),
+    [((0.0, 0.0), True), ((2.9, 2.0), True), ((3.2, 0.0), True), ((3.6, 2.0), False), ((-3.7, 0.0), False)],
+    ids=["in the middle", "at the wall", "in the doorway", "behind the wall", "outdoors"],
+)
+def test_who_stands_beyond_the_walls_of_a_room_is_not_in_it(flat, place, inside):
+    built = furnished(flat)
+    with built.memory.edit("test", 0.0) as tx:
+        tx.put(RtEdge(source="room_1", target="robot", T_source_target=SE3.from_xyz_yaw(*place, 0.0, 0.0)))
+    snapshot = built.memory.snapshot()
+    state, skill = PlanState.from_snapshot(snapshot), Goto()
+    assert state.is_inside("room_1") is inside
+    assert holds_in(goal("robot_at", "room_1"), snapshot) is inside
+    assert (skill.confirmed(snapshot, ("room_1",), 0.0) is None) is inside
+    assert skill.conditions(state, ("room_1",)) == []
+    assert skill.effects(state, ("room_1",)).is_inside("room_1")
+
+
+def test_what_is_put_onto_the_floor_of_a_room_is_not_put_down_outdoors(flat):
+    built = furnished(flat)
+    with built.memory.edit("test", 0.0) as tx:
+        tx.put(RtEdge(source="room_1", target="robot", T_source_target=SE3.from_xyz_yaw(-3.7, 0.0, 0.0, 0.0)))
+    state = PlanState.from_snapshot(built.memory.snapshot())
+    held = state.after(holding="bottle_1", places=state.moved("bottle_1", None))
+    assert Place().conditions(held, ("bottle_1", "room_1"))
+    assert not Place().conditions(Goto().effects(held, ("room_1",)), ("bottle_1", "room_1"))
 
 
 def test_distance_goes_through_the_door(flat):

@@ -7,15 +7,18 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial import cKDTree
 
-from majordomo.scene_graph.nodes import DoorNode, DoorState, RoomNode, RoomStatus
+from majordomo.scene_graph.errors import FramesNotConnected
+from majordomo.scene_graph.nodes import ROBOT_ID, DoorNode, DoorState, RoomNode, RoomStatus
 from majordomo.scene_graph.snapshot import Snapshot
-from majordomo.skills.geometry import Box2, Points, Pose2
+from majordomo.skills.geometry import Box2, Points, Pose2, boundary_distance_m, inside_polygon
 
 SKIN_M = 0.08
 """Points this close to a wall that the graph knows are that wall, blurred by noise."""
 STEP_M = 0.05
 MIN_CORNERS = 3
 DOOR_DEPTH_M = 0.5
+BEYOND_M = 0.05
+"""By less than this nobody is beyond a wall: so well outlines and poses are known."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -63,3 +66,22 @@ def door_gaps(snapshot: Snapshot, room: str) -> list[Box2]:
             x_m, y_m = pose.apply(np.array([[0.0, 0.1 - DOOR_DEPTH_M]]))[0]
             gaps.append(Box2(Pose2(float(x_m), float(y_m), pose.yaw_rad), door.width_m, 2 * DOOR_DEPTH_M))
     return gaps
+
+
+def robot_beyond_m(snapshot: Snapshot) -> float:
+    """How far the robot is beyond the walls of the room that it hangs from: outdoors, or where nothing is measured yet.
+
+    0 inside, in the gap of a door that is not closed, and where the room was not seen whole.
+    """
+    room = whole_room(snapshot, snapshot.current_room or "")
+    if room is None:
+        return 0.0
+    try:
+        x_m, y_m, _ = (float(value) for value in snapshot.position(ROBOT_ID, room.id))
+    except FramesNotConnected:
+        return 0.0
+    at = np.array([[x_m, y_m]])
+    if inside_polygon(room.polygon_m, at)[0] or any(gap.contains(at)[0] for gap in door_gaps(snapshot, room.id)):
+        return 0.0
+    beyond_m = boundary_distance_m(room.polygon_m, (x_m, y_m))
+    return beyond_m if beyond_m > BEYOND_M else 0.0

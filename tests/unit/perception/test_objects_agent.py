@@ -114,6 +114,17 @@ def test_a_thing_taken_away_becomes_missing_and_present_again_when_it_returns():
     assert [n.id for n in graph.of_type(ObjectNode)] == ["bottle_1", "cup_1", "table_1"]
 
 
+def test_a_scrap_seen_for_a_moment_where_a_thing_is_missed_is_not_that_thing():
+    story = Story([TABLE, BLUE_BOTTLE, RED_CUP])
+    story.run(6)
+    story.room.solids = [TABLE, RED_CUP]
+    assert story.run(15).object("bottle_1").state is ObjectState.MISSING
+    x_m, y_m, z_m = BLUE_BOTTLE.center
+    scrap = Solid(label="unknown", center=(x_m, y_m, z_m - 0.05), size_m=(0.12, 0.06, 0.05), color=(40.0, 120.0, 40.0))
+    story.room.solids = [TABLE, RED_CUP, scrap]
+    assert story.run(2).object("bottle_1").state is ObjectState.MISSING
+
+
 def test_a_thing_the_network_overlooks_stays_present_as_long_as_depth_shows_it():
     story = Story([TABLE, BLUE_BOTTLE, RED_CUP])
     story.run(6)

@@ -2,7 +2,9 @@
 
 The masks of the previous frame are moved by the camera's motion and compared by intersection over union. Things that
 were not in the previous frame are found again by position. The cheapest assignment of all pairs at once is taken.
-Where a thing has gone that slipped from the hand is a guess: it is not found by position, but recognized.
+Where a thing has gone that slipped from the hand is a guess, and what is missed at its place is not there: neither is
+found by position, but recognized once it was seen well enough. Else a corner of the table, named by nobody, is the ball
+that stood there.
 """
 
 from __future__ import annotations
@@ -123,9 +125,7 @@ def cost_matrix(
     T_view_room: dict[str, SE3],
     settings: AssociationSettings,
 ) -> Array:
-    """(T, M) cost of taking detection j for track i; infinite where that is out of the question, and for what is
-    missing where the hand has just put something.
-    """
+    """(T, M) cost of taking detection j for track i; infinite where that is out of the question."""
     if not tracks or not detections:
         return np.zeros((len(tracks), len(detections)))
     frame = _Frame(detections, T_view_room)
@@ -137,11 +137,7 @@ def cost_matrix(
     ]
     same = np.array([[agreement(t.label.distribution, d.distribution) for d in detections] for t in tracks])
     doubt = np.minimum(settings.label_cost, -np.log(np.maximum(same, 1e-6)))
-    costs: Array = np.array(rows) + doubt - settings.iou_weight * iou
-    put_there = (costs[[track.awaited for track in tracks]] <= settings.limit).any(axis=0)
-    missing = np.array([track.state is ObjectState.MISSING for track in tracks])
-    costs[missing[:, None] & put_there] = np.inf
-    return costs
+    return np.asarray(np.array(rows) + doubt - settings.iou_weight * iou)
 
 
 class _Frame:
@@ -170,7 +166,7 @@ def _furniture_costs(track: Track, frame: _Frame, iou: Array, settings: Associat
 
 def _thing_costs(track: Track, frame: _Frame, iou: Array, settings: AssociationSettings) -> Array:
     """(M,) by the distance of centers, in standard deviations; furniture only if the mask overlaps as well."""
-    if track.fell:
+    if track.fell or track.state is ObjectState.MISSING:
         return np.full(len(iou), np.inf)
     spread = float(np.trace(track.covariance)) / 3.0 + frame.spread
     slack_m = 0.02 + 0.1 * min(track.box.size_m[:2]) + frame.slack_m

@@ -23,8 +23,8 @@ HALF = 0.5
 ROBOT_RADIUS_M = 0.25
 PASSABLE_M = 0.32
 """What a body of that radius can be asked to pass, given how well it sees: 7 cm to each side."""
-REACH_M = 0.8
-"""How near the robot's middle has to come to a thing."""
+REACH_M = 0.85
+"""How near the robot's middle has to come to a thing: so far the hand is brought from above."""
 Point = tuple[float, float]
 
 

@@ -4,7 +4,7 @@ The masks of the previous frame are moved by the camera's motion and compared by
 were not in the previous frame are found again by position. The cheapest assignment of all pairs at once is taken.
 Where a thing has gone that slipped from the hand is a guess, and what is missed at its place is not there: neither is
 found by position, but recognized once it was seen well enough. Else a corner of the table, named by nobody, is the ball
-that stood there.
+that stood there. Only what the hand has just put down is found where it must be, though it was not seen at once.
 """
 
 from __future__ import annotations
@@ -166,7 +166,7 @@ def _furniture_costs(track: Track, frame: _Frame, iou: Array, settings: Associat
 
 def _thing_costs(track: Track, frame: _Frame, iou: Array, settings: AssociationSettings) -> Array:
     """(M,) by the distance of centers, in standard deviations; furniture only if the mask overlaps as well."""
-    if track.fell or track.state is ObjectState.MISSING:
+    if track.fell or (track.state is ObjectState.MISSING and not track.awaited):
         return np.full(len(iou), np.inf)
     spread = float(np.trace(track.covariance)) / 3.0 + frame.spread
     slack_m = 0.02 + 0.1 * min(track.box.size_m[:2]) + frame.slack_m

@@ -162,6 +162,10 @@ class _Play:
             "dialogue": [question for question, _ in task.dialogue],
             "status": task.status.value,
             "codes": [failure.code for failure in task.failures],
+            "failures": [
+                {"step": failure.step, "message": failure.message, "observation": failure.evidence.observation}
+                for failure in task.failures
+            ],
             "attempts": [asdict(attempt) for attempt in self._attempts.checked],
             "explanation": task.explanation or task.reply,
             "replans": task.replans,

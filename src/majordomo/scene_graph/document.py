@@ -122,6 +122,7 @@ class ObjectRecord(_NodeRecord):
     observations: Annotated[int, Field(ge=0)] = 0
     surfaces_m: tuple[Length, ...] = ()
     back_rad: float | None = None
+    back_m: Length | None = None
 
 
 class PersonRecord(_NodeRecord):

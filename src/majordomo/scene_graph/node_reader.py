@@ -162,4 +162,5 @@ def _object(record: ObjectRecord, places: Places, stamp_s: float) -> ObjectNode:
         observations=record.observations,
         surfaces_m=tuple(sorted(record.surfaces_m)),
         back_rad=record.back_rad,
+        back_m=record.back_m,
     )

@@ -158,7 +158,7 @@ class ObjectNode:
     is the probability that it still is where it is said to be. ``surfaces_m``: heights above its own bottom on which
     things can stand, such as the boards of a shelf, as measured, lowest first; empty where none was measured.
     ``back_rad``: from the middle towards the back that rises over a seat, from the node's own x axis, counter-clockwise
-    in (-pi, pi]; ``None`` where none was seen.
+    in (-pi, pi]; ``None`` where none was seen. ``back_m``: how far from the middle the back begins, where measured.
     ``color`` is the main color, ``accents`` are those of smaller parts, such as the case around a phone's screen.
     """
 
@@ -181,6 +181,7 @@ class ObjectNode:
     observations: int = 0
     surfaces_m: tuple[float, ...] = ()
     back_rad: float | None = None
+    back_m: float | None = None
 
 
 @dataclass(frozen=True, kw_only=True)

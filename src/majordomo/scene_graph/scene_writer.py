@@ -254,6 +254,7 @@ def _object_details(node: ObjectNode) -> Record:
         "observations": node.observations,
         "surfaces_m": list(node.surfaces_m),
         "back_rad": node.back_rad,
+        "back_m": node.back_m,
     }
 
 

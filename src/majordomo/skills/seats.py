@@ -77,7 +77,9 @@ def _back(seat: ObjectNode) -> Rim | None:
     x, y = cos(seat.back_rad), sin(seat.back_rad)
     axis = int(abs(y) > abs(x))
     sign, half_m = 1 if (x, y)[axis] > 0.0 else -1, seat.size_m[axis] / 2
-    return Rim(axis=axis, sign=sign, half_m=half_m, thick_m=rims_m(seat.label)[1], top_m=seat.size_m[2] / 2)
+    usual_m = rims_m(seat.label)[1]
+    thick_m = usual_m if seat.back_m is None else float(np.clip(half_m - seat.back_m, LEAST_M, half_m))
+    return Rim(axis=axis, sign=sign, half_m=half_m, thick_m=thick_m, top_m=seat.size_m[2] / 2)
 
 
 def is_seat(label: str) -> bool:

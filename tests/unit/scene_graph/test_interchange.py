@@ -246,10 +246,11 @@ def test_what_is_no_json_is_refused():
 def test_where_the_back_of_a_seat_is_is_told_and_read_and_may_be_left_out():
     document = kitchen()
     assert from_json(document).object("table_1").back_rad is None
-    document["nodes"][1]["back_rad"] = 1.5708
+    document["nodes"][1] |= {"back_rad": 1.5708, "back_m": 0.19}
     told = to_json(from_json(document))
-    assert by_id(told)["table_1"]["back_rad"] == 1.5708
-    assert from_json(told).object("table_1").back_rad == 1.5708
+    assert (by_id(told)["table_1"]["back_rad"], by_id(told)["table_1"]["back_m"]) == (1.5708, 0.19)
+    table = from_json(told).object("table_1")
+    assert (table.back_rad, table.back_m) == (1.5708, 0.19)
 
 
 def test_the_boards_of_a_shelf_are_told_and_read_and_may_be_left_out():

@@ -701,6 +701,16 @@ def test_the_palm_over_what_is_put_down_keeps_off_the_back_of_a_chair(flat, y_m,
     assert palm_meets_rims(chair, pose, 0.45, middle, np.array([toward_rad + 0.3]), low_m).tolist() == [met]
 
 
+@pytest.mark.parametrize(("back_m", "met"), [(0.185, True), (0.23, False), (None, False)])
+def test_the_back_is_where_it_was_measured_however_deep_the_chair_is_believed_to_be(flat, back_m, met):
+    """The box of a chair that was seen often is centimeters too deep: its back is not at the rim of it."""
+    chair = {"support": True, "back_rad": -pi / 2, "back_m": back_m}
+    snapshot = flat().thing("chair_1", (1.0, 2.0, 0.45), (0.49, 0.52, 0.9), **chair).memory.snapshot()
+    pose, middle = Pose2.of(snapshot.transform("room_1", "chair_1")), np.array([0.87, 1.9])
+    toward_rad = np.array([pi / 3])
+    assert palm_meets_rims(snapshot.object("chair_1"), pose, 0.45, middle, toward_rad, 0.6).tolist() == [met]
+
+
 @pytest.mark.parametrize(("roll_rad", "from_front", "from_side"), [(0.0, True, False), (pi / 2, False, True)])
 async def test_what_is_put_before_the_back_of_a_chair_comes_with_the_palm_along_it(
     kitchen, roll_rad, from_front, from_side

@@ -62,6 +62,7 @@ def node_of(node_id: str, track: Track, before: ObjectNode | None, inspected_s: 
         observations=track.hits,
         surfaces_m=tuple(round(height_m, 4) for height_m in track.surfaces_m),
         back_rad=_back_rad(track),
+        back_m=_back_m(track),
     )
 
 
@@ -190,6 +191,7 @@ def _worth_writing(before: ObjectNode, after: ObjectNode, settings: PublicationS
         or after.last_seen_s - before.last_seen_s > settings.seen_s
         or float(np.abs(np.subtract(before.size_m, after.size_m)).max()) > settings.size_m
         or _differ(before.surfaces_m, after.surfaces_m, settings.size_m)
+        or _differ(_known(before.back_m), _known(after.back_m), settings.size_m)
     )
 
 
@@ -201,14 +203,23 @@ def _told(node: ObjectNode) -> tuple[object, ...]:
 
 def _back_rad(track: Track) -> float | None:
     """Where its back is, seen from its own frame: along one of its sides."""
-    if track.back_rad is None:
+    if track.back is None:
         return None
-    sides = round((track.back_rad - track.box.yaw_rad) / (math.pi / 2.0))
+    sides = round((track.back.toward_rad - track.box.yaw_rad) / (math.pi / 2.0))
     return round(math.remainder(sides * math.pi / 2.0, 2.0 * math.pi), 4)
 
 
+def _back_m(track: Track) -> float | None:
+    """How far from its middle its back begins."""
+    return None if track.back is None or track.back.face_m is None else round(track.back.face_m, 3)
+
+
+def _known(length_m: float | None) -> tuple[float, ...]:
+    return () if length_m is None else (length_m,)
+
+
 def _differ(before: tuple[float, ...], after: tuple[float, ...], tolerance_m: float) -> bool:
-    """Whether these are other heights."""
+    """Whether these are other lengths."""
     return len(before) != len(after) or any(abs(a - b) > tolerance_m for a, b in zip(before, after, strict=True))
 
 

@@ -7,13 +7,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.random import Generator
 from numpy.typing import NDArray
 
-from majordomo.perception.objects.back import back_of
+from majordomo.perception.objects.back import SeatBack, back_of
 from majordomo.perception.objects.beliefs import AccentBelief, ColorBelief, LabelBelief, is_taught
 from majordomo.perception.objects.center import CenterBelief, CenterSettings
 from majordomo.perception.objects.detection import Detection
@@ -58,8 +58,8 @@ class Track:
     Attributes:
         number: running number; order of birth. node_id: its node, once confirmed. room: room whose frame holds it.
             place: a ``CenterBelief`` for what can be carried, a ``SurfaceBelief`` for furniture, ``None`` before the
-            first sight. levels: how high the boards or the seat of furniture are. back_rad: in which direction the
-            back of a seat is from its middle, once it was seen. state, log_odds: whether it still is
+            first sight. levels: how high the boards or the seat of furniture are. back: where the back of a seat is,
+            once it was seen. state, log_odds: whether it still is
             where it is said to be. hits: frames that saw it; seen_from: where the camera was then, (2,) each,
             from the thing along its room's axes: a few places that are well apart as the thing sees them.
             seen_whole: whether one of them showed all of it; ``misses``: frames in a row that should have and did not.
@@ -79,7 +79,7 @@ class Track:
         self.seen_from: list[Array] = []
         self.place: CenterBelief | SurfaceBelief | None = None
         self.levels = LevelMemory()
-        self.back_rad: float | None = None
+        self.back: SeatBack | None = None
         self.state = ObjectState.PRESENT
         self.log_odds = settings.log_odds
         self.homeless = False
@@ -194,8 +194,8 @@ class Track:
         self.place.observe(points, pose_covariance, category_of(self.label.best), camera, top_shown=bool(top_shown))
         if self.category.levels and detection.in_range:
             self.levels.observe(detection.mask, view, T_room_view, self.box)
-        if has_back(self.label.best) and (back_rad := back_of(self.surface_points, self.box)) is not None:
-            self.back_rad = back_rad
+        if has_back(self.label.best):
+            self.back = back_of(self.surface_points, self.box) or self.back
         self.label.measure(self.box.size_m)
 
     def _own(self, points: Array, called: str, others: Sequence[Box]) -> Array:
@@ -254,14 +254,15 @@ class Track:
         """Express it in the frame of another room."""
         self.room = room
         self.levels = self.levels.raised(T_new_old.z_m)
-        self.back_rad = None if self.back_rad is None else self.back_rad + T_new_old.yaw_rad
+        if self.back is not None:
+            self.back = replace(self.back, toward_rad=self.back.toward_rad + T_new_old.yaw_rad)
         if self.place is not None:
             self.place.change_frame(T_new_old)
 
     def become(self, other: Track) -> None:
         """Take over the place of ``other``, a newer sighting of this very thing; identity and history stay."""
         self.room, self.place, self.levels = other.room, other.place, other.levels
-        self.back_rad = other.back_rad
+        self.back = other.back
         self.color, self.accents = other.color, other.accents
         self.state, self.log_odds = ObjectState.PRESENT, other.log_odds
         self.awaited = self.carried = self.fell = False
@@ -302,7 +303,8 @@ class Track:
             self.place = SurfaceBelief.of(box, frames=node.observations)
             bottom_m = T_room_object.z_m - size_m[2] / 2.0
             self.levels = LevelMemory.of(tuple(bottom_m + height_m for height_m in node.surfaces_m))
-            self.back_rad = None if node.back_rad is None else node.back_rad + T_room_object.yaw_rad
+            if node.back_rad is not None:
+                self.back = SeatBack(toward_rad=node.back_rad + T_room_object.yaw_rad, face_m=node.back_m)
         else:
             self.place = self._center(box, covariance + np.eye(3) * 1e-6)
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from majordomo.scene_graph.nodes import UNKNOWN_LABEL, ObjectNode, ObjectState, PersonNode
 from majordomo.scene_graph.snapshot import Snapshot
@@ -32,6 +33,8 @@ NAMELESS_M = 0.35
 PERSON_CLEARANCE_M, DRIFT_M = 0.32, 0.04
 """So far from the middle of a person the middle of the arm keeps, from a place that is as far off as a drive may be."""
 BESIDE_HELD_M = 0.02
+LEAST_AIR_M = 0.01
+"""Without so much air above a small thing, what is carried over it meets it."""
 CLEARANCE_M = 0.04
 """Air between the finger tips, or what they hold, and what the hand passes over."""
 AROUND_PERSON_M = PERSON_RADIUS_M + 0.1
@@ -59,6 +62,29 @@ def clear_over_m(context: RobotContext, x_m: float, *targets: str, held_radius_m
         if abs(y_m) < wide_m + half_m and 0.0 < center_x_m < x_m + wide_m + half_m:
             highest_m = max(highest_m, z_m + node.size_m[2] / 2 + CLEARANCE_M)
     return highest_m
+
+
+def pushes_aside(
+    snapshot: Snapshot, frame: str, target: Points, places: Points, spared: set[str], *, low_m: float, wide_m: float
+) -> NDArray[np.bool_]:
+    """From which of (N, 2) places what the hand carries straight to ``target`` meets a small thing of known name on its
+    way: its underside is ``low_m`` over the floor and gets no higher, and it reaches ``wide_m`` to the sides.
+    """
+    met = np.zeros(len(places), np.bool_)
+    farthest_m = float(np.hypot(*(places - target[:2]).T).max(initial=0.0))
+    along = np.linspace(0.0, 1.0, max(int(farthest_m / SAMPLE_M), 2))[:, None, None]
+    way = target[:2] + along * (places - target[:2])
+    for node in snapshot.of_type(ObjectNode):
+        here = node.state is ObjectState.PRESENT and snapshot.room_of(node.id) == frame
+        if not (here and node.graspable) or node.id in spared or _is_small_and_nameless(node):
+            continue
+        x_m, y_m, z_m = snapshot.position(node.id, frame)
+        low = z_m + node.size_m[2] / 2 + LEAST_AIR_M < low_m or z_m + node.size_m[2] / 2 < target[2]
+        if low or float(np.hypot(x_m - target[0], y_m - target[1])) > farthest_m + max(node.size_m[:2]) + wide_m:
+            continue
+        away_m = footprint(snapshot, node, frame).distance_m(way.reshape(-1, 2)).reshape(way.shape[:2])
+        met |= away_m.min(axis=0) < wide_m + BESIDE_HELD_M
+    return met
 
 
 def spared_nodes(snapshot: Snapshot, *targets: str) -> set[str]:

@@ -91,11 +91,11 @@ class ChooseSpot(Action):
         if not within:
             return None
         routes = self._routes(within, people)
-        least_m, best = inf, None
-        for cost_m, i in sorted((self._cost_m(routes, spot), i) for i, spot in enumerate(within)):
+        least_m, best, spared = inf, None, {*people, *things}
+        for cost_m, i in sorted((self._cost_m(routes, spot, spared), i) for i, spot in enumerate(within)):
             if cost_m >= least_m:
                 break
-            if (total_m := self._total_m(routes, within[i], {*people, *things})) < least_m:
+            if (total_m := self._total_m(routes, within[i], spared)) < least_m:
                 least_m, best = total_m, within[i]
         return best
 
@@ -107,27 +107,28 @@ class ChooseSpot(Action):
         points = [(float(x), float(y)) for x, y, _ in centers]
         return routes_around(self.context, planar_pose(self.context, frame).point, points, spared=people)
 
-    def _cost_m(self, routes: Routes, spot: Spot) -> float:
+    def _cost_m(self, routes: Routes, spot: Spot, spared: Collection[str]) -> float:
         """Way to the best place to stand for a spot, plus a little for a tight one."""
-        return float(self._ways_m(routes, spot)[1].min()) + self._price_m(spot)
+        return float(self._ways_m(routes, spot, spared)[1].min()) + self._price_m(spot)
 
     def _price_m(self, spot: Spot) -> float:
         """What a spot costs wherever one stands: a tight or hidden one is as good as one that is so much farther."""
         tight_m = 0.0 if spot.inside else max(TIGHT_M - spot.air_m, 0.0)
         return TIGHT_WEIGHT * tight_m + self._hidden_m(spot)
 
-    def _ways_m(self, routes: Routes, spot: Spot) -> tuple[Points, Points]:
+    def _ways_m(self, routes: Routes, spot: Spot, spared: Collection[str]) -> tuple[Points, Points]:
         """Places (N, 2) from which the hand gets to a spot, and the cost (N,) of the way to each."""
         snapshot = self.context.snapshot
         center = spot.anchor.position(snapshot, robot_frame(snapshot))[:2]
         places = ring(center, reaches_m(self.context, self.context.body.arm.wrist_pitch_rad)[:-1])[0]
-        return places, np.where(admitted(self.context, spot, places), routes.cost_at(places), np.inf)
+        free = admitted(self.context, spot, places, spared=spared)
+        return places, np.where(free, routes.cost_at(places), np.inf)
 
     def _total_m(self, routes: Routes, spot: Spot, spared: Collection[str]) -> float:
         """Cost with what the arm would have to pass over, from the best place to stand."""
         snapshot = self.context.snapshot
         frame = robot_frame(snapshot)
-        places, ways_m = self._ways_m(routes, spot)
+        places, ways_m = self._ways_m(routes, spot, spared)
         reached = np.isfinite(ways_m)
         target = spot.anchor.position(snapshot, frame)
         no_obstacle = spared_nodes(snapshot, self._placement.target, spot.anchor.node_id) | set(spared)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Collection, Iterable, Sequence
 from dataclasses import dataclass
 from math import pi, sin
 
@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from majordomo.scene_graph.nodes import ObjectNode
 from majordomo.skills.action import RobotContext
+from majordomo.skills.actions.arm_way import pushes_aside, spared_nodes
 from majordomo.skills.actions.finger_room import palm_meets_rims
 from majordomo.skills.anchor import Anchor
 from majordomo.skills.boards import LOWEST_M, TURN_RAD, headroom_m, is_before
@@ -60,17 +61,24 @@ class Placement:
         return admitted(context, self.spot, places) if self.spot is not None else np.ones(len(places), np.bool_)
 
 
-def admitted(context: RobotContext, spot: Spot, places: Points, *, turn_rad: float = TURN_RAD) -> NDArray[np.bool_]:
+def admitted(
+    context: RobotContext, spot: Spot, places: Points, *, turn_rad: float = TURN_RAD, spared: Collection[str] = ()
+) -> NDArray[np.bool_]:
     """From which of (N, 2) places, in the robot's frame, the hand gets to a spot: to one below a board, from straight
-    before; to one on a seat, where the palm meets neither back nor arms.
+    before; to any other, where what it holds is brought over all that lies on the way, however low the lift ends; and
+    to one on a seat, where the palm meets neither back nor arms. ``spared``: things that are thought away.
     """
     on, frame = spot.anchor, robot_frame(context.snapshot)
     if spot.is_covered:
         return is_before(context.snapshot, on.node_id, on.point_m, places, frame, sides=spot.sides, turn_rad=turn_rad)
+    target = on.position(context.snapshot, frame)
+    no_obstacle, low_m = spared_nodes(context.snapshot, on.node_id) | set(spared), highest_underside_m(context)
+    wide_m = held_radius_m(context)
+    free = ~pushes_aside(context.snapshot, frame, target, places, no_obstacle, low_m=low_m, wide_m=wide_m)
     seat = context.snapshot.get(on.node_id)
     if spot.inside or not isinstance(seat, ObjectNode) or not rims(seat) or not _points_down(context):
-        return np.ones(len(places), np.bool_)
-    x_m, y_m, surface_z_m = on.position(context.snapshot, frame)
+        return free
+    x_m, y_m, surface_z_m = target
     pose = Pose2.of(context.snapshot.transform(frame, seat.id))
     if spot.turn_rad is None:
         # from above, fingers that close along a, from where the robot faces, take a roll of pi/2 - a
@@ -79,7 +87,13 @@ def admitted(context: RobotContext, spot: Spot, places: Points, *, turn_rad: flo
         toward_rad = np.full(len(places), pose.yaw_rad + spot.turn_rad + pi / 2)
     palm_m = float(surface_z_m) + above_bottom_m(context) + PAD_DEPTH_M
     seat_z_m = float(context.snapshot.position(seat.id, frame)[2])
-    return ~palm_meets_rims(seat, pose, seat_z_m, np.array((x_m, y_m)), toward_rad, palm_m)
+    return free & ~palm_meets_rims(seat, pose, seat_z_m, np.array((x_m, y_m)), toward_rad, palm_m)
+
+
+def highest_underside_m(context: RobotContext) -> float:
+    """How high over the floor the lift brings the bottom of what the hand holds, with the wrist as it is."""
+    hand_m = context.geometry.hand_length_m * sin(context.body.arm.wrist_pitch_rad)
+    return context.limits.lift_m[1] + hand_m - above_bottom_m(context)
 
 
 def _points_down(context: RobotContext) -> bool:

@@ -493,6 +493,30 @@ async def test_what_stops_the_arm_on_its_way_in_between_boards_is_not_the_board(
     assert (await rehearsal.run(actions[lowering:], 900.0)).code is FailureCode.UNREACHABLE
 
 
+async def test_what_is_put_down_near_the_end_of_the_lift_is_lowered_to_where_it_stands(kitchen):
+    """A target above the lift's end stalls the arm, which then is taken to have met the surface."""
+    rehearsal = kitchen()
+    low_m, high_m = rehearsal.body.limits.lift_m
+    assert await carry_out(rehearsal, ("PICK", "bottle_1"), ("GOTO", "table_2")) is None
+    context = await rehearsal.prepare()
+    actions = SKILLS["PLACE"].actions(context, ["bottle_1", "table_2"])
+    lowering = next(index for index, action in enumerate(actions) if isinstance(action, LowerToPlace))
+    assert await rehearsal.run(actions[:lowering], 900.0) is None
+    released_m = []
+
+    def end_the_lift(r):
+        r.body.arm = replace(r.body.arm, lift_m=min(r.body.arm.lift_m, r.context.limits.lift_m[1]))
+        released_m.append(r.body.arm.lift_m)
+
+    actions[lowering].begin()
+    standing_m = actions[lowering]._standing.lift_m
+    rehearsal.context.limits = replace(context.limits, lift_m=(low_m, standing_m + 0.025))
+    rehearsal.observe = end_the_lift
+    assert high_m > standing_m + 0.1
+    assert await rehearsal.run([actions[lowering]], 900.0) is None
+    assert rehearsal.body.arm.lift_m == pytest.approx(standing_m, abs=0.006)
+
+
 @pytest.mark.parametrize(
     ("glass_y_m", "height_m", "across"),
     [(0.06, 0.14, 2), (0.0, 0.14, 2), (-0.03, 0.14, 1), (-0.03, 0.34, 0), (0.0, 0.34, 1), (-0.3, 0.14, 0)],

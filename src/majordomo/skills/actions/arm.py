@@ -55,8 +55,12 @@ class ArmAction(Action):
         self._lost_s: float | None = None
 
     def follow(self, targets: Sequence[ArmTarget]) -> None:
-        """Start through ``targets``."""
-        self._targets, self._last, self._moved_s = list(targets), None, self.context.stamp_s
+        """Start through ``targets``, each as high as the lift goes: one above that would never be reached, and what is
+        held be let go in the air, the arm being taken to have met the surface.
+        """
+        low_m, high_m = self.context.limits.lift_m
+        self._targets = [replace(target, lift_m=min(max(target.lift_m, low_m), high_m)) for target in targets]
+        self._last, self._moved_s = None, self.context.stamp_s
         self._moves = False
 
     def move_arm(self) -> ArmProgress:

@@ -71,9 +71,7 @@ def pushes_aside(
     way: its underside is ``low_m`` over the floor and gets no higher, and it reaches ``wide_m`` to the sides.
     """
     met = np.zeros(len(places), np.bool_)
-    farthest_m = float(np.hypot(*(places - target[:2]).T).max(initial=0.0))
-    along = np.linspace(0.0, 1.0, max(int(farthest_m / SAMPLE_M), 2))[:, None, None]
-    way = target[:2] + along * (places - target[:2])
+    way, farthest_m = _ways_straight(target, places)
     for node in snapshot.of_type(ObjectNode):
         here = node.state is ObjectState.PRESENT and snapshot.room_of(node.id) == frame
         if not (here and node.graspable) or node.id in spared or _is_small_and_nameless(node):
@@ -103,9 +101,7 @@ def passing_over(
     reaches for included, or comes near to a person who is there.
     """
     costs = np.zeros(len(points))
-    farthest_m = float(np.hypot(*(points - target[:2]).T).max())
-    along = np.linspace(0.0, 1.0, max(int(farthest_m / SAMPLE_M), 2))[:, None, None]
-    way = target[:2] + along * (points - target[:2])
+    way, farthest_m = _ways_straight(target, points)
     for node in snapshot.of_type(ObjectNode):
         if node.state is not ObjectState.PRESENT or snapshot.room_of(node.id) != frame:
             continue
@@ -128,6 +124,13 @@ def passing_over(
             cost_m = np.inf if stamp_s - person.last_seen_s < PERSON_FRESH_S else BARRED_COST_M
             costs += np.where(away_m.min(axis=0) < PERSON_CLEARANCE_M, cost_m, 0.0)
     return costs
+
+
+def _ways_straight(target: Points, places: Points) -> tuple[Points, float]:
+    """Points (S, N, 2) on the ways from the target straight to each of (N, 2) places, and how long the longest is."""
+    farthest_m = float(np.hypot(*(places - target[:2]).T).max(initial=0.0))
+    along = np.linspace(0.0, 1.0, max(int(farthest_m / SAMPLE_M), 2))[:, None, None]
+    return target[:2] + along * (places - target[:2]), farthest_m
 
 
 def _rim_costs(snapshot: Snapshot, frame: str, seat: ObjectNode, target: Points, low_m: float, way: Points) -> Points:

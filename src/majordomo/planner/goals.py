@@ -109,11 +109,7 @@ def holds(goal: Goal, state: PlanState) -> bool:
         case Predicate.HOLDING:
             return state.holding == first
         case Predicate.ROBOT_AT:
-            return (
-                state.is_inside(second)
-                or second == state.robot_at
-                or (not _is_room(state, second) and state.is_at(second))
-            )
+            return state.is_inside(second) or state.is_at(second)
         case Predicate.OPEN:
             return any(link.door == first and link.open for link in state.world.doors)
         case Predicate.FOUND:

@@ -46,7 +46,7 @@ async def test_the_robot_drives_where_it_is_asked_to_and_stands_while_it_is_stop
             truth = await runtime.require_robot().truth()
             assert math.dist(truth["robot"]["pose"][:2], WARDROBE_M) < NEAR_M
             assert truth["collisions"] == 0
-    assert page.complaints == []
+            assert page.complaints == [], "while it was served: it rightly complains once the service is gone"
 
 
 async def standing(runtime):

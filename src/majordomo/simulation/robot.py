@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import tempfile
 from dataclasses import dataclass
+from itertools import product
 from pathlib import Path
 
 import pybullet as p
@@ -15,9 +16,10 @@ from majordomo.skills.ports import ArmGeometry, ArmTarget, BodyLimits
 
 ARM_SPEEDS = {"lift": 0.25, "extension": 0.25, "wrist_pitch": 1.5, "wrist_roll": 1.5, "pan": 2.0, "tilt": 2.0}
 ARM_FORCES = {"lift": 300.0, "extension": 120.0, "wrist_pitch": 25.0, "wrist_roll": 15.0, "pan": 5.0, "tilt": 5.0}
-PARTING_S = 0.1
-"""How long opening fingers pass through what they held. The solver keeps contacts with the normals that they had when
-they began; after a drive these spread so far that with friction a single open finger would go on holding a thing.
+FRESH_RAD = 0.05
+"""How far the hand turns before what its fingers hold is met anew. The solver keeps a contact with the normal, in the
+world, that it had when it began: after half a turn of the base, fingers would press a bottle aside and tilt it, and an
+open finger would go on holding it.
 """
 FINGER_SPEED_MPS = 0.08
 BASE_FORCE_N, BASE_TORQUE_NM = 400.0, 150.0
@@ -59,8 +61,7 @@ class RobotBody:
         self._drive = (0.0, 0.0)
         self._drive_age_s = math.inf
         self._opening_m, self._effort_n = self.limits.gripper_opening_m[1], 15.0
-        self._parting: tuple[tuple[int, int], ...] = ()
-        self._parted_s = 0.0
+        self._met_at: tuple[float, ...] = (0.0, 0.0, 0.0)
         self._targets: dict[str, float] = {}
         self.set_pose(pose)
         self._reset_arm()
@@ -112,19 +113,13 @@ class RobotBody:
 
     def command_grip(self, opening_m: float, effort_n: float) -> None:
         """Set the fingers' target opening and the force of each."""
-        opening_m = _clip(opening_m, self.limits.gripper_opening_m)
-        if opening_m > self._opening_m and not self._parting:
-            self._part()
-        self._opening_m = opening_m
+        self._opening_m = _clip(opening_m, self.limits.gripper_opening_m)
         self._effort_n = _clip(effort_n, (0.0, 40.0))
 
     def advance(self, dt_s: float, *, stopped: bool) -> None:
         """Set all motors for the next physics step of ``dt_s``. ``stopped``: everything holds its place at once."""
         self._drive_age_s += dt_s
-        self._parted_s += dt_s
-        if self._parting and self._parted_s > PARTING_S:
-            self._collide(self._parting, enabled=True)
-            self._parting = ()
+        self._meet_anew()
         if stopped:
             self._hold()
             return
@@ -261,16 +256,17 @@ class RobotBody:
             )
         self._couple_fingers()
 
-    def _part(self) -> None:
-        """Forget the contacts of fingers that begin to open."""
-        fingers = [(self._joint[name], self._touching(name)) for name in ("finger_left", "finger_right")]
-        self._parting = tuple((link, body) for link, bodies in fingers for body in sorted(bodies))
-        self._parted_s = 0.0
-        self._collide(self._parting, enabled=False)
-
-    def _collide(self, pairs: tuple[tuple[int, int], ...], *, enabled: bool) -> None:
-        for link, body in pairs:
-            p.setCollisionFilterPair(self.body_id, body, link, -1, int(enabled), physicsClientId=self._client)
+    def _meet_anew(self) -> None:
+        """Forget the contacts of the fingers once the hand has turned; the next step finds them again."""
+        turned = tuple(self._position(name) for name in ("base_yaw", "wrist_pitch", "wrist_roll"))
+        if max(abs(now - before) for now, before in zip(turned, self._met_at, strict=True)) < FRESH_RAD:
+            return
+        self._met_at = turned
+        for name in ("finger_left", "finger_right"):
+            for body, enabled in product(sorted(self._touching(name)), (0, 1)):
+                p.setCollisionFilterPair(
+                    self.body_id, body, self._joint[name], -1, enabled, physicsClientId=self._client
+                )
 
     def _couple_fingers(self) -> None:
         """Make the fingers move as mirror images, as one drive moves both in a real gripper."""

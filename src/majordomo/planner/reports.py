@@ -36,6 +36,7 @@ MINUTE_S = 60.0
 NOTHING_YET = "I have done nothing yet."
 MAX_TOLD = 3
 UNDER_WAY = ("running", "paused", "planning", "queued")
+BEGUN = ("running", "paused", "succeeded", "failed", "cancelled")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -235,8 +236,8 @@ def _told(kind: QueryKind, earlier: tuple[Exchange, ...]) -> str:
     if kind is QueryKind.FAILURE:
         failed = [e for e in earlier if e.status in ("failed", "refused", "cancelled")]
         return _sentence(failed[0]) if failed else "I have not failed at anything that I remember."
-    ended = [e for e in earlier if e.status == "succeeded" and e.goals]
-    return " ".join(map(_sentence, ended[:MAX_TOLD])) or NOTHING_YET
+    begun = [e for e in earlier if e.status in BEGUN and e.goals]
+    return " ".join(map(_sentence, begun[:MAX_TOLD])) or NOTHING_YET
 
 
 def _sentence(exchange: Exchange) -> str:

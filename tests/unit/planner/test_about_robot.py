@@ -57,6 +57,18 @@ def test_what_it_did_is_told(text):
     assert "bring me the apple" in ask(text, BROUGHT).reply
 
 
+@pytest.mark.parametrize("status", ["running", "failed", "cancelled"])
+def test_what_it_was_about_is_told_even_if_it_did_not_end_well(status):
+    cut_off = Exchange(request=BROUGHT.request, goals=BROUGHT.goals, status=status, explanation="I was switched off.")
+    assert "bring me the apple" in ask("what were you doing?", cut_off, BROUGHT).reply
+    assert f"It is {status}" in ask("what were you doing?", cut_off, BROUGHT).reply
+
+
+def test_what_never_began_is_not_told_as_a_deed():
+    refused = Exchange(request=BROUGHT.request, goals=BROUGHT.goals, status="refused")
+    assert ask("what were you doing?", refused).reply == "I have done nothing yet."
+
+
 def test_fetching_takes_longer_than_going():
     def seconds(text):
         number, unit = ask(text).reply.removeprefix("I would need about ").split()[:2]

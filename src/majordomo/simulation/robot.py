@@ -62,7 +62,6 @@ class RobotBody:
         self._drive_age_s = math.inf
         self._opening_m, self._effort_n = self.limits.gripper_opening_m[1], 15.0
         self._met_at: tuple[float, ...] = (0.0, 0.0, 0.0)
-        self._stale = ["finger_left", "finger_right"]
         self._targets: dict[str, float] = {}
         self.set_pose(pose)
         self._reset_arm()
@@ -258,17 +257,16 @@ class RobotBody:
         self._couple_fingers()
 
     def _meet_anew(self) -> None:
-        """Forget the contacts of one finger once the hand has turned; the next steps find them again, while the other
-        one's hold the thing as it is.
-        """
+        """Forget the contacts of the fingers once the hand has turned; the next step finds them again."""
         turned = tuple(self._position(name) for name in ("base_yaw", "wrist_pitch", "wrist_roll"))
         if max(abs(now - before) for now, before in zip(turned, self._met_at, strict=True)) < FRESH_RAD:
             return
         self._met_at = turned
-        self._stale.reverse()
-        finger = self._joint[self._stale[0]]
-        for body, enabled in product(sorted(self._touching(self._stale[0])), (0, 1)):
-            p.setCollisionFilterPair(self.body_id, body, finger, -1, enabled, physicsClientId=self._client)
+        for name in ("finger_left", "finger_right"):
+            for body, enabled in product(sorted(self._touching(name)), (0, 1)):
+                p.setCollisionFilterPair(
+                    self.body_id, body, self._joint[name], -1, enabled, physicsClientId=self._client
+                )
 
     def _couple_fingers(self) -> None:
         """Make the fingers move as mirror images, as one drive moves both in a real gripper."""

@@ -117,6 +117,11 @@ def serve(
     verbose: Annotated[bool, typer.Option("--verbose", "-v", help="Log every frame's doings.")] = False,
 ) -> None:
     """Start the service; the first line printed is the page's address."""
+    from majordomo.simulation.house import load_house
+
+    if graph is None and robot is None:
+        load_house(house)  # a house that is none is refused before the libraries are loaded, which takes seconds
+
     from majordomo.app.http.security import VIEWER_FILE, Token
     from majordomo.app.model_choice import key_in
     from majordomo.app.runtime import Runtime

@@ -10,11 +10,10 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
-from majordomo.app.exporting import GraphFormat, write_text
-from majordomo.app.options import Network
+from majordomo.app.options import GraphFormat, Network
 from majordomo.app.settings import DEFAULT_DATA
 from majordomo.perception.network.shipped import SHIPPED
-from majordomo.planner.tasks import Approval
+from majordomo.planner.approval import Approval
 
 complaints = Console(stderr=True)
 
@@ -62,6 +61,7 @@ def replay_recording(
     model: Network = SHIPPED,
 ) -> None:
     """Let perception work on a recording again, without a robot, and say what it makes of it."""
+    from majordomo.app.exporting import write_text
     from majordomo.app.recording.errors import RecordingError
     from majordomo.app.recording.replaying import replay, told
 

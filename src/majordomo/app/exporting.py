@@ -5,12 +5,12 @@ from __future__ import annotations
 import json
 import sys
 from collections.abc import Callable, Mapping
-from enum import StrEnum
 from pathlib import Path
 from typing import Any
 
 import httpx
 
+from majordomo.app.options import GraphFormat
 from majordomo.app.stored_graph import read_graph
 from majordomo.client import NoService, Service
 from majordomo.scene_graph.interchange import to_json
@@ -18,13 +18,6 @@ from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.scene_graph.spark_dsg.writer import to_spark_dsg
 
 STANDARD_OUTPUT = Path("-")
-
-
-class GraphFormat(StrEnum):
-    """Formats of a scene graph."""
-
-    MAJORDOMO = "majordomo"
-    SPARK_DSG = "spark-dsg"
 
 
 _WRITERS: Mapping[GraphFormat, Callable[[Snapshot], dict[str, Any]]] = {

@@ -22,8 +22,8 @@ from pydantic import Field
 from majordomo import __version__
 from majordomo.client import Service
 from majordomo.client.documents import ENDED, UNDECIDED
+from majordomo.planner.approval import Approval
 from majordomo.planner.grammar.control import Control, control_word
-from majordomo.planner.tasks import Approval
 
 INSTRUCTIONS = """\
 A robot butler in a building that it has mapped. Look with `scene` what there is, try a request with `plan`, which

@@ -1,7 +1,8 @@
-"""Options that several commands take."""
+"""Options of commands, and what they can be; light to import, as every command has to load them."""
 
 from __future__ import annotations
 
+from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
 
@@ -15,3 +16,10 @@ Network = Annotated[
         help="The network that the robot sees with, an ONNX file; see docs/network.md.",
     ),
 ]
+
+
+class GraphFormat(StrEnum):
+    """Formats of a scene graph."""
+
+    MAJORDOMO = "majordomo"
+    SPARK_DSG = "spark-dsg"

@@ -33,11 +33,12 @@ from majordomo.app.settings import ClockMode, Settings
 from majordomo.app.stack import BuildStack, Stack
 from majordomo.app.tallies import CountedModel, Tallies
 from majordomo.client.documents import Trace
+from majordomo.planner.approval import Approval
 from majordomo.planner.grammar.control import Control, control_word
 from majordomo.planner.models.protocol import LanguageModel
 from majordomo.planner.obedience import obey
 from majordomo.planner.queue import TaskQueue
-from majordomo.planner.tasks import Approval, Task
+from majordomo.planner.tasks import Task
 from majordomo.scene_graph.memory import WorkingMemory
 from majordomo.simulation.client import SimulatedRobot
 from majordomo.simulation.errors import SimulatorDied

@@ -7,6 +7,7 @@ import logging
 from dataclasses import dataclass, replace
 from typing import Any, Protocol
 
+from majordomo.planner.approval import Approval
 from majordomo.planner.executor import OnEvent, ignore_event
 from majordomo.planner.explainer import plan_sentence
 from majordomo.planner.goals import Goal
@@ -16,7 +17,7 @@ from majordomo.planner.plan import Dialogue, Exchange, Impossible, Interpretatio
 from majordomo.planner.queue import TaskQueue
 from majordomo.planner.replanner import PlanMaker, Replanner, Verifier
 from majordomo.planner.scouting import Scout, kinds_called
-from majordomo.planner.tasks import Approval, PlanReport, Task, TaskStatus
+from majordomo.planner.tasks import PlanReport, Task, TaskStatus
 from majordomo.scene_graph.memory import WorkingMemory
 from majordomo.scene_graph.snapshot import Snapshot
 

@@ -7,9 +7,10 @@ from dataclasses import replace
 from types import MappingProxyType
 from typing import Any
 
+from majordomo.planner.approval import Approval
 from majordomo.planner.errors import OperationNotAllowed, PlanChanged, QueueFull, TaskNotFound
 from majordomo.planner.plan import Kind
-from majordomo.planner.tasks import Approval, Task, TaskStatus, TaskTimes
+from majordomo.planner.tasks import Task, TaskStatus, TaskTimes
 
 TaskListener = Callable[[Task], None]
 KEEP = 500

@@ -8,6 +8,7 @@ from enum import StrEnum
 from types import MappingProxyType
 from typing import Any
 
+from majordomo.planner.approval import Approval
 from majordomo.planner.errors import IllegalTransition
 from majordomo.planner.forecast import NO_CHANGES, Forecast
 from majordomo.planner.goals import Goal
@@ -64,13 +65,6 @@ TRANSITIONS: Mapping[TaskStatus, frozenset[TaskStatus]] = MappingProxyType(
         TaskStatus.REFUSED: frozenset(),
     }
 )
-
-
-class Approval(StrEnum):
-    """Whether a person sees the plan before anything moves."""
-
-    AUTO = "auto"
-    ASK = "ask"
 
 
 class StepStatus(StrEnum):

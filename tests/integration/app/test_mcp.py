@@ -18,10 +18,11 @@ from majordomo.app.mcp_server import ServiceTools, make_mcp_server
 from majordomo.app.runtime import Runtime
 from majordomo.app.server import bind, page_address, serving
 from majordomo.client import Service
+from majordomo.planner.approval import Approval
 from majordomo.planner.grammar.parser import CommandGrammar
 from majordomo.planner.intake import Intake
 from majordomo.planner.task_planner import TaskPlanner
-from majordomo.planner.tasks import Approval, TaskStatus
+from majordomo.planner.tasks import TaskStatus
 from majordomo.planner.verifier import Verifier
 from majordomo.skills.registry import load_registry
 

@@ -5,7 +5,8 @@ import pytest
 from majordomo.app.journal.tasks import INTERRUPTED
 from majordomo.app.runtime import Runtime
 from majordomo.app.settings import ClockMode, Settings
-from majordomo.planner.tasks import Approval, TaskStatus
+from majordomo.planner.approval import Approval
+from majordomo.planner.tasks import TaskStatus
 from majordomo.scene_graph.nodes import RoomNode, RoomStatus
 
 pytestmark = pytest.mark.anyio

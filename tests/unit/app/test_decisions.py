@@ -16,17 +16,10 @@ from majordomo.app.journal.decisions import Decision, DecisionKind, decisions_be
 from majordomo.app.journal.scrubbing import LONGEST, Scrubber
 from majordomo.app.journal.tasks import TaskJournal
 from majordomo.app.journal.trace import stored_traces
+from majordomo.planner.approval import Approval
 from majordomo.planner.goals import Goal, Predicate
 from majordomo.planner.queue import TaskQueue
-from majordomo.planner.tasks import (
-    Approval,
-    FailureReport,
-    PlanReport,
-    StepReport,
-    StepStatus,
-    TaskStatus,
-    VerifiedGoal,
-)
+from majordomo.planner.tasks import FailureReport, PlanReport, StepReport, StepStatus, TaskStatus, VerifiedGoal
 from majordomo.skills.failures import Evidence
 
 GOAL = Goal(predicate=Predicate.ON, args=("cup_1", "desk_1"))

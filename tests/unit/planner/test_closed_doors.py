@@ -7,13 +7,14 @@ from dataclasses import replace
 import pytest
 
 from grammar_home import home
+from majordomo.planner.approval import Approval
 from majordomo.planner.grammar.parser import CommandGrammar
 from majordomo.planner.mission import Mission
 from majordomo.planner.openness import suppose_not_known
 from majordomo.planner.plan import Dialogue, Kind
 from majordomo.planner.scripted import Script
 from majordomo.planner.task_planner import TaskPlanner
-from majordomo.planner.tasks import Approval, TaskStatus
+from majordomo.planner.tasks import TaskStatus
 from majordomo.planner.verifier import Verifier
 from majordomo.scene_graph.edits import PutNode
 from majordomo.scene_graph.memory import WorkingMemory

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from majordomo.planner.approval import Approval
 from majordomo.planner.mission import LOST, LOST_PATIENCE_S
-from majordomo.planner.tasks import Approval, TaskStatus
+from majordomo.planner.tasks import TaskStatus
 from unit.planner.test_mission import BRING, Show
 
 

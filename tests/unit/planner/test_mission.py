@@ -9,6 +9,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from majordomo.planner.approval import Approval
 from majordomo.planner.arbiter import Arbiter
 from majordomo.planner.crew import Crew, MissionSettings
 from majordomo.planner.executor import Executor
@@ -22,7 +23,7 @@ from majordomo.planner.rehearsal import GRIPPER, Stage, StillBody, rehearsal_gra
 from majordomo.planner.scripted import PHANTOM, Script, ScriptedInterpreter, scripted_look, scripted_skills
 from majordomo.planner.skill_planner import SkillPlanner
 from majordomo.planner.task_planner import TaskPlanner
-from majordomo.planner.tasks import Approval, StepStatus, TaskStatus
+from majordomo.planner.tasks import StepStatus, TaskStatus
 from majordomo.planner.verifier import Verifier
 from majordomo.scene_graph.edges import (
     HasIntentionEdge,

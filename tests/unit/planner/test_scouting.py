@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import pytest
 
+from majordomo.planner.approval import Approval
 from majordomo.planner.goals import goal
 from majordomo.planner.grammar.parser import CommandGrammar
 from majordomo.planner.mission import Mission
@@ -14,7 +15,7 @@ from majordomo.planner.plan import Dialogue, Interpretation, Kind
 from majordomo.planner.rehearsal import rehearsal_graph
 from majordomo.planner.scouting import Scout, kinds_called
 from majordomo.planner.task_planner import TaskPlanner
-from majordomo.planner.tasks import Approval, TaskStatus
+from majordomo.planner.tasks import TaskStatus
 from majordomo.planner.verifier import Verifier
 from majordomo.scene_graph.edges import InEdge, RtEdge
 from majordomo.scene_graph.edits import PutEdge, PutNode, RemoveNode

@@ -10,13 +10,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from majordomo.planner.approval import Approval
 from majordomo.planner.errors import IllegalTransition, OperationNotAllowed, PlanChanged, QueueFull, TaskNotFound
 from majordomo.planner.goals import goal
 from majordomo.planner.queue import MOST_OPEN, OPERATIONS, TaskQueue
 from majordomo.planner.tasks import (
     TRANSITIONS,
     ActionReport,
-    Approval,
     FailureReport,
     PlanReport,
     StepReport,

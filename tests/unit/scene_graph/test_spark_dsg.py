@@ -3,7 +3,8 @@ import math
 
 import pytest
 
-from majordomo.app.exporting import GraphFormat, export
+from majordomo.app.exporting import export
+from majordomo.app.options import GraphFormat
 from majordomo.app.stored_graph import load_graph
 from majordomo.scene_graph.errors import SceneFormatError
 from majordomo.scene_graph.interchange import to_json

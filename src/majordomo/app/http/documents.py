@@ -21,7 +21,7 @@ from pydantic_core import PydanticCustomError
 
 from majordomo.app.http.examples import REQUEST
 from majordomo.app.http.problems import WHOLE_SENTENCE
-from majordomo.planner.tasks import Approval
+from majordomo.planner.approval import Approval
 from majordomo.scene_graph.nodes import NodeType
 from majordomo.scene_graph.queries import OrderBy
 

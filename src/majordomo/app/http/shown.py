@@ -9,8 +9,9 @@ from typing import Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from majordomo.planner.approval import Approval
 from majordomo.planner.goals import Predicate
-from majordomo.planner.tasks import Approval, StepStatus, TaskStatus
+from majordomo.planner.tasks import StepStatus, TaskStatus
 from majordomo.scene_graph.nodes import NodeType
 
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from functools import lru_cache
 
 import numpy as np
 from numpy.random import Generator
@@ -55,7 +56,7 @@ class ScriptedRoom:
     def frame(self, stamp_s: float) -> RgbdFrame:
         """The camera's image now."""
         T_room_camera = look_at((*self.eye, CAMERA_HEIGHT_M), self.target)
-        self.rendering = render(self.solids, T_room_camera)
+        self.rendering = _rendered(tuple(self.solids), self.eye, self.target)
         frame = rgbd_frame(
             self.rendering,
             stamp_s=stamp_s,
@@ -104,6 +105,12 @@ class ScriptedRoom:
             stamp_s=stamp_s,
         )
         memory.commit([PutEdge(edge)], agent="energy_optimizer", stamp_s=stamp_s)
+
+
+@lru_cache(maxsize=4)
+def _rendered(solids: tuple[Solid, ...], eye: Point2, target: Point3) -> Rendering:
+    """What a camera there sees; while nothing moves, it is the same picture."""
+    return render(solids, look_at((*eye, CAMERA_HEIGHT_M), target))
 
 
 class NoSensors:

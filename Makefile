@@ -14,7 +14,7 @@ serve: $(STAMP)  ## start the service on the simulated flat and print the page's
 	$(BIN)/majordomo serve $(ARGS)
 
 test: $(STAMP)   ## all tests, with branch coverage
-	$(BIN)/python -m pytest --numprocesses 2 --dist worksteal --cov --cov-report=term $(ARGS)
+	$(BIN)/python -m pytest --numprocesses 3 --dist worksteal --cov --cov-report=term $(ARGS)
 
 test-long: $(STAMP)  ## the long drives that make test leaves out
 	$(BIN)/python -m pytest --numprocesses 2 --dist worksteal -m long $(ARGS)

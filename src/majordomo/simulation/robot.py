@@ -258,7 +258,8 @@ class RobotBody:
 
     def _meet_anew(self) -> None:
         """Forget the contacts of the fingers once the hand has turned; the next step finds them again."""
-        turned = tuple(self._position(name) for name in ("base_yaw", "wrist_pitch", "wrist_roll"))
+        joints = [self._joint[name] for name in ("base_yaw", "wrist_pitch", "wrist_roll")]
+        turned = tuple(state[0] for state in p.getJointStates(self.body_id, joints, physicsClientId=self._client))
         if max(abs(now - before) for now, before in zip(turned, self._met_at, strict=True)) < FRESH_RAD:
             return
         self._met_at = turned

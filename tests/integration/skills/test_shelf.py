@@ -49,7 +49,7 @@ def board_of(built, thing, height_m):
 
 @pytest.mark.parametrize(
     ("category", "height_m"),
-    [("bottle", 0.24), ("apple", 0.075), pytest.param("book", 0.035, marks=pytest.mark.slow)],
+    [("bottle", 0.24), ("apple", 0.075), pytest.param("book", 0.035, marks=pytest.mark.long)],
 )
 async def test_a_thing_is_put_on_a_board_of_a_shelf(stage, make_house, category, height_m):
     built = await stage(with_shelf(make_house, category), noise_m=0.004)

@@ -5,7 +5,7 @@ BIN   := $(VENV)/bin
 STAMP := $(VENV)/.installed
 ARGS  ?=
 
-.PHONY: demo serve test test-long pictures benchmark check install clean lock
+.PHONY: demo serve test test-parts test-whole test-long pictures benchmark check install clean lock
 
 demo: $(STAMP)   ## explore a simulated house, carry out one request while a person interferes, report
 	$(BIN)/majordomo demo $(ARGS)
@@ -13,10 +13,15 @@ demo: $(STAMP)   ## explore a simulated house, carry out one request while a per
 serve: $(STAMP)  ## start the service on the simulated flat and print the page's address
 	$(BIN)/majordomo serve $(ARGS)
 
-test: $(STAMP)   ## all tests, with branch coverage
-	$(BIN)/python -m pytest --numprocesses 3 --dist worksteal --cov --cov-report=term $(ARGS)
+test: test-parts test-whole  ## all tests but the long ones
 
-test-long: $(STAMP)  ## the long drives that make test leaves out
+test-parts: $(STAMP)  ## each part by itself, with branch coverage
+	$(BIN)/python -m pytest --numprocesses 3 --dist worksteal --cov --cov-report=term tests/unit tests/property $(ARGS)
+
+test-whole: $(STAMP)  ## parts together, in physics and from outside; without coverage, which would take them a third longer
+	$(BIN)/python -m pytest --numprocesses 3 --dist worksteal tests/integration tests/acceptance $(ARGS)
+
+test-long: $(STAMP)  ## the long drives and further variants that make test leaves out
 	$(BIN)/python -m pytest --numprocesses 2 --dist worksteal -m long $(ARGS)
 
 pictures: $(STAMP)   ## the pictures of the page in docs, of a run in a simulated house; needs chromium

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-_WHAT = r"((?:the|my|our|his|her|that|those|these|this|all|both|every|it|they|them|an?|\w+'s)(?: [\w' ]+?)??)"
+_WHAT = (
+    r"((?:the|my|our|his|her|every|an?) [\w' ]+?|(?:that|those|these|this|all|both|it|they|them|\w+'s)(?: [\w' ]+?)??)"
+)
 _PREP = r"(?=(?:to|in|on|into|onto|at|next to|by|near|inside|back|from)\b)"
 _DONE = (
     r"(?:moved|brought|put|taken|placed|carried|delivered|returned|transferred|transported|set|stored|laid|shifted|"
@@ -88,8 +90,8 @@ PLACING: tuple[tuple[str, str], ...] = (
     ),
     (
         (
-            rf"(?:^|(?<=[.;!] )){_WHAT} (?:can |may |should |could |must )?(?:lives?|belongs?|goe?s?|is kept|are kept|"
-            rf"is at home|stay|stand|be|"
+            rf"(?:^|(?<=[.;!] )){_WHAT} (?:(?:can|may|should|could|must) (?:live|belong|go|stay|stand|be)|lives?|"
+            rf"belongs?|goe?s?|is kept|are kept|is at home|stay|stand|be|"
             rf"has its place|is supposed to be|"
             rf"should be) ((?:in|on|at|inside|next to|with) [^,.;!]+?)(?: from now on| from today)?(?:,|;|\.)? (?:and "
             rf"|so |then |please |could you |can "

@@ -384,6 +384,7 @@ UNCHANGED = [
 
 WORDINGS = [*SAME, *MORE, *TALK, *SPOKEN, *DEEDS, *ROUGH]
 NOUN = re.compile(r"\b(?:cup|book|box|vase|remote)\b")
+OF_THINGS = [typed for typed, _ in WORDINGS if NOUN.search(typed) and not re.search(r"\bcan\b", typed)]
 
 
 @pytest.mark.parametrize(("typed", "said"), WORDINGS)
@@ -391,7 +392,7 @@ def test_a_wording_is_read_as_the_one_that_the_grammar_knows(typed, said):
     assert paraphrased(typed) == said
 
 
-@pytest.mark.parametrize("typed", [typed for typed, _ in WORDINGS if NOUN.search(typed) and " can " not in f" {typed} "])
+@pytest.mark.parametrize("typed", OF_THINGS)
 def test_a_can_is_a_thing_like_any_other_though_it_is_a_verb_too(typed):
     assert paraphrased(NOUN.sub("can", typed)) == NOUN.sub("can", paraphrased(typed))
 

@@ -649,6 +649,18 @@ def test_as_many_good_looks_that_agree_turn_a_belief():
     assert looked_at(belief, "banana", "book", range(10, 13), 12, 1.0).best == "banana"
 
 
+def test_what_was_seen_from_near_is_not_called_otherwise_because_of_how_it_looks_from_afar():
+    belief = looked_at(LabelBelief(), "book", "banana", range(2), 12, 1.0)
+    assert looked_at(belief, "banana", "book", range(10, 15), 60, 0.2).best == "book"
+
+
+def test_what_was_only_ever_seen_from_afar_gets_its_name_from_there_until_it_is_seen_from_near():
+    far, near = (looked_at(LabelBelief(), "banana", "book", range(4), 60, weight) for weight in (0.2, 1.0))
+    assert far.best == "banana"
+    assert far.confidence == pytest.approx(near.confidence, abs=0.01)
+    assert looked_at(far, "book", "banana", [10], 12, 1.0).best == "book"
+
+
 def test_a_point_behind_the_door_belongs_to_the_room_behind_the_door_and_one_outside_to_none():
     surroundings = Surroundings(two_rooms(), "room_1")
     assert surroundings.room_of(np.array((1.0, 0.0, 0.5))) == "room_1"

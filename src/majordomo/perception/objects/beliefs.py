@@ -34,7 +34,7 @@ class _Look:
 
     def __init__(self, trust: float) -> None:
         self.trust = trust
-        self.weight = 0.0
+        self.weight = self._frames = 0.0
         self.log: dict[str | None, float] = {None: 0.0}
 
     def add(self, likelihood: Mapping[str, float], weight: float, noise: float) -> None:
@@ -47,12 +47,19 @@ class _Look:
             probability = floor if label is None else (1.0 - noise) * likelihood.get(label, 0.0) + floor
             self.log[label] = keep * self.log.get(label, before) + weight * float(np.log(probability))
         self.weight = keep * self.weight + weight
+        self._frames = keep * self._frames + 1.0
 
-    def evidence(self, most: float) -> float:
+    @property
+    def quality(self) -> float:
+        """How good its frames are, 0 to 1."""
+        return self.weight / self._frames
+
+    def evidence(self, most: float, best: float) -> float:
         """As how many independent frames they count: the first as ``_FIRST``, all of them together as ``most``; less
-        where the view is not trusted.
+        where the view is not trusted, or is not as good as the ``best`` one.
         """
-        return self.trust * most * float(-np.expm1(-_FIRST * self.weight / most))
+        share = self.trust * min(self.quality / best, 1.0)
+        return share * most * float(-np.expm1(-_FIRST * self.weight / most))
 
 
 class LabelBelief:
@@ -60,7 +67,8 @@ class LabelBelief:
 
     Frames are not independent: from one side the same mistake repeats. What a thing looked like from one ``view`` is
     therefore the mean over its newest frames, and counts as no more than ``evidence_of_view`` independent ones, however
-    long the robot looks; a view that shows a part only, as less. At most ``views`` count: one more takes the place of
+    long the robot looks; a view that shows a part only, as less, and so does one from afar once the thing was seen from
+    near: all that is seen from afar makes the same mistakes. At most ``views`` count: one more takes the place of
     the one that says least, such as a glimpse in passing, and among equals of the oldest. So a belief can be turned,
     but not by one view alone when others agree. The network is assumed to be wrong altogether with probability
     ``noise``.
@@ -105,8 +113,8 @@ class LabelBelief:
         look.add(self._likelihood(distribution), weight, self._noise)
         self._looks[view] = look
         while len(self._looks) > self._views:
-            before = [key for key in self._looks if key != view]
-            del self._looks[min(before, key=lambda key: round(self._looks[key].evidence(self._evidence_of_view), 1))]
+            evidence = self._evidence()
+            del self._looks[min((key for key in evidence if key != view), key=lambda key: round(evidence[key], 1))]
         self.distribution = self._ranked(self._fused())
 
     def start_from(self, distribution: LabelDistribution, observations: int) -> None:
@@ -151,12 +159,18 @@ class LabelBelief:
         self._taught = True
         self.distribution = ((label, 1.0),)
 
+    def _evidence(self) -> dict[Hashable, float]:
+        """As how many independent frames each view counts, oldest first."""
+        best = max(min(look.trust, 1.0) * look.quality for look in self._looks.values())
+        return {key: look.evidence(self._evidence_of_view, best) for key, look in self._looks.items()}
+
     def _fused(self) -> dict[str | None, float]:
         """Log odds of every label that was heard, and of all others under None, against the likeliest."""
         labels = {label for look in self._looks.values() for label in look.log}
         log = dict.fromkeys(labels, 0.0)
-        for look in self._looks.values():
-            share = look.evidence(self._evidence_of_view) / look.weight
+        for key, evidence in self._evidence().items():
+            look = self._looks[key]
+            share = evidence / look.weight
             for label in labels:
                 log[label] += share * look.log.get(label, look.log[None])
         for label, cost in self._size_costs().items():

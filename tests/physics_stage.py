@@ -196,15 +196,16 @@ class Stage:
         if movable:
             record = self.where(item["id"])
             self._put(tx, node, *record["position_m"], self._yaw_of(item))
-            tx.put(
-                RelationEdge(source=item["id"], target=item["on"], predicate="on", probability=0.95)
-            ) if "on" in item else None
+            on = item.get("on") or record["on"]
+            tx.put(RelationEdge(source=item["id"], target=on, predicate="on", probability=0.95)) if on else None
         else:
             x, y, yaw = item["pose"]
             self._put(tx, node, x, y, size[2] / 2, yaw)
 
     def _yaw_of(self, item: dict[str, Any]) -> float:
-        """Things are put down along what carries them."""
+        """Things are put down along what carries them, if not as the plan says."""
+        if "pose" in item:
+            return float(item["pose"][3])
         return next((other["pose"][2] for other in self.plan["furniture"] if other["id"] == item.get("on")), 0.0)
 
     def _put(self, tx, node, x: float, y: float, z: float, yaw: float) -> None:

@@ -8,12 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from math import cos, pi, sin
+from math import cos, inf, pi, sin
 
 from majordomo.scene_graph.nodes import ObjectNode, ObjectState
 from majordomo.scene_graph.se3 import SE3
 from majordomo.scene_graph.snapshot import Snapshot
-from majordomo.skills.boards import HAND_HALF_WIDTH_M, boards_of
+from majordomo.skills.boards import AIR_M, ARM_HALF_M, HAND_HALF_WIDTH_M, board_under, boards_of
 from majordomo.skills.errors import Unreachable
 from majordomo.skills.geometry import wrap_rad
 from majordomo.skills.kinematics import arm_target
@@ -56,6 +56,10 @@ LEVEL_STANDOFF_M = 0.06
 LEVEL_AIR_M = 0.015
 """Between the top of a thing and a level hand that passes over it, as both are measured."""
 LEVEL_SHARE = 0.5
+FINGER_HALF_HEIGHT_M, LEVEL_BITE_M = 0.015, 0.005
+"""Half of how high the fingers of a level hand are, and how far at least below a thing's top their middle is."""
+TIP_AIR_M = 0.01
+"""Between the finger tips and a thing over which they come in below a board."""
 TALL_M, TALL_RATIO = 0.16, 2.0
 SQUARE_SHARE = 0.15
 
@@ -106,22 +110,24 @@ def choose_grasp(
     geometry: ArmGeometry,
     limits: BodyLimits,
     met: Met = none_met,
+    roof_m: float = inf,
 ) -> Grasp:
     """The first grasp that the arm can carry out at the object's present height and distance; ``met``: from above, the
-    fingers close from where fewer of them come down on something.
+    fingers close from where fewer of them come down on something; ``roof_m``: as ``roof_over_m`` gives it.
 
     Raises:
         Unreachable: none can be; the error is that of the preferred grasp.
     """
     first: Unreachable | None = None
-    for grasp in grasp_options(size_m, T_base_object, level_first=level_first, limits=limits, met=met):
+    options = grasp_options(size_m, T_base_object, level_first=level_first, limits=limits, met=met, roof_m=roof_m)
+    for grasp in options:
         try:
             grasp.approach(float(T_base_object.x_m), geometry, limits)
         except Unreachable as error:
             first = first or error
         else:
             return grasp
-    raise first or _too_wide(size_m, T_base_object)
+    raise first or _no_way(size_m, T_base_object)
 
 
 def can_grasp(size_m: Size3, T_base_object: SE3, *, geometry: ArmGeometry, limits: BodyLimits) -> bool:
@@ -134,23 +140,44 @@ def can_grasp(size_m: Size3, T_base_object: SE3, *, geometry: ArmGeometry, limit
 
 
 def grasp_options(
-    size_m: Size3, T_base_object: SE3, *, level_first: bool, limits: BodyLimits, met: Met = none_met
+    size_m: Size3,
+    T_base_object: SE3,
+    *,
+    level_first: bool,
+    limits: BodyLimits,
+    met: Met = none_met,
+    roof_m: float = inf,
 ) -> tuple[Grasp, ...]:
-    """Grasps in order of preference; none for what is too wide for the fingers."""
-    above, level = _from_above(size_m, T_base_object, limits, met), _level(size_m, T_base_object, limits)
+    """Grasps in order of preference; none for what is too wide for the fingers, or too low for a level hand where there
+    is no room for one from above.
+    """
+    above, level = _from_above(size_m, T_base_object, limits, met, roof_m), _level(size_m, T_base_object, limits)
     options = (level, above) if level_first else (above, level)
     return tuple(option for option in options if option is not None)
 
 
 def prefers_level(snapshot: Snapshot, object_id: str, T_base_object: SE3) -> bool:
-    """Whether the hand should come level: something is over the object, or it is tall and nothing else is in the
-    hand's way.
+    """Whether the hand should come level: something is over the object, unless that is so low that a level hand would
+    close on its upper edge and there is room for one from above; or it is tall and nothing else is in the hand's way.
     """
     size_m = snapshot.object(object_id).size_m
-    room = snapshot.room_of(object_id)
-    if room is not None and is_covered(snapshot, object_id, room):
-        return True
+    roof_m = roof_over_m(snapshot, object_id)
+    if roof_m < inf:
+        return not (_is_low(size_m) and _has_room_above(size_m, roof_m))
     return is_tall(size_m) and not _in_the_way(snapshot, object_id, T_base_object)
+
+
+def roof_over_m(snapshot: Snapshot, object_id: str) -> float:
+    """How high over the middle of a thing the pads of a hand that points down may be, so that the arm behind it stays
+    below what is over the thing: infinite where nothing is, minus infinity where nobody knows how low that reaches.
+    """
+    room = snapshot.room_of(object_id)
+    if room is None or not is_covered(snapshot, object_id, room):
+        return inf
+    board = board_under(snapshot, object_id)
+    if board is None or not board.is_covered:
+        return -inf
+    return board.free_m - snapshot.object(object_id).size_m[2] / 2 - ArmGeometry().hand_length_m - ARM_HALF_M - AIR_M
 
 
 def is_tall(size_m: Size3) -> bool:
@@ -171,6 +198,16 @@ def pads_from_above_m(size_m: Size3, center_z_m: float) -> float:
     """Height of the pads' center when a hand from above closes on a thing."""
     bottom_m, top_m = center_z_m - size_m[2] / 2, center_z_m + size_m[2] / 2
     return max(bottom_m + TIP_M, top_m - min(PAD_DEPTH_M, size_m[2] / 2))
+
+
+def _is_low(size_m: Size3) -> bool:
+    """Whether the fingers of a level hand, as low as it goes, are above the middle of a thing."""
+    return LEVEL_CLEARANCE_M - size_m[2] / 2 > FINGER_HALF_HEIGHT_M
+
+
+def _has_room_above(size_m: Size3, roof_m: float) -> bool:
+    """Whether a hand that points down gets in over a thing."""
+    return roof_m >= size_m[2] / 2 + TIP_M + TIP_AIR_M
 
 
 def _in_the_way(snapshot: Snapshot, object_id: str, T_base_object: SE3) -> bool:
@@ -214,9 +251,9 @@ def is_covered(snapshot: Snapshot, object_id: str, room: str) -> bool:
     return False
 
 
-def _from_above(size_m: Size3, pose: SE3, limits: BodyLimits, met: Met) -> Grasp | None:
+def _from_above(size_m: Size3, pose: SE3, limits: BodyLimits, met: Met, roof_m: float) -> Grasp | None:
     side = _closing_side(size_m, pose.yaw_rad, limits, met)
-    if side is None:
+    if side is None or not _has_room_above(size_m, roof_m):
         return None
     opening_m, roll_rad = side
     return Grasp(
@@ -224,7 +261,7 @@ def _from_above(size_m: Size3, pose: SE3, limits: BodyLimits, met: Met) -> Grasp
         roll_rad=roll_rad,
         opening_m=opening_m,
         pads_z_m=pads_from_above_m(size_m, pose.z_m),
-        hover_z_m=pose.z_m + size_m[2] / 2 + HOVER_M,
+        hover_z_m=pose.z_m + min(size_m[2] / 2 + HOVER_M, roof_m),
     )
 
 
@@ -234,6 +271,8 @@ def _level(size_m: Size3, pose: SE3, limits: BodyLimits) -> Grasp | None:
     if width_m > MAX_WIDTH_M:
         return None
     pads_z_m = pose.z_m - size_m[2] / 2 + max(LEVEL_CLEARANCE_M, LEVEL_SHARE * size_m[2])
+    if pads_z_m > pose.z_m + size_m[2] / 2 - LEVEL_BITE_M:
+        return None
     depth_m = abs(size_m[0] * cos(yaw)) + abs(size_m[1] * sin(yaw))
     return Grasp(
         pitch_rad=0.0,
@@ -271,6 +310,8 @@ def _opening_m(width_m: float, limits: BodyLimits, margin_m: float = OPENING_MAR
     return min(width_m + margin_m, limits.gripper_opening_m[1])
 
 
-def _too_wide(size_m: Size3, pose: SE3) -> Unreachable:
+def _no_way(size_m: Size3, pose: SE3) -> Unreachable:
     why = f"it is {min(size_m[:2]):.3f} m wide, the fingers span {MAX_WIDTH_M:.3f} m"
+    if min(size_m[:2]) <= MAX_WIDTH_M:
+        why = "there is no room for the hand over it, and it is too low or too wide to be taken from the side"
     return Unreachable(pose.x_m, pose.z_m, DOWN_RAD, why)

@@ -81,6 +81,30 @@ async def test_what_was_put_on_a_board_is_fetched_from_there_again(stage, make_h
     built = await stage(with_shelf(make_house, "bottle", turn=pi / 2), noise_m=0.004)
     assert await bring(built, "bottle_1") is None
     board_of(built, "bottle_1", 0.24)
-    back = (("GOTO", "bottle_1"), ("PICK", "bottle_1"), ("GOTO", "table_1"), ("PLACE", "bottle_1", "table_1"))
-    assert await built.carry_out(*back) is None
+    assert await fetch(built, "bottle_1") is None
     assert (await built.robot.truth())["collisions"] == 0
+
+
+@pytest.mark.parametrize(
+    ("category", "height_m"),
+    [
+        ("banana", 0.04),
+        pytest.param("book", 0.035, marks=pytest.mark.long),
+        pytest.param("apple", 0.075, marks=pytest.mark.long),
+        pytest.param("scissors", 0.015, marks=pytest.mark.long),
+        pytest.param("cup", 0.1, marks=pytest.mark.long),
+    ],
+)
+async def test_what_lies_flat_on_a_board_is_taken_from_there(stage, make_house, category, height_m):
+    """With its narrow side to the front, where a level hand would close on the air above it."""
+    thing = {"id": "thing_1", "category": category, "pose": [-1.15, 2.26, 0.8 + height_m / 2, pi / 2]}
+    built = await stage(with_shelf(make_house, "bottle", [thing]), noise_m=0.004)
+    assert round(built.where("thing_1")["position_m"][2], 1) == 0.8
+    assert await fetch(built, "thing_1") is None
+    built.truth = await built.robot.truth()
+    assert built.where("thing_1")["on"] == "table_1"
+    assert built.truth["collisions"] == 0
+
+
+async def fetch(built, thing):
+    return await built.carry_out(("GOTO", thing), ("PICK", thing), ("GOTO", "table_1"), ("PLACE", thing, "table_1"))

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from majordomo.scene_graph.nodes import ObjectNode
+from majordomo.scene_graph.se3 import SE3
 from majordomo.skills.anchor import Anchor
 from majordomo.skills.boards import (
     ASIDE_M,
@@ -21,7 +22,7 @@ from majordomo.skills.boards import (
     off_end,
 )
 from majordomo.skills.capacity import Capacity
-from majordomo.skills.grasping import is_covered
+from majordomo.skills.grasping import is_covered, prefers_level, roof_over_m
 from majordomo.skills.place_spot import spots_on, surface_m
 from majordomo.skills.ports import ArmGeometry
 from majordomo.skills.state import Thing
@@ -122,6 +123,23 @@ def test_a_thing_stands_on_the_board_below_its_bottom_and_is_covered_by_the_next
     assert round(board.height_m, 6) == -0.4
     assert surface_m(snapshot, "shelf_1", "cup_1") == board.height_m
     assert is_covered(snapshot, "cup_1", "room_1")
+
+
+@pytest.mark.parametrize(
+    ("height_m", "surfaces_m", "level"), [(0.1, (), True), (0.035, (), False), (0.035, (1.0,), True)]
+)
+def test_below_a_board_what_is_low_is_taken_from_above_if_the_hand_fits_in(flat, height_m, surfaces_m, level):
+    shelf = shelved(flat, (0.4, 0.8, *surfaces_m, 1.2))
+    snapshot = on_board(shelf, "book_1", 0.0, 0.0, 0.8, (0.2, 0.085, height_m), graspable=True).memory.snapshot()
+    assert prefers_level(snapshot, "book_1", SE3.from_xyz_yaw(0.55, 0.0, 0.8 + height_m / 2, 0.0)) is level
+    roof_m = roof_over_m(snapshot, "book_1")
+    board = board_under(snapshot, "book_1")
+    assert height_m / 2 + roof_m + ArmGeometry().hand_length_m < board.free_m
+
+
+def test_nothing_is_over_what_stands_on_top(flat):
+    built = on_board(shelved(flat), "book_1", 0.0, 0.0, 1.6, (0.2, 0.085, 0.035), graspable=True)
+    assert roof_over_m(built.memory.snapshot(), "book_1") == inf
 
 
 @pytest.mark.parametrize(

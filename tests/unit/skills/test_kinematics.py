@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import cos, pi, sin
+from math import cos, inf, pi, sin
 
 import numpy as np
 import pytest
@@ -99,6 +99,27 @@ def test_something_high_up_is_taken_level_because_the_lift_ends():
     pose = SE3.from_xyz_yaw(0.6, 0.0, 1.2, 0.0)
     grasp = choose_grasp((0.07, 0.07, 0.24), pose, level_first=False, geometry=GEOMETRY, limits=LIMITS)
     assert grasp.pitch_rad == 0.0
+
+
+@pytest.mark.parametrize("height_m", [0.01, 0.035, 0.07])
+def test_a_level_hand_closes_below_the_top_of_a_thing_or_does_not_come(height_m):
+    pose = SE3.from_xyz_yaw(0.55, 0.0, 0.8 + height_m / 2, 0.0)
+    options = grasp_options((0.2, 0.085, height_m), pose, level_first=True, limits=LIMITS)
+    tops_m = [0.8 + height_m - grasp.pads_z_m for grasp in options if grasp.is_level]
+    assert all(top_m > 0.0 for top_m in tops_m)
+    assert bool(tops_m) is (height_m > 0.06)
+
+
+def test_below_a_board_the_hand_from_above_stays_below_it_and_without_room_it_does_not_come():
+    size_m, pose = (0.2, 0.085, 0.035), SE3.from_xyz_yaw(0.55, 0.0, 0.8175, 0.0)
+    free, below = (
+        choose_grasp(size_m, pose, level_first=False, geometry=GEOMETRY, limits=LIMITS, roof_m=roof_m)
+        for roof_m in (inf, 0.07)
+    )
+    assert below.hover_z_m == pytest.approx(pose.z_m + 0.07)
+    assert free.hover_z_m > below.hover_z_m > below.pads_z_m
+    with pytest.raises(Unreachable, match="no room for the hand over it"):
+        choose_grasp(size_m, pose, level_first=False, geometry=GEOMETRY, limits=LIMITS, roof_m=0.05)
 
 
 def test_what_is_too_wide_says_so():

@@ -17,7 +17,7 @@ from majordomo.skills.boards import HAND_HALF_WIDTH_M, palm_room_m
 from majordomo.skills.containers import is_open_container
 from majordomo.skills.errors import Unreachable
 from majordomo.skills.failures import FailureCode
-from majordomo.skills.grasping import Grasp, choose_grasp, prefers_level
+from majordomo.skills.grasping import TIP_M, Grasp, choose_grasp, prefers_level, roof_over_m
 from majordomo.skills.navigation.pose import in_base
 from majordomo.skills.place_spot import surface_m
 
@@ -87,7 +87,7 @@ class Reach(ArmAction):
 
     def _plan(self) -> None:
         context, snapshot = self.context, self.context.snapshot
-        T_base_object = in_base(context, self.object_id)
+        T_base_object, roof_m = in_base(context, self.object_id), roof_over_m(snapshot, self.object_id)
         self._grasp = choose_grasp(
             snapshot.object(self.object_id).size_m,
             T_base_object,
@@ -95,16 +95,17 @@ class Reach(ArmAction):
             geometry=context.geometry,
             limits=context.limits,
             met=fingers_met(context, self.object_id),
+            roof_m=roof_m,
         )
         self._x_m = hypot(T_base_object.x_m, T_base_object.y_m)
         if abs(T_base_object.y_m) > SIDE_TOLERANCE_M + (self._grasp.opening_m - 0.06) / 4:
             where = f"{100 * T_base_object.y_m:.1f} cm beside the arm's plane"
             raise Unreachable(T_base_object.x_m, T_base_object.z_m, self._grasp.pitch_rad, where)
-        room_m = palm_room_m(snapshot, self.object_id) if self._grasp.is_level else None
+        room_m = palm_room_m(snapshot, self.object_id)
         if room_m is not None and sum(room_m) < 2 * HAND_HALF_WIDTH_M:
             where = f"{100 * sum(room_m):.1f} cm wide gap, too narrow for the hand"
             raise Unreachable(T_base_object.x_m, T_base_object.z_m, self._grasp.pitch_rad, where)
-        over_m = clear_over_m(context, self._x_m, self.object_id)
+        over_m = min(clear_over_m(context, self._x_m, self.object_id), T_base_object.z_m + roof_m - TIP_M)
         targets = self._grasp.approach(self._x_m, context.geometry, context.limits, clear_over_m=over_m)
         arm = context.body.arm
         if arm.extension_m > EXTENDED_M:  # taken up again: straight up before drawing back

@@ -13,7 +13,7 @@ from math import cos, inf, pi, sin
 from majordomo.scene_graph.nodes import ObjectNode, ObjectState
 from majordomo.scene_graph.se3 import SE3
 from majordomo.scene_graph.snapshot import Snapshot
-from majordomo.skills.boards import AIR_M, ARM_HALF_M, HAND_HALF_WIDTH_M, board_under, boards_of
+from majordomo.skills.boards import HAND_HALF_WIDTH_M, board_under, boards_of, headroom_m
 from majordomo.skills.errors import Unreachable
 from majordomo.skills.geometry import wrap_rad
 from majordomo.skills.kinematics import arm_target
@@ -177,7 +177,8 @@ def roof_over_m(snapshot: Snapshot, object_id: str) -> float:
     board = board_under(snapshot, object_id)
     if board is None or not board.is_covered:
         return -inf
-    return board.free_m - snapshot.object(object_id).size_m[2] / 2 - ArmGeometry().hand_length_m - ARM_HALF_M - AIR_M
+    hand_m = headroom_m(0.0, 0.0, DOWN_RAD, ArmGeometry())
+    return board.free_m - snapshot.object(object_id).size_m[2] / 2 - hand_m
 
 
 def is_tall(size_m: Size3) -> bool:

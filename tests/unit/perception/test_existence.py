@@ -68,6 +68,15 @@ def test_a_flat_thing_loses_slowly_because_depth_cannot_tell():
     assert -SETTINGS.miss_limit <= change < 0.0
 
 
+def test_of_what_is_hidden_in_part_the_silence_of_the_network_says_nothing_and_a_look_through_it_still_does():
+    """An apple behind a can, on a shelf: the network never named what showed of it, in frame after frame."""
+    flat = Solid(label="plate", center=(-0.2, 0.0, 0.76), size_m=(0.12, 0.12, 0.02), cylinder=True)
+    before = Solid(label="bottle", center=(-0.38, 0.06, 0.87), size_m=(0.07, 0.07, 0.24), cylinder=True)
+    assert evidence(flat, [TABLE, flat]) < 0.0
+    assert evidence(flat, [TABLE, flat, before]) == 0.0
+    assert evidence(BOTTLE, [TABLE, before]) < -0.5 * SETTINGS.through_limit
+
+
 def test_an_uncertain_pose_weakens_what_depth_tells():
     sharp = evidence(BOTTLE, [TABLE])
     vague = evidence(BOTTLE, [TABLE], covariance=np.diag([0.2**2] * 3 + [0.01] * 3))

@@ -21,7 +21,9 @@ Array = NDArray[np.float64]
 @dataclass(frozen=True, kw_only=True)
 class ExistenceSettings:
     """Log odds. ``hit`` is what one sighting adds; a frame takes at most ``through_limit`` (seen through) or
-    ``miss_limit`` (depth cannot tell). ``missing_below``: probability under which a thing is missing.
+    ``miss_limit`` (depth cannot tell). ``part_hidden``: share of a thing that is hidden from which on the network may
+    well miss the rest, however long one looks from there. ``missing_below``: probability under which a thing is
+    missing.
     """
 
     hit: float = 1.5
@@ -32,6 +34,7 @@ class ExistenceSettings:
     range_limit_m: float = 4.5
     detect_max: float = 0.9
     detect_half_px: float = 11.0
+    part_hidden: float = 0.2
     border_px: float = 4.0
     speed_limit_radps: float = 0.8
 
@@ -119,6 +122,8 @@ def absence_evidence(seen: Visibility, *, replaced: bool, settings: ExistenceSet
         return max(miss + float(np.log(0.05 / 0.95)), -settings.through_limit) * min(1.0, p_detect / 0.5)
     if seen.depth_tells:
         return min(0.0, max(miss + float(np.log(0.95 / 0.05)), -settings.miss_limit))
+    if seen.hidden >= settings.part_hidden:
+        return 0.0
     return max(miss, -settings.miss_limit)
 
 

@@ -103,15 +103,33 @@ def open_sides(
 
     ``others``: middle (2,) and half extents (2,) of what stands on that board, along the support's own axes.
     """
-    long, short = axes(support)
-    clear_m = max(radius_m, HAND_HALF_WIDTH_M) + BESIDE_M
     free = np.ones((len(points), 2), dtype=bool)
     for middle, half in others:
-        ahead = np.abs(points[:, long] - middle[long]) < half[long] + clear_m
-        for k, side in enumerate(BOTH_SIDES):
-            before = side * (middle[short] - points[:, short]) + half[short] > -radius_m
-            free[:, k] &= ~(ahead & before)
+        free &= ~_bars(support, points, radius_m, middle, half)
     return free
+
+
+def stands_before(
+    support: ObjectNode, points: Points, radius_m: float, others: Sequence[tuple[Points, Points]]
+) -> NDArray[np.int64]:
+    """(N,): to how many of ``others`` the hand would no longer get straight in from the one or from the other long
+    side if a thing stood at each of the points (N, 2); both as ``open_sides`` takes them.
+    """
+    count = np.zeros(len(points), np.int64)
+    for middle, half in others:
+        count += _bars(support, middle, float(half.max()), points, np.full(2, radius_m)).any(axis=1)
+    return count
+
+
+def _bars(support: ObjectNode, goal: Points, radius_m: float, middle: Points, half: Points) -> NDArray[np.bool_]:
+    """(N, 2): whether a thing at ``middle``, of half extents (2,), is met on the way of the hand, straight in from the
+    one and from the other long side, to or with a thing of that radius at ``goal``; either point may be (N, 2).
+    """
+    long, short = axes(support)
+    clear_m = max(radius_m, HAND_HALF_WIDTH_M) + BESIDE_M
+    ahead = np.abs(goal[..., long] - middle[..., long]) < half[long] + clear_m
+    before = [side * (middle[..., short] - goal[..., short]) + half[short] > -radius_m for side in BOTH_SIDES]
+    return np.stack([ahead & met for met in before], axis=-1)
 
 
 def is_before(

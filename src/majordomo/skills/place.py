@@ -98,7 +98,7 @@ class Place:
             Stow(context),
             *travel(context, context.building.room_of(target)),
             ChooseSpot(context, placement),
-            ApproachForReach(context, target, spot, admits=lambda places: placement.admits(context, places)),
+            ApproachForReach(context, target, spot, price=lambda places: placement.price_m(context, places)),
             LookAt(context, target, spot, dwell_s=INSPECT_S),
             CheckSpot(context, placement),
             TurnTo(context, target, spot, tolerance_rad=AIM_RAD),

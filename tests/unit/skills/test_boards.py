@@ -23,12 +23,14 @@ from majordomo.skills.boards import (
 )
 from majordomo.skills.capacity import Capacity
 from majordomo.skills.grasping import is_covered, prefers_level, roof_over_m
+from majordomo.skills.outline import disc
 from majordomo.skills.place_spot import spots_on, surface_m
 from majordomo.skills.ports import ArmGeometry
 from majordomo.skills.state import Thing
 
 SHELF = ObjectNode(id="shelf_1", label="shelf", size_m=(0.9, 0.35, 1.6), surfaces_m=(0.4, 0.8, 1.2), support=True)
 BOTTLE_M = (0.07, 0.07, 0.24)
+CAN_M = (0.066, 0.066, 0.12)
 
 
 def shelved(flat, surfaces_m=(0.4, 0.8, 1.2)):
@@ -198,3 +200,22 @@ def test_a_shelf_has_room_on_the_boards_that_the_arm_reaches(flat, surfaces_m, c
     shelf = Thing(id="shelf_1", kind="object", label="shelf", support=True, size_m=SHELF.size_m)
     coming = [f"bottle_{k + 1}" for k in range(count)]
     assert Capacity(built.memory.snapshot()).fits(shelf, (), coming) == fits
+
+
+def test_a_spot_tells_how_many_things_one_could_no_longer_take_if_something_stood_there(flat):
+    built = on_board(shelved(flat), "apple_1", 0.0, 0.08, 0.8, (0.07, 0.07, 0.07))
+    on_board(built, "box_1", 0.3, 0.08, 0.4, (0.07, 0.07, 0.07))
+    spots = [s for s in spots_on(built.memory.snapshot(), "shelf_1", CAN_M, None) if abs(s.anchor.point_m[2]) < 0.01]
+    before = [s for s in spots if abs(s.anchor.point_m[0]) < 0.1]
+    beside = [s for s in spots if abs(s.anchor.point_m[0]) > 0.09 + 0.015 + 0.035 + disc(CAN_M).radius_m]
+    assert before
+    assert {s.hides for s in before} == {1}
+    assert beside
+    assert {s.hides for s in beside} == {0}
+    assert min(s.anchor.point_m[1] for s in before) < 0.0 < max(s.anchor.point_m[1] for s in beside)
+
+
+def test_on_the_top_of_a_shelf_nothing_stands_before_another(flat):
+    built = on_board(shelved(flat), "apple_1", 0.0, 0.08, 1.6, (0.07, 0.07, 0.07))
+    spots = spots_on(built.memory.snapshot(), "shelf_1", CAN_M, None)
+    assert {spot.hides for spot in spots if not spot.is_covered} == {0}

@@ -20,7 +20,7 @@ from majordomo.skills.actions.finger_room import fingers_met, palm_meets_rims
 from majordomo.skills.actions.grasp import CloseGripper
 from majordomo.skills.actions.place import LowerToPlace
 from majordomo.skills.actions.spot_choice import ChooseSpot
-from majordomo.skills.actions.spot_reach import Placement, admitted
+from majordomo.skills.actions.spot_reach import Placement, admitted, pressing_m
 from majordomo.skills.anchor import Anchor
 from majordomo.skills.doubles import BoxWorld, FakeBody, Rehearsal
 from majordomo.skills.failures import FailureCode
@@ -289,6 +289,21 @@ async def test_a_spot_is_chosen_to_which_the_arm_gets_past_what_is_higher(kitche
     placement.spots = lambda: [cheapest]
     failure = await rehearsal.run([ChooseSpot(context, placement)])
     assert (failure.code if failure else None) is code
+
+
+async def test_nothing_is_put_before_another_thing_on_a_board_where_there_is_a_spot_beside_it(kitchen):
+    rehearsal = kitchen()
+    assert await carry_out(rehearsal, ("PICK", "bottle_1"), ("GOTO", "table_2")) is None
+    context = await rehearsal.prepare()
+    spots = free_spots(context, "bottle_1", "table_2")
+    placement = Placement(object_id="bottle_1", target="table_2", spots=lambda: spots)
+    assert await rehearsal.run([ChooseSpot(context, placement)]) is None
+    first = placement.spot
+    spots[spots.index(first)] = replace(first, hides=1)
+    assert await rehearsal.run([ChooseSpot(context, placement)]) is None
+    assert placement.spot.hides == 0
+    placement.spots = lambda: [replace(first, hides=1)]
+    assert await rehearsal.run([ChooseSpot(context, placement)]) is None
 
 
 async def test_things_that_keep_the_arm_from_every_spot_of_a_table_make_it_full(kitchen):
@@ -756,6 +771,48 @@ async def test_what_the_lift_does_not_bring_over_a_book_is_not_brought_across_it
     spot = Spot(anchor=Anchor("counter_1", (0.0, 0.1, 0.45)), room_m=1.0)
     places = np.array([[-1.0, -0.65], [-0.5, -0.5]])
     assert admitted(context, spot, places).tolist() == [along_the_book, beside_it]
+
+
+@pytest.mark.parametrize(
+    ("size_m", "aside_m", "pitch_rad", "pressed"),
+    [
+        ((0.07, 0.07, 0.12), 0.0, 0.0, True),
+        ((0.07, 0.07, 0.12), 0.09, 0.0, True),
+        ((0.07, 0.07, 0.12), 0.2, 0.0, False),
+        ((0.07, 0.07, 0.06), 0.0, 0.0, False),  # the hand is over it still when the bottle stands
+        ((0.07, 0.07, 0.12), 0.0, -pi / 2, False),  # from above, it comes down behind it
+    ],
+)
+async def test_a_level_hand_is_not_lowered_onto_what_stands_before_the_spot(
+    kitchen, size_m, aside_m, pitch_rad, pressed
+):
+    def build(built):
+        built.thing("counter_1", (-1.0, 0.0, 0.45), (1.4, 0.6, 0.9), support=True)
+        for name, y_m in (("can_1", -0.14), ("can_2", 0.14)):
+            at = (-1.0 + aside_m, y_m, 0.9 + size_m[2] / 2)
+            built.thing(name, at, size_m, on="counter_1", graspable=True)
+        return built
+
+    rehearsal = kitchen(build)
+    context = await rehearsal.prepare()
+    arm = replace(context.body.arm, wrist_pitch_rad=pitch_rad)
+    hand = gripper_pose(arm, context.geometry)
+    context.body = replace(context.body, arm=arm, T_base_gripper=hand)
+    held = SE3.from_xyz_yaw(hand.x_m, hand.y_m, hand.z_m, 0.0)
+    context.grip = Grip(object_id="bottle_1", T_gripper_object=hand.inverse() @ held, size_m=(0.07, 0.07, 0.24))
+    behind, beside = (
+        Spot(anchor=Anchor("counter_1", (0.0, 0.0, 0.45)), room_m=1.0),
+        Spot(anchor=Anchor("counter_1", (-0.4, 0.0, 0.45)), room_m=1.0),
+    )
+    front = np.array([[-1.0, -0.6]])
+    assert (pressing_m(context, behind, front)[0] >= BARRED_COST_M) == pressed
+    placement = Placement(
+        object_id="bottle_1", target="counter_1", spots=lambda: [behind], further=lambda: [[beside]], spot=behind
+    )
+    if pitch_rad == 0.0:
+        assert (placement.price_m(context, front)[0] >= BARRED_COST_M) == pressed
+        assert await rehearsal.run([ChooseSpot(context, placement)]) is None
+        assert placement.spot == (beside if pressed and aside_m == 0.0 else behind)
 
 
 @pytest.mark.parametrize(("back_m", "met"), [(0.185, True), (0.23, False), (None, False)])

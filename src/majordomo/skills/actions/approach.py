@@ -47,11 +47,12 @@ STOPPED_COST_M, STOPPED_RAD, STOPPED_S = 5.0, 0.35, 120.0
 TRIES = 3
 
 
-Admission = Callable[[Points], NDArray[np.bool_]]
+Price = Callable[[Points], Points]
+"""What each of (N, 2) places costs in meters of way, (N,)."""
 
 
-def _anywhere(places: Points) -> NDArray[np.bool_]:
-    return np.ones(len(places), np.bool_)
+def _nothing(places: Points) -> Points:
+    return np.zeros(len(places))
 
 
 class ApproachForReach(DriveTo):
@@ -61,13 +62,13 @@ class ApproachForReach(DriveTo):
     around the base, and things that the arm would have to pass over.
     """
 
-    def __init__(
-        self, context: RobotContext, target: str, where: AnchorSource, *, admits: Admission | None = None
-    ) -> None:
-        """``admits``: which places, (N, 2) in the robot's frame, will do at all; all of them by default."""
+    def __init__(self, context: RobotContext, target: str, where: AnchorSource, *, price: Price | None = None) -> None:
+        """``price``: what places in the robot's frame cost beside all this, infinite where they will not do at all;
+        nothing by default.
+        """
         super().__init__(context, target, self._goals_around, config=DriverConfig(position_m=0.04))
         self.name = f"approach {target}"
-        self._where, self._admits = where, admits or _anywhere
+        self._where, self._price_m = where, price or _nothing
         self._failed: list[Point2] = []
 
     def begin(self) -> None:
@@ -130,7 +131,7 @@ class ApproachForReach(DriveTo):
         costs += np.where(self._stopped_lately(bearings), STOPPED_COST_M, 0.0)
         fits = self._fits(points, target)
         costs += np.where(fits | ~fits.any(), 0.0, np.inf)
-        costs += np.where(self._admits(points), 0.0, np.inf)
+        costs += self._price_m(points)
         costs += np.where(self._faces_board(frame, points), 0.0, BARRED_COST_M)
         for failed in self._failed:
             costs += np.where(np.hypot(*(points - failed).T) < 0.25, np.inf, 0.0)
@@ -156,7 +157,7 @@ class ApproachForReach(DriveTo):
         over_m = passing_over(
             self.context.snapshot, frame, target, low_m, here, self._spared(), stamp_s=self.context.stamp_s
         )[0]
-        faces = over_m < BARRED_COST_M and self._faces_board(frame, here)[0] and self._admits(here)[0]
+        faces = over_m + self._price_m(here)[0] < BARRED_COST_M and self._faces_board(frame, here)[0]
         return bool(nearest_m < float(np.hypot(x_m, y_m)) < farthest_m and fits and faces and not stopped)
 
     def _stopped_lately(self, bearings_rad: Points) -> NDArray[np.bool_]:

@@ -65,13 +65,21 @@ def clear_over_m(context: RobotContext, x_m: float, *targets: str, held_radius_m
 
 
 def pushes_aside(
-    snapshot: Snapshot, frame: str, target: Points, places: Points, spared: set[str], *, low_m: float, wide_m: float
+    snapshot: Snapshot,
+    frame: str,
+    target: Points,
+    places: Points,
+    spared: set[str],
+    *,
+    low_m: float,
+    wide_m: float,
+    short_m: float = 0.0,
 ) -> NDArray[np.bool_]:
-    """From which of (N, 2) places what the hand carries straight to ``target`` meets a small thing of known name on its
-    way: its underside is ``low_m`` over the floor and gets no higher, and it reaches ``wide_m`` to the sides.
+    """From which of (N, 2) places what reaches straight to ``short_m`` before ``target`` meets a small thing of known
+    name on its way: its underside is ``low_m`` over the floor, and it reaches ``wide_m`` to the sides.
     """
     met = np.zeros(len(places), np.bool_)
-    way, farthest_m = _ways_straight(target, places)
+    way, farthest_m = _ways_straight(target, places, short_m)
     for node in snapshot.of_type(ObjectNode):
         here = node.state is ObjectState.PRESENT and snapshot.room_of(node.id) == frame
         if not (here and node.graspable) or node.id in spared or _is_small_and_nameless(node):
@@ -126,11 +134,14 @@ def passing_over(
     return costs
 
 
-def _ways_straight(target: Points, places: Points) -> tuple[Points, float]:
-    """Points (S, N, 2) on the ways from the target straight to each of (N, 2) places, and how long the longest is."""
-    farthest_m = float(np.hypot(*(places - target[:2]).T).max(initial=0.0))
-    along = np.linspace(0.0, 1.0, max(int(farthest_m / SAMPLE_M), 2))[:, None, None]
-    return target[:2] + along * (places - target[:2]), farthest_m
+def _ways_straight(target: Points, places: Points, short_m: float = 0.0) -> tuple[Points, float]:
+    """Points (S, N, 2) on the ways from ``short_m`` before the target straight to each of (N, 2) places, and how long
+    the longest is.
+    """
+    away_m = np.hypot(*(places - target[:2]).T)
+    farthest_m = float(away_m.max(initial=0.0))
+    along = np.linspace(np.minimum(short_m / np.maximum(away_m, 1e-6), 1.0), 1.0, max(int(farthest_m / SAMPLE_M), 2))
+    return target[:2] + along[:, :, None] * (places - target[:2]), farthest_m
 
 
 def _rim_costs(snapshot: Snapshot, frame: str, seat: ObjectNode, target: Points, low_m: float, way: Points) -> Points:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterable, Sequence
+from itertools import chain
 from math import dist, hypot, inf
 
 import numpy as np
@@ -12,6 +13,7 @@ from majordomo.scene_graph.nodes import ObjectNode
 from majordomo.skills.action import Action, RobotContext
 from majordomo.skills.actions.approach import reaches_m, ring
 from majordomo.skills.actions.arm_way import (
+    BARRED_COST_M,
     nearest_to,
     passing_over,
     people_here,
@@ -19,7 +21,7 @@ from majordomo.skills.actions.arm_way import (
     spared_nodes,
     underside_of_held_m,
 )
-from majordomo.skills.actions.spot_reach import Placement, admitted, is_within_lift
+from majordomo.skills.actions.spot_reach import Placement, admitted, is_within_lift, pressing_m
 from majordomo.skills.boards import TURN_RAD
 from majordomo.skills.failures import FailureCode
 from majordomo.skills.geometry import Points
@@ -32,6 +34,8 @@ SLACK_RAD = 0.15
 MOST_SPOTS = 40
 TIGHT_M = 0.10
 TIGHT_WEIGHT = 3.0
+HIDES_COST_M = 1.0
+"""For each thing that could no longer be taken from the board if something stood before it."""
 
 
 class ChooseSpot(Action):
@@ -53,10 +57,8 @@ class ChooseSpot(Action):
         spots = list(self._placement.spots())
         if not spots:
             return _full(self, self._placement)
-        spot = self._cheapest(spots)
-        if spot is None:
-            further = (self._cheapest(others) for others in self._placement.further())
-            spot = next((found for found in further if found is not None), None)
+        found = (self._cheapest(group) for group in chain([spots], self._placement.further()))
+        spot = _first_unbarred(best for best in found if best is not None)
         if spot is None:
             return self._out_of_reach(spots)
         self._placement.spot = spot
@@ -81,9 +83,9 @@ class ChooseSpot(Action):
 
     def _cheapest(
         self, spots: Sequence[Spot], *, people: Sequence[str] = (), things: Sequence[str] = ()
-    ) -> Spot | None:
-        """The one that is cheapest to reach from here, with as little as may be in the arm's way; ``None`` where none
-        can be reached. ``people`` and ``things`` are thought away.
+    ) -> tuple[float, Spot] | None:
+        """The one that is cheapest to reach from here, with as little as may be in the arm's way, after what it costs;
+        ``None`` where none can be reached. ``people`` and ``things`` are thought away.
         """
         within = [spot for spot in spots if is_within_lift(self.context, spot)]
         if len(within) > MOST_SPOTS:
@@ -97,7 +99,7 @@ class ChooseSpot(Action):
                 break
             if (total_m := self._total_m(routes, within[i], spared)) < least_m:
                 least_m, best = total_m, within[i]
-        return best
+        return None if best is None else (least_m, best)
 
     def _routes(self, spots: Sequence[Spot], people: Sequence[str]) -> Routes:
         """The ways from here on a map that shows all the spots."""
@@ -112,9 +114,10 @@ class ChooseSpot(Action):
         return float(self._ways_m(routes, spot, spared)[1].min()) + self._price_m(spot)
 
     def _price_m(self, spot: Spot) -> float:
-        """What a spot costs wherever one stands: a tight or hidden one is as good as one that is so much farther."""
-        tight_m = 0.0 if spot.inside else max(TIGHT_M - spot.air_m, 0.0)
-        return TIGHT_WEIGHT * tight_m + self._hidden_m(spot)
+        """What a spot costs wherever one stands: a tight or hidden one, or one before other things, is as good as one
+        that is so much farther.
+        """
+        return _crowding_m(spot) + self._hidden_m(spot)
 
     def _ways_m(self, routes: Routes, spot: Spot, spared: Collection[str]) -> tuple[Points, Points]:
         """Places (N, 2) from which the hand gets to a spot, and the cost (N,) of the way to each."""
@@ -126,14 +129,9 @@ class ChooseSpot(Action):
 
     def _total_m(self, routes: Routes, spot: Spot, spared: Collection[str]) -> float:
         """Cost with what the arm would have to pass over, from the best place to stand."""
-        snapshot = self.context.snapshot
-        frame = robot_frame(snapshot)
         places, ways_m = self._ways_m(routes, spot, spared)
         reached = np.isfinite(ways_m)
-        target = spot.anchor.position(snapshot, frame)
-        no_obstacle = spared_nodes(snapshot, self._placement.target, spot.anchor.node_id) | set(spared)
-        low_m, stamp_s = underside_of_held_m(float(target[2])), self.context.stamp_s
-        over_m = passing_over(snapshot, frame, target, low_m, places[reached], no_obstacle, stamp_s=stamp_s)
+        over_m = _reaching_m(self.context, self._placement, spot, places[reached], spared=spared)
         return float((ways_m[reached] + over_m).min()) + self._price_m(spot)
 
     def _hidden_m(self, spot: Spot) -> float:
@@ -160,10 +158,16 @@ class CheckSpot(Action):
         if chosen.inside:
             return Status.SUCCESS
         here = self._placement.spots_at(chosen.anchor.node_id)
-        reachable = [(self._offset_m(spot, chosen), i) for i, spot in enumerate(here) if self._within_reach(spot)]
-        if not reachable:
+        within = [(self._offset_m(spot, chosen), i) for i, spot in enumerate(here) if self._within_reach(spot)]
+        if not within:
             return _full(self, self._placement)
-        self._placement.spot = here[min(reachable)[1]]
+        least_m, best = inf, min(within)[1]
+        for offset_m, i in sorted(within):
+            if offset_m >= least_m:
+                break
+            if (cost_m := offset_m + self._over_m(here[i])) < least_m:
+                least_m, best = cost_m, i
+        self._placement.spot = here[best]
         return Status.SUCCESS
 
     def _within_reach(self, spot: Spot) -> bool:
@@ -173,12 +177,49 @@ class CheckSpot(Action):
         return near and is_within_lift(self.context, spot) and self._is_before(spot)
 
     def _is_before(self, spot: Spot) -> bool:
-        here = np.array([planar_pose(self.context, robot_frame(self.context.snapshot)).point])
-        return bool(admitted(self.context, spot, here, turn_rad=TURN_RAD + SLACK_RAD)[0])
+        return bool(admitted(self.context, spot, self._here(), turn_rad=TURN_RAD + SLACK_RAD)[0])
+
+    def _over_m(self, spot: Spot) -> float:
+        """What it costs that the arm passes over things on its way from here."""
+        return float(_reaching_m(self.context, self._placement, spot, self._here())[0])
+
+    def _here(self) -> Points:
+        return np.array([planar_pose(self.context, robot_frame(self.context.snapshot)).point])
 
     @staticmethod
     def _offset_m(spot: Spot, chosen: Spot) -> float:
-        return dist(spot.anchor.point_m, chosen.anchor.point_m) + TIGHT_WEIGHT * max(TIGHT_M - spot.air_m, 0.0)
+        return dist(spot.anchor.point_m, chosen.anchor.point_m) + _crowding_m(spot)
+
+
+def _reaching_m(
+    context: RobotContext, placement: Placement, spot: Spot, places: Points, *, spared: Collection[str] = ()
+) -> Points:
+    """What it costs, (N,), that the arm passes over things on its way to a spot straight from (N, 2) places, or that
+    the hand comes down on some.
+    """
+    snapshot = context.snapshot
+    frame = robot_frame(snapshot)
+    target = spot.anchor.position(snapshot, frame)
+    no_obstacle = spared_nodes(snapshot, placement.target, spot.anchor.node_id) | set(spared)
+    low_m = underside_of_held_m(float(target[2]))
+    over_m = passing_over(snapshot, frame, target, low_m, places, no_obstacle, stamp_s=context.stamp_s)
+    return over_m + pressing_m(context, spot, places, spared=spared)
+
+
+def _first_unbarred(choices: Iterable[tuple[float, Spot]]) -> Spot | None:
+    """Of spots, each after what it costs, the first to which the arm gets without meeting anything, else the first."""
+    first: Spot | None = None
+    for cost_m, spot in choices:
+        if cost_m < BARRED_COST_M:
+            return spot
+        first = first or spot
+    return first
+
+
+def _crowding_m(spot: Spot) -> float:
+    """What it costs, in meters of way, that there is little air around a spot, or that it is before other things."""
+    tight_m = 0.0 if spot.inside else max(TIGHT_M - spot.air_m, 0.0)
+    return TIGHT_WEIGHT * tight_m + HIDES_COST_M * spot.hides
 
 
 def _full(action: Action, placement: Placement) -> Status:

@@ -11,10 +11,17 @@ from numpy.typing import NDArray
 
 from majordomo.scene_graph.nodes import ObjectNode
 from majordomo.skills.action import RobotContext
-from majordomo.skills.actions.arm_way import pushes_aside, spared_nodes
+from majordomo.skills.actions.arm_way import BARRED_COST_M, pushes_aside, spared_nodes
 from majordomo.skills.actions.finger_room import palm_meets_rims
 from majordomo.skills.anchor import Anchor
-from majordomo.skills.boards import LOWEST_M, TURN_RAD, headroom_m, is_before
+from majordomo.skills.boards import (
+    HAND_HALF_WIDTH_M,
+    LOWEST_M,
+    PALM_BEFORE_M,
+    TURN_RAD,
+    headroom_m,
+    is_before,
+)
 from majordomo.skills.geometry import Points, Pose2, wrap_rad
 from majordomo.skills.grasping import DOWN_RAD, PAD_DEPTH_M
 from majordomo.skills.navigation.pose import in_base, robot_frame
@@ -27,7 +34,9 @@ SPARE_LIFT_M = 0.02
 """A surface may turn out to be a little higher when it is seen from near."""
 DEFAULT_GRIP_SHARE = 0.6
 STEEP_RAD = 0.1
-"""A hand that is off the vertical by less points down."""
+"""A hand that is off the vertical by less points down, and one that is off the horizontal by less is level."""
+PALM_HALF_HEIGHT_M = 0.02
+"""Of a level palm."""
 
 SpotSource = Callable[[], Sequence[Spot]]
 """Gives the free spots as the graph is now."""
@@ -56,9 +65,13 @@ class Placement:
         """The chosen spot; the target itself until one is chosen."""
         return self.spot.anchor if self.spot is not None else Anchor(self.target)
 
-    def admits(self, context: RobotContext, places: Points) -> NDArray[np.bool_]:
-        """From which of (N, 2) places, in the robot's frame, the hand gets to the chosen spot."""
-        return admitted(context, self.spot, places) if self.spot is not None else np.ones(len(places), np.bool_)
+    def price_m(self, context: RobotContext, places: Points) -> Points:
+        """What it costs, (N,), that the hand gets to the chosen spot badly from places (N, 2) in the robot's frame;
+        infinite where it does not.
+        """
+        if self.spot is None:
+            return np.zeros(len(places))
+        return np.where(admitted(context, self.spot, places), pressing_m(context, self.spot, places), np.inf)
 
 
 def admitted(
@@ -88,6 +101,27 @@ def admitted(
     palm_m = float(surface_z_m) + above_bottom_m(context) + PAD_DEPTH_M
     seat_z_m = float(context.snapshot.position(seat.id, frame)[2])
     return free & ~palm_meets_rims(seat, pose, seat_z_m, np.array((x_m, y_m)), toward_rad, palm_m)
+
+
+def pressing_m(context: RobotContext, spot: Spot, places: Points, *, spared: Collection[str] = ()) -> Points:
+    """What it costs, (N,), that a level hand which is lowered at a spot, with its arm straight from each of (N, 2)
+    places in the robot's frame, comes down on a small thing before it. ``spared``: things that are thought away.
+    """
+    if spot.is_covered or spot.inside or abs(context.body.arm.wrist_pitch_rad) > STEEP_RAD:
+        return np.zeros(len(places))
+    on, frame = spot.anchor, robot_frame(context.snapshot)
+    target = on.position(context.snapshot, frame)
+    met = pushes_aside(
+        context.snapshot,
+        frame,
+        target,
+        places,
+        spared_nodes(context.snapshot, on.node_id) | set(spared),
+        low_m=float(target[2]) + above_bottom_m(context) - PALM_HALF_HEIGHT_M,
+        wide_m=HAND_HALF_WIDTH_M,
+        short_m=PALM_BEFORE_M,
+    )
+    return np.where(met, BARRED_COST_M, 0.0)
 
 
 def highest_underside_m(context: RobotContext) -> float:

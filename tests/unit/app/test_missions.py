@@ -334,6 +334,13 @@ def test_what_was_carried_out_was_possible_whatever_had_been_thought():
     assert (summary["success_undisturbed"], summary["out_of_reach"]) == (1.0, 0)
 
 
+def test_what_ended_before_anybody_interfered_counts_as_undisturbed():
+    early = {**row(Verdict.HONEST_FAILURE, "removed"), "made": False}
+    summary = summarize([row(Verdict.DONE), early, {**early, "verdict": Verdict.DONE}, row(Verdict.DONE, "removed")])
+    assert (summary["success_undisturbed"], summary["success_disturbed"]) == (pytest.approx(2 / 3), 1.0)
+    assert (summary["not_made"], summary["disturbed"], summary["out_of_reach"]) == (2, 1, 0)
+
+
 def test_the_way_is_compared_where_nobody_interfered():
     rows = [row(Verdict.DONE, driven_m=9.0), row(Verdict.DONE, "pushed", driven_m=90.0)]
     assert summarize(rows)["way_over_shortest"] == 2.0

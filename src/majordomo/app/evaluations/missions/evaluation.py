@@ -92,12 +92,13 @@ def run_once(
 
 
 def summarize(rows: Sequence[Row]) -> dict[str, Any]:
-    """Figures over all missions. What was carried out was possible, whatever had been thought of it.
+    """Figures over all missions. What was carried out was possible, whatever had been thought of it. What ended before
+    anybody interfered was not disturbed.
 
     Single goes are counted where free floor led near enough from the start; those of the other missions by themselves.
     """
-    calm = [row for row in rows if not row["disturbance"] and _was_possible(row)]
     upset = [row for row in rows if row["disturbance"] and row["made"]]
+    calm = [row for row in rows if not (row["disturbance"] and row["made"]) and _was_possible(row)]
     possible = [row for row in upset if _was_possible(row)]
     impossible = [row for row in upset if not _was_possible(row)]
     near = [row for row in rows if row["within_reach"] or _done(row)]
@@ -116,7 +117,7 @@ def summarize(rows: Sequence[Row]) -> dict[str, Any]:
         ),
         "disturbed": len(upset),
         "impossible": len(impossible),
-        "out_of_reach": sum(not row["disturbance"] and not _was_possible(row) for row in rows),
+        "out_of_reach": len(rows) - len(upset) - len(calm),
         "not_made": sum(bool(row["disturbance"]) and not row["made"] for row in rows),
         "phantoms": sum(row["verdict"] == Verdict.PHANTOM for row in rows),
         "wrong_answers": sum(row["verdict"] == Verdict.WRONG_ANSWER for row in rows),

@@ -48,7 +48,8 @@ def orders(goals: Sequence[Goal], state: PlanState, leg: Leg) -> Iterator[tuple[
 def _kind(goal: Goal, spoken: Mapping[str, int], state: PlanState) -> Hashable:
     """The same for two goals that take things alike from one place to another; else the goal itself."""
     thing_id, place = goal.args[0], state.places.get(goal.args[0])
-    alone = spoken[thing_id] == 1 and not state.on_top_of(thing_id) and thing_id not in state.missing
+    free = not state.on_top_of(thing_id) and not state.in_the_way_of(thing_id)
+    alone = spoken[thing_id] == 1 and free and thing_id not in state.missing
     thing = state.world.things.get(thing_id)
     if goal.predicate not in PLACING or place is None or thing is None or not alone or thing_id in state.near:
         return goal
@@ -89,7 +90,9 @@ def _runs(goals: Sequence[Goal]) -> list[list[Goal]]:
 
 
 class _Tour:
-    """The orders of one run. What is held goes first, what stands on something else that moves before that."""
+    """The orders of one run. What is held goes first, what stands on something else that moves, or in the way of the
+    hand to it, before that.
+    """
 
     def __init__(self, goals: Sequence[Goal], state: PlanState, leg: Leg, start: str) -> None:
         self._goals, self._state = tuple(goals), state
@@ -116,7 +119,8 @@ class _Tour:
     def _precedes(self, one: Goal, other: Goal) -> bool:
         held = self._state.holding == one.args[0]
         above = other.args[0] in list(self._state.chain(one.args[0]))[1:]
-        return held or above or one.args[0] == other.args[1]
+        before = one.args[0] in self._state.in_the_way_of(other.args[0])
+        return held or above or before or one.args[0] == other.args[1]
 
     def _cost(self, order: Sequence[int]) -> float:
         placed: set[int] = set()

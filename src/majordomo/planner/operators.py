@@ -126,17 +126,17 @@ class Operators:
         elif state.holding is not None:
             yield from self._put_away(state, state.holding, goal, later)
         else:
-            for object_id in (goal.args[0], *_stacked(state, goal.args[0])):
+            for object_id in (goal.args[0], *_blockers(state, goal.args[0])):
                 yield from self._goto(state, object_id)
                 yield Step(skill=PICK, args=(object_id,))
 
     def _take(self, object_id: str, state: PlanState) -> Iterator[Step]:
         """To have found something by picking it up: what stands on it first; going to it would end the search there."""
-        stacked = _stacked(state, object_id)
+        blockers = _blockers(state, object_id)
         below = [link for link in list(state.chain(object_id))[1:] if not _is_room(link, state)]
-        for other in (*below, *stacked):
+        for other in (*below, *blockers):
             yield from self._goto(state, other)
-        yield from (Step(skill=PICK, args=(x,)) for x in (object_id, *stacked))
+        yield from (Step(skill=PICK, args=(x,)) for x in (object_id, *blockers))
 
     def places(self, goal: Goal, state: PlanState) -> tuple[str, ...]:
         """Where ``goal``'s object can be put so that the goal holds. PLACE itself finds a free spot there."""
@@ -228,9 +228,14 @@ def _comes_along(goal: Goal, state: PlanState) -> bool:
     return any(place in state.places or place == state.holding for place in into)
 
 
-def _stacked(state: PlanState, object_id: str) -> list[str]:
-    """Everything that stands on ``object_id``, whatever it stands on in between; what is in it comes along."""
-    found: list[str] = []
-    for other in state.standing_on(object_id):
-        found += [other, *_stacked(state, other)]
-    return found
+def _blockers(state: PlanState, object_id: str) -> list[str]:
+    """Everything that stands on ``object_id``, whatever it stands on in between, and whatever stands in the way of the
+    hand to any of it; what is in it comes along.
+    """
+    found: dict[str, None] = {}
+    todo = [object_id]
+    while todo:
+        others = [other for other in state.in_the_way_of(todo.pop()) if other not in found and other != object_id]
+        found.update(dict.fromkeys(others))
+        todo += others
+    return list(found)

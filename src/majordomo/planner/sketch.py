@@ -77,15 +77,17 @@ class Sketch:
         return self._object(replace(node, **fields), room, at, size_m[2] / 2)
 
     def thing(self, node_id: str, label: str, *, on: str, at: Point | None = None, **fields: Any) -> Sketch:
-        """Something to carry, on (or in) a piece of furniture or on the floor of a room; ``relation`` says how."""
+        """Something to carry, on (or in) a piece of furniture or on the floor of a room; ``relation`` says how, and
+        ``bottom_m`` how high above the floor its bottom is, if it is not on top.
+        """
         place = at if at is not None else self._at[on]
-        relation = fields.pop("relation", "on")
+        relation, bottom_m = fields.pop("relation", "on"), fields.pop("bottom_m", self._height_m.get(on, 0.0))
         node = replace(ObjectNode(id=node_id, label=label, size_m=THING_SIZE_M, graspable=True), **fields)
         if on in self._room:
             self._edges.append(RelationEdge(source=node_id, target=on, predicate=relation, probability=0.9))
         room = self._room.get(on, on)
-        self._height_m[node_id] = self._height_m.get(on, 0.0) + node.size_m[2]
-        return self._object(node, room, place, self._height_m.get(on, 0.0) + node.size_m[2] / 2)
+        self._height_m[node_id] = bottom_m + node.size_m[2]
+        return self._object(node, room, place, bottom_m + node.size_m[2] / 2)
 
     def person(self, node_id: str, name: str, room: str, *, at: Point) -> Sketch:
         """A person who stands somewhere."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from functools import cache, partial
 from typing import TypeGuard
 
 from majordomo.scene_graph.doors import physical_doors
@@ -20,6 +21,7 @@ from majordomo.scene_graph.nodes import (
 )
 from majordomo.scene_graph.poses import MapPoses
 from majordomo.scene_graph.snapshot import Snapshot
+from majordomo.skills.barring import barring
 from majordomo.skills.capacity import Capacity
 from majordomo.skills.containers import is_container
 from majordomo.skills.navigation.walls import robot_beyond_m
@@ -55,6 +57,7 @@ def read_world(snapshot: Snapshot) -> World:
         doors=_door_links(snapshot),
         inside=lambda room: in_room(snapshot, room),
         fits=Capacity(snapshot).fits,
+        bars=cache(partial(barring, snapshot)),
     )
 
 

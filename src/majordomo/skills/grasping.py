@@ -56,8 +56,8 @@ LEVEL_STANDOFF_M = 0.06
 LEVEL_AIR_M = 0.015
 """Between the top of a thing and a level hand that passes over it, as both are measured."""
 LEVEL_SHARE = 0.5
-FINGER_HALF_HEIGHT_M, LEVEL_BITE_M = 0.015, 0.005
-"""Half of how high the fingers of a level hand are, and how far at least below a thing's top their middle is."""
+PALM_HALF_HEIGHT_M, FINGER_HALF_HEIGHT_M, LEVEL_BITE_M = 0.02, 0.015, 0.005
+"""Half of how high palm and fingers of a level hand are, and how far at least below a thing's top their middle is."""
 TIP_AIR_M = 0.01
 """Between the finger tips and a thing over which they come in below a board."""
 TALL_M, TALL_RATIO = 0.16, 2.0
@@ -161,10 +161,17 @@ def prefers_level(snapshot: Snapshot, object_id: str, T_base_object: SE3) -> boo
     close on its upper edge and there is room for one from above; or it is tall and nothing else is in the hand's way.
     """
     size_m = snapshot.object(object_id).size_m
-    roof_m = roof_over_m(snapshot, object_id)
-    if roof_m < inf:
-        return not (_is_low(size_m) and _has_room_above(size_m, roof_m))
+    if roof_over_m(snapshot, object_id) < inf:
+        return not comes_from_above(snapshot, object_id)
     return is_tall(size_m) and not _in_the_way(snapshot, object_id, T_base_object)
+
+
+def comes_from_above(snapshot: Snapshot, object_id: str) -> bool:
+    """Whether what something is over is so low that a level hand would close on its upper edge, while there is room for
+    one from above.
+    """
+    size_m = snapshot.object(object_id).size_m
+    return _is_low(size_m) and _has_room_above(size_m, roof_over_m(snapshot, object_id))
 
 
 def roof_over_m(snapshot: Snapshot, object_id: str) -> float:
@@ -193,6 +200,21 @@ def underside_m(size_m: Size3, center_z_m: float) -> float:
     if is_tall(size_m):
         return center_z_m + (LEVEL_SHARE - 0.5) * size_m[2] - LEVEL_CLEARANCE_M / 2
     return center_z_m + size_m[2] / 2 + HOVER_M - TIP_M
+
+
+def underside_below_board_m(snapshot: Snapshot, object_id: str, center_z_m: float) -> float:
+    """Height of the lowest part of the hand on its way in to a thing below a board, with a little air; in the frame of
+    the height of the thing's middle.
+    """
+    size_m = snapshot.object(object_id).size_m
+    if comes_from_above(snapshot, object_id):
+        hover_m = center_z_m + min(size_m[2] / 2 + HOVER_M, roof_over_m(snapshot, object_id))
+        return hover_m - TIP_M - LEVEL_AIR_M
+    return _level_pads_m(size_m, center_z_m) - PALM_HALF_HEIGHT_M - LEVEL_AIR_M
+
+
+def _level_pads_m(size_m: Size3, center_z_m: float) -> float:
+    return center_z_m - size_m[2] / 2 + max(LEVEL_CLEARANCE_M, LEVEL_SHARE * size_m[2])
 
 
 def pads_from_above_m(size_m: Size3, center_z_m: float) -> float:
@@ -271,7 +293,7 @@ def _level(size_m: Size3, pose: SE3, limits: BodyLimits) -> Grasp | None:
     width_m = abs(size_m[0] * sin(yaw)) + abs(size_m[1] * cos(yaw))
     if width_m > MAX_WIDTH_M:
         return None
-    pads_z_m = pose.z_m - size_m[2] / 2 + max(LEVEL_CLEARANCE_M, LEVEL_SHARE * size_m[2])
+    pads_z_m = _level_pads_m(size_m, pose.z_m)
     if pads_z_m > pose.z_m + size_m[2] / 2 - LEVEL_BITE_M:
         return None
     depth_m = abs(size_m[0] * cos(yaw)) + abs(size_m[1] * sin(yaw))

@@ -29,8 +29,8 @@ class Pick:
     """PICK(object): take an object into the gripper.
 
     The gripper must be empty and the robot at the object or at what it stands on (GOTO first). The object must be
-    small enough to grasp, with nothing standing on it; what is in it comes along. Afterwards the robot holds the
-    object and can GOTO somewhere and PLACE it.
+    small enough to grasp, with nothing on it or, in a shelf, before it; what is in it comes along. Afterwards the
+    robot holds the object and can GOTO somewhere and PLACE it.
     """
 
     name = "PICK"
@@ -136,6 +136,8 @@ def _not_free(state: PlanState, target: str) -> list[Unmet]:
         return [Unmet(message=f"{target} is not where it was last seen: look for it first.", nodes=(target,))]
     if above := state.standing_on(target):
         return [Unmet(message=f"{above[0]} stands on {target}: move it away first.", nodes=(above[0], target))]
+    if before := state.in_the_way_of(target):
+        return [Unmet(message=f"{before[0]} stands before {target}: move it away first.", nodes=(before[0], target))]
     if not state.is_at(target):
         return [Unmet(message=f"the robot is not at {target}: GOTO {target} first.", nodes=(target,))]
     return []

@@ -52,13 +52,15 @@ class DoorLink:
 class World:
     """What does not change during a plan: things, and the doors between rooms. Two worlds are equal when they are
     one. ``inside``: what is in a room; without it all things are gone through. ``fits``: whether things that
-    come fit at a place beside those that stay; without it everything fits.
+    come fit at a place beside those that stay; without it everything fits. ``bars``: what stands before a thing, in the
+    way of the hand; without it nothing does.
     """
 
     things: Mapping[str, Thing]
     doors: tuple[DoorLink, ...]
     inside: Callable[[str], tuple[str, ...]] | None = None
     fits: Callable[[Thing, Collection[str], Collection[str]], bool] | None = None
+    bars: Callable[[str], tuple[str, ...]] | None = None
     variants: dict[tuple[DoorLink, ...], World] = field(default_factory=dict, repr=False)
 
     def with_door(self, door: str, *, is_open: bool) -> World:
@@ -200,6 +202,15 @@ class PlanState:
     def standing_on(self, node_id: str) -> tuple[str, ...]:
         """Objects on ``node_id`` that are in the way of carrying it; what is in it is not. Sorted."""
         return tuple(thing for thing in self.on_top_of(node_id) if self.places[thing][0] is not PlaceRelation.IN)
+
+    def in_the_way_of(self, node_id: str) -> tuple[str, ...]:
+        """Objects that must be taken before an object can be: what stands on it, and what stands before it as long as
+        both are where the graph has them.
+        """
+        before: tuple[str, ...] = ()
+        if self.world.bars is not None and node_id in self.places and not self._came(node_id):
+            before = tuple(x for x in self.world.bars(node_id) if x in self.places and not self._came(x))
+        return (*self.standing_on(node_id), *before)
 
     def has_room_for(self, object_id: str, place: str) -> bool:
         """Whether an object fits on or in a place beside what is there in this state.

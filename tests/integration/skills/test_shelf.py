@@ -7,7 +7,10 @@ from math import pi
 
 import pytest
 
+from majordomo.planner.goals import goal
+from majordomo.planner.verifier import Verifier
 from majordomo.skills.failures import FailureCode
+from physics_stage import SKILLS
 
 pytestmark = pytest.mark.anyio
 BOARDS_M = (0.4, 0.8, 1.2, 1.6)
@@ -103,6 +106,19 @@ async def test_what_lies_flat_on_a_board_is_taken_from_there(stage, make_house, 
     assert await fetch(built, "thing_1") is None
     built.truth = await built.robot.truth()
     assert built.where("thing_1")["on"] == "table_1"
+    assert built.truth["collisions"] == 0
+
+
+async def test_what_stands_before_a_thing_on_a_board_is_taken_away_first_and_nothing_is_pushed(stage, make_house):
+    behind = {"id": "apple_1", "category": "apple", "pose": [-1.15, 2.36, 0.8375, 0.0]}
+    before = {"id": "can_1", "category": "can", "pose": [-1.12, 2.23, 0.86, 0.0]}
+    built = await stage(with_shelf(make_house, "bottle", [behind, before]), noise_m=0.004)
+    plan = Verifier(SKILLS).plan_for([goal("on", "apple_1", "table_1")], built.memory.snapshot())
+    assert [step.args[0] for step in plan.steps if step.skill == "PICK"] == ["can_1", "apple_1"]
+    assert await built.carry_out(*((step.skill, *step.args) for step in plan.steps)) is None
+    built.truth = await built.robot.truth()
+    assert built.where("apple_1")["on"] == "table_1"
+    assert built.where("can_1")["on"] is not None
     assert built.truth["collisions"] == 0
 
 

@@ -130,6 +130,36 @@ def test_what_stands_on_an_object_is_moved_away_first():
     assert picked == ["cup_9", "tray_1"]
 
 
+def shelved(**can):
+    """An apple on the middle board of a shelf at the office's wall, and a can before it."""
+    sketch = flat().furniture(
+        "shelf_2", "shelf", "room_4", at=(4.2, 6.0), size_m=(0.9, 0.35, 1.6), surfaces_m=(0.4, 0.8, 1.2, 1.6)
+    )
+    sketch.thing("apple_2", "apple", on="shelf_2", at=(4.2, 6.1), size_m=(0.07, 0.07, 0.07), bottom_m=0.8)
+    sketch.thing("can_1", "can", on="shelf_2", at=(4.23, 5.95), size_m=(0.066, 0.066, 0.12), bottom_m=0.8, **can)
+    return sketch.snapshot(robot_in="room_2", at=(4.2, 0.0))
+
+
+def test_what_stands_before_a_thing_on_a_board_is_moved_away_first():
+    plan = VERIFIER.plan_for([goal("on", "apple_2", "table_1")], shelved())
+    assert isinstance(plan, Plan)
+    assert [step.args[0] for step in plan.steps if step.skill == "PICK"] == ["can_1", "apple_2"]
+    assert [step.args[0] for step in plan.steps if step.skill == "PLACE"] == ["can_1", "apple_2"]
+    assert VERIFIER.check_plan(plan, shelved()) == []
+    both = [replace(goal("on", x, "table_1"), any_order=True) for x in ("apple_2", "can_1")]
+    plan = VERIFIER.plan_for(both, shelved())
+    assert isinstance(plan, Plan)
+    assert [str(step) for step in plan.steps if step.skill != "GOTO"] == [
+        "PICK(can_1)", "PLACE(can_1, table_1)", "PICK(apple_2)", "PLACE(apple_2, table_1)"
+    ]  # fmt: skip
+
+
+def test_what_stands_before_it_but_is_missing_does_not_keep_the_hand_from_a_thing():
+    plan = VERIFIER.plan_for([goal("on", "apple_2", "table_1")], shelved(state=ObjectState.MISSING))
+    assert isinstance(plan, Plan)
+    assert [step.args[0] for step in plan.steps if step.skill == "PICK"] == ["apple_2"]
+
+
 def test_something_too_wide_for_the_fingers_is_refused_with_its_width():
     sketch = flat().thing("ball_1", "ball", on="table_1", size_m=(0.3, 0.3, 0.3))
     refusal = VERIFIER.plan_for([goal("on", "ball_1", "desk_1")], sketch.snapshot(robot_in="room_1", at=(0.0, 0.0)))

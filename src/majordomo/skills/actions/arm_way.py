@@ -7,9 +7,10 @@ from collections.abc import Collection, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from majordomo.scene_graph.nodes import UNKNOWN_LABEL, ObjectNode, ObjectState, PersonNode
+from majordomo.scene_graph.nodes import ObjectNode, ObjectState, PersonNode
 from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.skills.action import RobotContext
+from majordomo.skills.barring import is_small_and_nameless
 from majordomo.skills.geometry import Point2, Points, Pose2
 from majordomo.skills.grasping import HOVER_M
 from majordomo.skills.navigation.local_map import PERSON_FRESH_S, PERSON_RADIUS_M, draw_map, footprint
@@ -28,8 +29,6 @@ SURELY_MET_M = 0.06
 """So near to the middle of its way, the hand meets what is higher, however well that was measured."""
 AT_TARGET_M, ALONG_M = 0.12, 0.01
 HELD_MARGIN_M = 0.06
-NAMELESS_M = 0.35
-"""What is smaller and has no name does not bar the way: the hand may have to push it, as what can be grasped."""
 PERSON_CLEARANCE_M, DRIFT_M = 0.32, 0.04
 """So far from the middle of a person the middle of the arm keeps, from a place that is as far off as a drive may be."""
 BESIDE_HELD_M = 0.02
@@ -82,7 +81,7 @@ def pushes_aside(
     way, farthest_m = _ways_straight(target, places, short_m)
     for node in snapshot.of_type(ObjectNode):
         here = node.state is ObjectState.PRESENT and snapshot.room_of(node.id) == frame
-        if not (here and node.graspable) or node.id in spared or _is_small_and_nameless(node):
+        if not (here and node.graspable) or node.id in spared or is_small_and_nameless(node):
             continue
         x_m, y_m, z_m = snapshot.position(node.id, frame)
         low = z_m + node.size_m[2] / 2 + LEAST_AIR_M < low_m or z_m + node.size_m[2] / 2 < target[2]
@@ -122,7 +121,7 @@ def passing_over(
             continue
         away_m = footprint(snapshot, node, frame).distance_m(way.reshape(-1, 2)).reshape(way.shape[:2])
         nearest_m = away_m.min(axis=0)
-        bars = not (node.graspable or _is_small_and_nameless(node))
+        bars = not (node.graspable or is_small_and_nameless(node))
         costs += np.where(nearest_m < ARM_HALF_WIDTH_M, BARRED_COST_M if bars else IN_THE_WAY_COST_M, 0.0)
         if bars:
             costs += np.where(nearest_m < SURELY_MET_M, np.inf, 0.0)
@@ -164,11 +163,6 @@ def _rim_costs(snapshot: Snapshot, frame: str, seat: ObjectNode, target: Points,
                 nearest_m < min(clear_m, along_m), np.inf, np.where(nearest_m < clear_m, BARRED_COST_M, 0.0)
             )
     return costs
-
-
-def _is_small_and_nameless(node: ObjectNode) -> bool:
-    """Whether it may well be no thing of its own, but a part of what lies there."""
-    return node.label == UNKNOWN_LABEL and max(node.size_m) < NAMELESS_M
 
 
 def people_here(context: RobotContext) -> list[str]:

@@ -23,7 +23,7 @@ from majordomo.skills.boards import (
     is_before,
 )
 from majordomo.skills.geometry import Points, Pose2, wrap_rad
-from majordomo.skills.grasping import DOWN_RAD, PAD_DEPTH_M
+from majordomo.skills.grasping import DOWN_RAD, PAD_DEPTH_M, PALM_HALF_HEIGHT_M
 from majordomo.skills.navigation.pose import in_base, robot_frame
 from majordomo.skills.outline import disc
 from majordomo.skills.place_spot import Spot
@@ -35,8 +35,6 @@ SPARE_LIFT_M = 0.02
 DEFAULT_GRIP_SHARE = 0.6
 STEEP_RAD = 0.1
 """A hand that is off the vertical by less points down, and one that is off the horizontal by less is level."""
-PALM_HALF_HEIGHT_M = 0.02
-"""Of a level palm."""
 
 SpotSource = Callable[[], Sequence[Spot]]
 """Gives the free spots as the graph is now."""

@@ -7,11 +7,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from majordomo.planner.goals import Goal
+from majordomo.planner.goals import Goal, goal
 from majordomo.planner.naming import aim_phrase, goal_phrase, humanize, listed, name_of, places_phrase, step_phrase
 from majordomo.planner.plan import Plan, Step
 from majordomo.planner.recovery import RECOVERIES
-from majordomo.planner.tasks import FailureReport, Task
+from majordomo.planner.tasks import FailureReport, StepStatus, Task
 from majordomo.planner.vocabulary import PERSON
 from majordomo.scene_graph.nodes import ObjectNode, PersonNode
 from majordomo.scene_graph.snapshot import Snapshot
@@ -48,9 +48,11 @@ def plan_sentence(plan: Plan, snapshot: Snapshot) -> str:
 
 
 def success_sentence(task: Task, goals: Sequence[Goal], snapshot: Snapshot, stamp_s: float) -> str:
-    """What is so now, on what evidence, and what it took."""
-    said = [_confirmed_phrase(goal, snapshot) for goal in goals]
+    """What is so now, on what evidence, what was put elsewhere for it, and what it took."""
+    said = [_confirmed_phrase(each, snapshot) for each in goals]
     sentence = f"Done: {listed(said)}."
+    if put := _put_aside(task, goals, snapshot):
+        sentence += f" On the way I {listed(put)}."
     if task.times.started_s is not None:
         sentence += f" It took {stamp_s - task.times.started_s:.0f} s"
         sentence += f" and {_count(task.replans, 'change')} of plan." if task.replans else "."
@@ -104,6 +106,15 @@ def _thing(failure: Failure, step: Step, snapshot: Snapshot) -> str:
         if isinstance(snapshot.get(node_id), ObjectNode | PersonNode):
             return name_of(node_id, snapshot)
     return "it"
+
+
+def _put_aside(task: Task, goals: Sequence[Goal], snapshot: Snapshot) -> list[str]:
+    """What stood in the way or was in the hand, and where the last plan has put it."""
+    asked = {arg for each in goals for arg in each.args}
+    steps = task.plan.steps if task.plan is not None else ()
+    done = [step.args[0] for step in steps if step.skill == "PLACE" and step.status is StepStatus.SUCCEEDED]
+    places = {thing: snapshot.support_of(thing) or snapshot.room_of(thing) for thing in done if thing not in asked}
+    return [aim_phrase(goal("on", thing, place), snapshot) for thing, place in places.items() if place is not None]
 
 
 def _confirmed_phrase(goal: Goal, snapshot: Snapshot) -> str:

@@ -21,7 +21,7 @@ from majordomo.planner.goals import goal
 from majordomo.planner.naming import aim_phrase, goal_phrase, humanize, name_of, places_phrase, whereabouts
 from majordomo.planner.plan import Plan, Source, Step
 from majordomo.planner.rehearsal import GRIPPER, Stage, rehearsal_graph
-from majordomo.planner.tasks import Task, TaskTimes
+from majordomo.planner.tasks import PlanReport, StepReport, StepStatus, Task, TaskTimes
 from majordomo.scene_graph.edits import PutNode
 from majordomo.scene_graph.memory import WorkingMemory
 from majordomo.skills.failures import Evidence, Failure, FailureCode
@@ -93,6 +93,17 @@ def test_success_names_what_was_seen_and_when():
     said = success_sentence(task, [goal("on", "bottle_1", "desk_1")], SNAPSHOT, 62.0)
     assert "the blue bottle is on the desk in the office (seen at 0 s)" in said
     assert "It took 60 s and 2 changes of plan." in said
+
+
+def test_success_tells_where_things_are_now_that_nobody_asked_to_be_moved():
+    step = StepReport(skill="PLACE", args=("bottle_1", "room_1"), status=StepStatus.SUCCEEDED)
+    plan = PlanReport(source="grammar", revision=1, goals=(), steps=(step,))
+    task = Task(id="task_1", request="x", times=TaskTimes(received_s=0.0), plan=plan)
+    said = success_sentence(task, [goal("robot_at", "room_2")], SNAPSHOT, 62.0)
+    assert said.endswith(" On the way I put the blue bottle on the table in the kitchen.")
+    assert "On the way" not in success_sentence(task, [goal("on", "bottle_1", "table_1")], SNAPSHOT, 62.0)
+    undone = replace(plan, steps=(replace(step, status=StepStatus.FAILED),))
+    assert "On the way" not in success_sentence(replace(task, plan=undone), [], SNAPSHOT, 62.0)
 
 
 def test_a_search_that_failed_says_where_it_looked_and_where_it_could_not():

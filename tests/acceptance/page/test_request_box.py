@@ -107,6 +107,33 @@ async def test_an_impatient_second_enter_does_not_ask_twice(box, runtime):
     assert [task.request for task in runtime.queue.tasks] == ["where is the red apple?", "what is on the bench?"]
 
 
+async def test_a_late_answer_to_an_impatient_second_enter_leaves_what_is_being_typed(box):
+    await box.js(
+        """(() => {
+            const real = window.fetch, pause = (ms) => new Promise((done) => setTimeout(done, ms));
+            let posts = 0;
+            window.fetch = async (url, options) => {
+                const number = options?.method === "POST" ? ++posts : 0;
+                const answer = await real(url, options);
+                while (number === 1 && posts < 2) await pause(10);
+                if (number === 2) { await pause(1000); window.late = true; }
+                return answer;
+            };
+        })()"""
+    )
+    await box.type("where is the red apple?")
+    await box.press("Enter")
+    await box.press("Enter")
+    await box.until(f"{BOX} === ''")
+    await box.type("what is on the bench?")
+    await box.until("window.late")
+    assert await box.js(f"new Promise((done) => setTimeout(() => done({BOX}), 300))") == "what is on the bench?"
+    await box.press("Enter")
+    await box.until(f"{BOX} === ''")
+    await box.press("ArrowUp")
+    assert await box.js(BOX) == "what is on the bench?"
+
+
 async def test_a_suggestion_goes_when_it_would_no_longer_be_clear_what_it_means(box, runtime):
     before = await box.until(f"{OFFERS}.length >= 3 && {OFFERS}")
     assert "where is the purple book?" in before

@@ -39,10 +39,13 @@ export class RequestBox {
     if (!request) return this.#input.focus();
     const mode = this.#form.elements.mode.value, meant = `${mode} ${request}`;
     if (this.#key.meant !== meant) this.#key = { meant, value: random() };
-    if (!(await this.#ask(request, mode, this.#key.value))) return;
-    this.#key = {};
+    const key = this.#key;
+    if (!(await this.#ask(request, mode, key.value)) || key.taken) return;
+    key.taken = true;
+    if (this.#key === key) this.#key = {};
     this.#asked = [...this.#asked.filter((text) => text !== request), request].slice(-KEPT);
     try { sessionStorage.setItem(KEY, JSON.stringify(this.#asked)); } catch { /* kept until the page is closed */ }
+    if (this.#input.value.trim() !== request) return; // the next one is being typed already
     this.#at = null;
     this.#fill("");
   }

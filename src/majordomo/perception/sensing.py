@@ -74,6 +74,8 @@ def scan_points_between(scan: LidarScan, low_m: float, high_m: float) -> NDArray
 class SensorBuffer:
     """Newest measurement of each sensor, a short history of odometry, and which sensors are silent.
 
+    What is asked of it by time may be asked from another thread while measurements come in.
+
     Attributes:
         odometry: recent odometry, oldest first.
         scan, frame: newest of each, ``None`` until the first arrives. frame_before: the one before ``frame``.
@@ -120,7 +122,7 @@ class SensorBuffer:
 
     def joints_at(self, stamp_s: float) -> JointState | None:
         """The measurement that was taken nearest to ``stamp_s``, if there is any."""
-        return min(self._joints, key=lambda joints: abs(joints.stamp_s - stamp_s), default=None)
+        return min(self._joints.copy(), key=lambda joints: abs(joints.stamp_s - stamp_s), default=None)
 
     def frame_after(self, stamp_s: float) -> RgbdFrame | None:
         """Of the newest two frames the older that is newer than ``stamp_s``, if any: who is late by one misses none."""
@@ -135,8 +137,7 @@ class SensorBuffer:
         Raises:
             OdometryUnavailable: no sample yet, or ``stamp_s`` lies outside the recorded span.
         """
-        x_m, y_m, yaw_rad = self._planar_odometry_at(stamp_s)
-        return SE3.from_xyz_yaw(x_m, y_m, 0.0, yaw_rad)
+        return _pose_at(self.odometry.copy(), stamp_s)
 
     def odometry_near(self, stamp_s: float) -> SE3:
         """As ``odometry_at``, at the recorded time nearest to ``stamp_s``.
@@ -144,22 +145,25 @@ class SensorBuffer:
         Raises:
             OdometryUnavailable: no sample yet.
         """
-        if not self.odometry:
-            raise OdometryUnavailable(stamp_s, None)
-        oldest_s, newest_s = self.odometry[0].stamp_s, self.odometry[-1].stamp_s
-        return self.odometry_at(min(max(stamp_s, oldest_s), newest_s))
-
-    def _planar_odometry_at(self, stamp_s: float) -> tuple[float, float, float]:
-        samples = self.odometry
+        samples = self.odometry.copy()
         if not samples:
             raise OdometryUnavailable(stamp_s, None)
-        oldest, newest = samples[0], samples[-1]
-        if stamp_s < oldest.stamp_s - 1e-6 or stamp_s > newest.stamp_s + _EXTRAPOLATION_LIMIT_S:
-            raise OdometryUnavailable(stamp_s, (oldest.stamp_s, newest.stamp_s))
-        if stamp_s >= newest.stamp_s:
-            return _extrapolate(newest, stamp_s - newest.stamp_s)
+        return _pose_at(samples, min(max(stamp_s, samples[0].stamp_s), samples[-1].stamp_s))
+
+
+def _pose_at(samples: deque[Odometry], stamp_s: float) -> SE3:
+    """Between the samples nearest to ``stamp_s``, or a little after the newest."""
+    if not samples:
+        raise OdometryUnavailable(stamp_s, None)
+    oldest, newest = samples[0], samples[-1]
+    if stamp_s < oldest.stamp_s - 1e-6 or stamp_s > newest.stamp_s + _EXTRAPOLATION_LIMIT_S:
+        raise OdometryUnavailable(stamp_s, (oldest.stamp_s, newest.stamp_s))
+    if stamp_s >= newest.stamp_s:
+        x_m, y_m, yaw_rad = _extrapolate(newest, stamp_s - newest.stamp_s)
+    else:
         index = max(1, bisect_left(samples, stamp_s, key=lambda sample: sample.stamp_s))
-        return _interpolate(samples[index - 1], samples[index], stamp_s)
+        x_m, y_m, yaw_rad = _interpolate(samples[index - 1], samples[index], stamp_s)
+    return SE3.from_xyz_yaw(x_m, y_m, 0.0, yaw_rad)
 
 
 def _extrapolate(sample: Odometry, duration_s: float) -> tuple[float, float, float]:

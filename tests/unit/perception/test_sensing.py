@@ -3,7 +3,11 @@
 from __future__ import annotations
 
 import asyncio
+import itertools
 import math
+import sys
+import threading
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -159,3 +163,33 @@ def test_the_joints_of_a_frame_are_those_measured_nearest_to_it_and_not_the_newe
         )  # fmt: skip
     assert [buffer.joints_at(stamp_s).lift_m for stamp_s in (0.0, 1.04, 1.2, 9.0)] == [0.9, 1.0, 1.1, 1.4]
     assert buffer.joints.lift_m == 1.4
+
+
+def test_the_past_may_be_asked_for_in_another_thread_while_measurements_come_in() -> None:
+    buffer, done = buffer_with(sample(0.0)), threading.Event()
+    joints = JointState(
+        stamp_s=0.0, lift_m=0.5, extension_m=0.0, wrist_pitch_rad=0.0, wrist_roll_rad=0.0, gripper_opening_m=0.0,
+        pan_rad=0.0, tilt_rad=0.0, finger_contacts=(False, False), T_base_gripper=SE3.identity(),
+    )  # fmt: skip
+
+    def measure() -> None:
+        for number in itertools.count(1):
+            buffer.add_joints(replace(joints, stamp_s=number / 100.0))
+            buffer.add_odometry(sample(number / 100.0, x_m=number / 100.0))
+            if done.is_set():
+                return
+
+    buffer.add_joints(joints)
+    interval_s = sys.getswitchinterval()
+    sys.setswitchinterval(1e-6)
+    measuring = threading.Thread(target=measure)
+    measuring.start()
+    try:
+        for _ in range(2000):
+            stamp_s = buffer.odometry[-1].stamp_s - 0.005
+            assert buffer.joints_at(stamp_s) is not None
+            assert buffer.odometry_near(stamp_s).x_m <= buffer.odometry[-1].x_m
+    finally:
+        done.set()
+        measuring.join()
+        sys.setswitchinterval(interval_s)

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 
 from majordomo.planner.grammar.syntax import NounPhrase, Pronoun, Quantity, Reference, Spot
 from majordomo.planner.matching import nodes_of, similar
 from majordomo.planner.naming import at, listed, name_of
-from majordomo.planner.vocabulary import is_known, is_plural, normal, singular
+from majordomo.planner.vocabulary import ALWAYS_PLURAL, is_known, is_plural, normal, singular
 from majordomo.scene_graph.nodes import (
     CrossingStatus,
     DoorNode,
@@ -168,9 +169,13 @@ def described(node_id: str, snapshot: Snapshot) -> str:
     return describe(node_id, snapshot).removeprefix("the ")
 
 
+_PLACED = re.compile(r" (?:on|in|at|near|with) ")
+
+
 def article(text: str) -> str:
-    """With the indefinite article; names of rooms and people keep theirs."""
-    if is_plural(text.rsplit(" ", maxsplit=1)[-1]) or text[:1].isupper():
+    """With the indefinite article; names of rooms and people keep theirs, and *scissors on the bench* have none."""
+    noun = _PLACED.split(text, maxsplit=1)[0].rsplit(" ", maxsplit=1)[-1]
+    if noun in ALWAYS_PLURAL or is_plural(noun) or text[:1].isupper():
         return text
     return f"{'an' if text[:1].lower() in 'aeiou' else 'a'} {text}"
 

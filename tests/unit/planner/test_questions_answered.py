@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from grammar_home import home
 from majordomo.planner.grammar.parser import CommandGrammar
 from majordomo.planner.interpreter import Interpreter
+from majordomo.planner.phrasing import article
 from majordomo.planner.plan import Dialogue, Kind, QueryKind
 from majordomo.planner.sketch import Sketch, flat
 from majordomo.planner.verifier import Verifier
@@ -120,3 +121,17 @@ def test_running_out_is_asked_the_other_way_round():
     snapshot = home().snapshot(robot_in="room_2", at=(4.2, 0.0))
     assert ask("are we out of apples?", snapshot).reply.startswith("No.")
     assert ask("are we out of bananas?", snapshot).reply.startswith("Yes.")
+
+
+@pytest.mark.parametrize(
+    ("thing", "told"),
+    [
+        ("red scissors on the brown bench in the hall", "red scissors on the brown bench in the hall"),
+        ("keys", "keys"),
+        ("orange cup in my gripper", "an orange cup in my gripper"),
+        ("box with the glasses", "a box with the glasses"),
+        ("Anna", "Anna"),
+    ],
+)
+def test_what_comes_in_pairs_has_no_article(thing, told):
+    assert article(thing) == told

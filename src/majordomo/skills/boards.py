@@ -109,7 +109,7 @@ def open_sides(
     return free
 
 
-def stands_before(
+def bars_way_to(
     support: ObjectNode, points: Points, radius_m: float, others: Sequence[tuple[Points, Points]]
 ) -> NDArray[np.int64]:
     """(N,): to how many of ``others`` the hand would no longer get straight in from the one or from the other long

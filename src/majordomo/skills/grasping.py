@@ -167,8 +167,8 @@ def prefers_level(snapshot: Snapshot, object_id: str, T_base_object: SE3) -> boo
 
 
 def comes_from_above(snapshot: Snapshot, object_id: str) -> bool:
-    """Whether what something is over is so low that a level hand would close on its upper edge, while there is room for
-    one from above.
+    """Whether a thing below a board is so low that a level hand would close on its upper edge, while there is room over
+    it for a hand that points down.
     """
     size_m = snapshot.object(object_id).size_m
     return _is_low(size_m) and _has_room_above(size_m, roof_over_m(snapshot, object_id))

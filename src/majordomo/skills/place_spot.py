@@ -19,11 +19,11 @@ from majordomo.skills.boards import (
     BOTH_SIDES,
     Board,
     axes,
+    bars_way_to,
     board_at,
     boards_of,
     extent_on,
     open_sides,
-    stands_before,
 )
 from majordomo.skills.containers import is_open_container
 from majordomo.skills.geometry import Points
@@ -52,7 +52,7 @@ class Spot:
     ``room_m``: air to the nearest neighbor; ``edge_m``: what is left between the thing and the edge, of which nobody
     knows to the centimeter where it is. ``inside``: dropped into a container, from above its rim. ``free_m``: height up
     to the board above; below one, the hand comes in level-wise, across one of the ``sides`` of the support.
-    ``hides``: how many things on the board it would bar the hand's way to.
+    ``bars``: how many things on the board it would bar the hand's way to.
     ``turn_rad``: where the long side of the thing must point, in the frame of what carries it; ``None`` where any turn
     does.
     """
@@ -64,7 +64,7 @@ class Spot:
     inside: bool = False
     free_m: float = inf
     sides: tuple[int, ...] = BOTH_SIDES
-    hides: int = 0
+    bars: int = 0
 
     @property
     def air_m(self) -> float:
@@ -140,9 +140,9 @@ def _spots_for(
     points = lattice(support, outline, step_m, covered=board.is_covered)
     room = room_m(snapshot, support.id, points, outline, others)
     sides = ways_in(snapshot, support, board, points, outline, others)
-    hides = np.zeros(len(points), np.int64)
+    bars = np.zeros(len(points), np.int64)
     if board.is_covered:
-        hides = stands_before(support, points, outline.radius_m, [extent_on(snapshot, support.id, o) for o in others])
+        bars = bars_way_to(support, points, outline.radius_m, [extent_on(snapshot, support.id, o) for o in others])
     edge = (np.array(support.size_m[:2]) / 2 - np.abs(points) - outline.half_m).min(axis=1)
     return [
         Spot(
@@ -152,7 +152,7 @@ def _spots_for(
             turn_rad=outline.turn_rad,
             free_m=board.free_m,
             sides=tuple(side for side, is_open in zip(BOTH_SIDES, sides[i], strict=True) if is_open),
-            hides=int(hides[i]),
+            bars=int(bars[i]),
         )
         for i in np.nonzero((room >= GAP_M) & sides.any(axis=1))[0]
     ]

@@ -209,13 +209,13 @@ def test_a_spot_tells_how_many_things_one_could_no_longer_take_if_something_stoo
     before = [s for s in spots if abs(s.anchor.point_m[0]) < 0.1]
     beside = [s for s in spots if abs(s.anchor.point_m[0]) > 0.09 + 0.015 + 0.035 + disc(CAN_M).radius_m]
     assert before
-    assert {s.hides for s in before} == {1}
+    assert {s.bars for s in before} == {1}
     assert beside
-    assert {s.hides for s in beside} == {0}
+    assert {s.bars for s in beside} == {0}
     assert min(s.anchor.point_m[1] for s in before) < 0.0 < max(s.anchor.point_m[1] for s in beside)
 
 
 def test_on_the_top_of_a_shelf_nothing_stands_before_another(flat):
     built = on_board(shelved(flat), "apple_1", 0.0, 0.08, 1.6, (0.07, 0.07, 0.07))
     spots = spots_on(built.memory.snapshot(), "shelf_1", CAN_M, None)
-    assert {spot.hides for spot in spots if not spot.is_covered} == {0}
+    assert {spot.bars for spot in spots if not spot.is_covered} == {0}

@@ -299,10 +299,10 @@ async def test_nothing_is_put_before_another_thing_on_a_board_where_there_is_a_s
     placement = Placement(object_id="bottle_1", target="table_2", spots=lambda: spots)
     assert await rehearsal.run([ChooseSpot(context, placement)]) is None
     first = placement.spot
-    spots[spots.index(first)] = replace(first, hides=1)
+    spots[spots.index(first)] = replace(first, bars=1)
     assert await rehearsal.run([ChooseSpot(context, placement)]) is None
-    assert placement.spot.hides == 0
-    placement.spots = lambda: [replace(first, hides=1)]
+    assert placement.spot.bars == 0
+    placement.spots = lambda: [replace(first, bars=1)]
     assert await rehearsal.run([ChooseSpot(context, placement)]) is None
 
 

@@ -34,7 +34,7 @@ SLACK_RAD = 0.15
 MOST_SPOTS = 40
 TIGHT_M = 0.10
 TIGHT_WEIGHT = 3.0
-HIDES_COST_M = 1.0
+BARRING_COST_M = 1.0
 """For each thing that could no longer be taken from the board if something stood before it."""
 
 
@@ -219,7 +219,7 @@ def _first_unbarred(choices: Iterable[tuple[float, Spot]]) -> Spot | None:
 def _crowding_m(spot: Spot) -> float:
     """What it costs, in meters of way, that there is little air around a spot, or that it is before other things."""
     tight_m = 0.0 if spot.inside else max(TIGHT_M - spot.air_m, 0.0)
-    return TIGHT_WEIGHT * tight_m + HIDES_COST_M * spot.hides
+    return TIGHT_WEIGHT * tight_m + BARRING_COST_M * spot.bars
 
 
 def _full(action: Action, placement: Placement) -> Status:

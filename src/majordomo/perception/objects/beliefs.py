@@ -41,9 +41,8 @@ class _Look:
         """One frame more; older ones fade."""
         floor = noise / 10.0
         keep = min(1.0, (_FRAMES - weight) / self.weight) if self.weight > 0.0 else 1.0
-        labels: set[str | None] = {*self.log, *likelihood}
         before = self.log[None]
-        for label in labels:
+        for label in dict.fromkeys((*self.log, *likelihood)):
             probability = floor if label is None else (1.0 - noise) * likelihood.get(label, 0.0) + floor
             self.log[label] = keep * self.log.get(label, before) + weight * float(np.log(probability))
         self.weight = keep * self.weight + weight
@@ -134,7 +133,7 @@ class LabelBelief:
 
     def _size_costs(self) -> dict[str, float]:
         """How much less likely, in log likelihood to one digit, its size makes the labels that were heard."""
-        heard = {label for look in self._looks.values() for label in look.log if label is not None}
+        heard = [label for label in self._heard() if label is not None]
         over = {label: float(np.log(oversize(label, self._size_m))) / _SIZE_SPREAD for label in heard}
         costs = {label: round(spreads**2 / 2.0, 1) for label, spreads in over.items() if spreads > 0.0}
         return costs | {label: self._bound for label in heard if is_too_large(label, self._size_m)}
@@ -164,14 +163,17 @@ class LabelBelief:
         best = max(min(look.trust, 1.0) * look.quality for look in self._looks.values())
         return {key: look.evidence(self._evidence_of_view, best) for key, look in self._looks.items()}
 
+    def _heard(self) -> dict[str | None, float]:
+        """Zero for every label of any look, in the order of hearing: with that of a set, sums would round by chance."""
+        return {label: 0.0 for look in self._looks.values() for label in look.log}
+
     def _fused(self) -> dict[str | None, float]:
         """Log odds of every label that was heard, and of all others under None, against the likeliest."""
-        labels = {label for look in self._looks.values() for label in look.log}
-        log = dict.fromkeys(labels, 0.0)
+        log = self._heard()
         for key, evidence in self._evidence().items():
             look = self._looks[key]
             share = evidence / look.weight
-            for label in labels:
+            for label in log:
                 log[label] += share * look.log.get(label, look.log[None])
         for label, cost in self._size_costs().items():
             log[label] -= cost

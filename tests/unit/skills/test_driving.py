@@ -74,6 +74,26 @@ async def test_walls_of_the_room_are_respected_without_any_scan(flat):
     assert failure.code is FailureCode.WAY_BLOCKED
 
 
+@pytest.mark.parametrize("way_around", [True, False])
+async def test_a_vase_on_the_floor_that_the_scan_looks_over_is_never_driven_into(flat, way_around):
+    """Also where what the graph says of furniture leaves no way, and only raw points are believed."""
+    graph = flat().thing("shelf_1", (0.0, 0.0, 0.9), (0.4, 5.0, 1.8))
+    places = [(-0.5, 0.0)] if way_around else [(-0.5, 0.5 * row) for row in range(-5, 6)]
+    for number, (x, y) in enumerate(places):
+        graph.thing(f"vase_{number}", (x, y, 0.11), (0.09, 0.09, 0.22), graspable=True)
+    least_m = []
+
+    def measure(rehearsal):
+        at = rehearsal.body.pose.point
+        least_m.append(min(hypot(x - at[0], y - at[1]) for x, y in places) - 0.045)
+
+    rehearsal = Rehearsal(memory=graph.memory, body=FakeBody(pose=Pose2(-2.0, 0.0)), observe=measure)
+    context = await rehearsal.prepare()
+    failure = await rehearsal.run([goal_at(context, 2.0, 0.0)])
+    assert (failure is None) is way_around
+    assert min(least_m) > PHYSICAL_RADIUS_M
+
+
 async def test_in_no_room_it_drives_on_the_scan_alone():
     from majordomo.scene_graph.memory import WorkingMemory
 

@@ -35,7 +35,8 @@ def draw_map(
 
     The walls of a room count when it was seen all around and all spots lie within it; else only ``obstacles``, (N, 2),
     do. A known room that holds neither the robot nor the first goal is then no way: its walls, out of view, would look
-    open. ``ignore``: nodes whose footprint is left out.
+    open. Without ``believe_furniture`` the graph's word counts only for small things on the floor, which the LiDAR may
+    look over. ``ignore``: nodes whose footprint is left out.
     """
     polygon = _walls_around(snapshot, frame, spots)
     outline = np.array(polygon or spots)
@@ -47,21 +48,26 @@ def draw_map(
     else:
         _draw_rooms_elsewhere(canvas, snapshot, frame, spots)
     canvas.block_points(walls.explain(obstacles) if polygon else obstacles)
+    for box in standing(snapshot, frame, ignore, small_only=not believe_furniture):
+        canvas.block_box(box)
     if believe_furniture:
-        for box in furniture(snapshot, frame, ignore):
-            canvas.block_box(box)
         for person in snapshot.of_type(PersonNode):
             if person.id not in ignore and stamp_s - person.last_seen_s < PERSON_FRESH_S:
                 canvas.block_disc(_position(snapshot, person.id, frame), PERSON_RADIUS_M)
     return canvas.finish()
 
 
-def furniture(snapshot: Snapshot, frame: str, ignore: Collection[str] = ()) -> list[Box2]:
-    """Footprints in ``frame`` of what stands on the floor of this room, as the graph believes."""
+def standing(snapshot: Snapshot, frame: str, ignore: Collection[str] = (), *, small_only: bool = False) -> list[Box2]:
+    """Footprints in ``frame`` of what stands on the floor of this room, as the graph believes; ``small_only``: of what
+    a hand could pick up.
+    """
     return [
         footprint(snapshot, node, frame)
         for node in snapshot.of_type(ObjectNode)
-        if node.id not in ignore and snapshot.room_of(node.id) == frame and _stands_in_way(snapshot, node, frame)
+        if node.id not in ignore
+        and (node.graspable or not small_only)
+        and snapshot.room_of(node.id) == frame
+        and _stands_in_way(snapshot, node, frame)
     ]
 
 

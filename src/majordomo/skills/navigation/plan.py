@@ -57,7 +57,8 @@ def make_plan(
     """The cheapest goal and the way there.
 
     First with what the graph believes and with room for what the hand holds; then for the base alone, as most of what
-    stands around is lower than the hand; then with raw points alone; at last with hardly any room to spare.
+    stands around is lower than the hand; then with raw points, and of the graph only what they would not show; at last
+    with hardly any room to spare.
     """
     spots = [pose.point, *(goal.point for goal in goals(None))]
     walls = Walls.of(context.snapshot, frame)

@@ -76,6 +76,33 @@ def test_the_center_of_a_thing_is_found_behind_its_visible_surface(label, size_m
     assert np.linalg.norm(errors, axis=1).max() < 0.015
 
 
+FLOOR = Solid(label="floor", center=(0.0, 0.0, -0.05), size_m=(6.0, 6.0, 0.1))
+
+
+@pytest.mark.parametrize(("ground", "ground_m"), [(FLOOR, 0.0), (TABLE, 0.75)])
+@pytest.mark.parametrize("size_m", [(0.2, 0.085, 0.035), (0.2, 0.04, 0.04)])
+@pytest.mark.parametrize("lost_px", [0, 2])
+def test_a_flat_thing_is_as_high_as_it_is_though_from_above_its_side_is_a_row_of_pixels(
+    ground, ground_m, size_m, lost_px
+):
+    """Else the hand closes over it: the middle of what shows of a book on the floor is its top."""
+    for distance_m in (0.4, 0.6, 1.0):
+        thing = Solid(label="book", center=(0.0, 0.0, ground_m + size_m[2] / 2), size_m=size_m, yaw_rad=0.7)
+        rendering, view = view_of([ground, thing], look_at((-distance_m, 0.0, 1.4), (0.0, 0.0, ground_m)), seed=3)
+        mask = rendering.ids == 1
+        mask &= np.roll(mask, -lost_px, axis=0)
+        shape = measure_shape(cloud_of(mask, view, ProjectionSettings()), view, category_of("book"))
+        assert shape.center[2] == pytest.approx(thing.center[2], abs=0.003)
+        assert shape.size_m[2] == pytest.approx(size_m[2], abs=0.006)
+
+
+def test_what_stands_at_the_edge_of_a_table_does_not_reach_to_the_floor():
+    bottle = Solid(label="bottle", center=(-0.56, 0.0, 0.87), size_m=(0.07, 0.07, 0.24), cylinder=True)
+    rendering, view = view_of([TABLE, bottle, FLOOR], look_at((-1.2, 0.0, 1.4), (-0.5, 0.0, 0.8)), seed=3)
+    shape = measure_shape(cloud_of(rendering.ids == 1, view, ProjectionSettings()), view, category_of("bottle"))
+    assert shape.size_m[2] == pytest.approx(0.24, abs=0.02)
+
+
 def test_the_direction_of_a_long_thing_is_measured_up_to_half_a_turn():
     book = Solid(label="book", center=(0.0, 0.0, 0.765), size_m=(0.22, 0.15, 0.03), yaw_rad=2.5)
     rendering, view = view_of([TABLE, book], look_at((-1.0, 0.2, 1.4), (0.0, 0.0, 0.75)), seed=1)

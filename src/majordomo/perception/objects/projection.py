@@ -24,6 +24,9 @@ _SQUARE = np.ones((3, 3), dtype=np.uint8)
 _EDGE_M = 0.05
 _EDGE_SIGMAS = 8.0
 _TOUCHING = np.ones((3, 3, 3), dtype=np.uint8)
+_FOOT_ROWS = (3, 4, 5)
+"""So many rows below a mask its foot is looked for: what is nearer may still be the thing's."""
+_FOOT_SPREAD_M = 0.02
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -94,7 +97,8 @@ class Cloud:
     """The points of one mask after trimming, in the room frame of its view.
 
     ``points``: (N, 3). ``range_m``: median depth. ``pixels``: area of the mask. ``truncated``: cut by the image border.
-    ``occluded``: part of the mask's rim, 0 to 1, where something nearer hides the rest.
+    ``occluded``: part of the mask's rim, 0 to 1, where something nearer hides the rest. ``foot_m``: how high in the
+    room lies what is seen right before the thing, ``None`` where that is not level or not known.
     """
 
     points: Array
@@ -102,6 +106,7 @@ class Cloud:
     pixels: int
     truncated: bool
     occluded: float
+    foot_m: float | None = None
 
 
 def back_project(u: Array, v: Array, depth_m: Array, intrinsics: Intrinsics) -> Array:
@@ -163,6 +168,7 @@ def cloud_of(
         pixels=int(np.count_nonzero(inside)),
         truncated=_touches_border(x, y, width, height, view.intrinsics, settings.border_px),
         occluded=_occluded_rim(mask, view.depth_m, (x, y, width, height), interval[0]),
+        foot_m=_foot(inside, (x, y), view),
     )
 
 
@@ -211,6 +217,23 @@ def _smoothed(depth_m: NDArray[np.float32], kept: NDArray[np.bool_], noise_per_m
     farthest = cv2.dilate(np.where(kept, depth_m, np.float32(0.0)), _SQUARE)
     edge = farthest - nearest > np.maximum(_EDGE_M, _EDGE_SIGMAS * noise_per_m * depth_m**2)
     return np.where(edge, depth_m, total / np.maximum(count, 1e-6)).astype(np.float64)
+
+
+def _foot(inside: NDArray[np.uint8], corner: tuple[int, int], view: View) -> float | None:
+    """The height of what is seen below the mask, in every column that it has; ``None`` where that is not level."""
+    columns = np.flatnonzero(inside.any(axis=0))
+    lowest = inside.shape[0] - 1 - np.argmax(inside[::-1, columns], axis=0)
+    u = np.tile(columns + corner[0], len(_FOOT_ROWS))
+    v = np.concatenate([lowest + corner[1] + rows for rows in _FOOT_ROWS])
+    in_picture = v < view.depth_m.shape[0]
+    u, v = u[in_picture], v[in_picture]
+    depth_m = view.depth_m[v, u].astype(np.float64)
+    u, v, depth_m = (values[depth_m > 0.0] for values in (u, v, depth_m))
+    if len(depth_m) < len(columns):
+        return None
+    heights_m = view.T_room_camera.apply(back_project(u, v, depth_m, view.intrinsics))[:, 2]
+    low_m, middle_m, high_m = np.quantile(heights_m, (0.25, 0.5, 0.75))
+    return float(middle_m) if high_m - low_m < _FOOT_SPREAD_M else None
 
 
 def _touches_border(x: int, y: int, width: int, height: int, intrinsics: Intrinsics, border_px: int) -> bool:

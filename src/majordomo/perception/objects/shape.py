@@ -24,6 +24,8 @@ _SQUARE_ASPECT = 1.15
 _ROOM_ALIGNED_AREA = 1.12
 _DEPTH_DOUBT = 0.08
 _HIDDEN_DOUBT = 0.3
+_LOST_PX = 4.0
+"""So many rows of pixels a mask may lack below."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -68,6 +70,8 @@ def measure_shape(cloud: Cloud, view: View, category: Category, *, depth_noise_p
     width = high_across - low_across
     if category.ball and camera[2] > high_z:
         low_z = high_z - width  # from above, the lower part of a ball hides itself
+    elif cloud.foot_m is not None and low_z - _lost_below_m(camera, cloud.points, pixel_m) < cloud.foot_m < low_z:
+        low_z = cloud.foot_m
     height = high_z - low_z
     top_in_view = _sees_top(camera[2] - high_z, float(front), max(float(back - front), width / 2.0), pixel_m)
     doubt_m = (_DEPTH_DOUBT if category.round or top_in_view else _HIDDEN_DOUBT) * width
@@ -143,6 +147,13 @@ def _span(values: Array, pixel_m: float) -> tuple[float, float]:
     low, high = _inner(values)
     stretch = (high - low) * _TRIM / (1.0 - 2.0 * _TRIM) + pixel_m / 2.0
     return float(low - stretch), float(high + stretch)
+
+
+def _lost_below_m(camera: Array, points: Array, pixel_m: float) -> float:
+    """How much of an upright side the rows of pixels show that a mask may lack."""
+    x, y, z = np.median(points, axis=0) - camera
+    across = float(np.hypot(x, y))
+    return _LOST_PX * pixel_m * float(np.hypot(across, z)) / max(across, 1e-3)
 
 
 def _above_contact(points: Array, low_z: float, high_z: float) -> Array:

@@ -79,6 +79,28 @@ def test_what_lies_near_is_not_taken_for_the_thing_that_slipped_from_the_fingers
     assert "ball" in [n.label for n in graph.of_type(ObjectNode)]
 
 
+@pytest.mark.parametrize("grasped_at", [True, False])
+def test_a_book_that_the_hand_pushed_off_the_table_is_what_lies_below_though_it_looks_like_a_box(grasped_at):
+    book = Solid(label="book", center=(-0.4, 0.1, 0.768), size_m=(0.2, 0.085, 0.036), color=(220.0, 200.0, 30.0))
+    story = Story([TABLE, book])
+    story.run(8)
+    if grasped_at:
+        say(story.memory, "grasping book_1", story.now_s)
+    story.room.joints = joints((0.9, 0.1, 0.8), (False, False), 0.0)
+    story.room.solids = [TABLE, replace(book, label="box", center=(-1.0, 0.3, 0.018))]
+    story.run(2)
+    say(story.memory, "stowing", story.now_s)
+    story.room.joints = joints((0.1, 0.0, 0.75))
+    assert story.run(25).object("book_1").state is ObjectState.MISSING
+    story.room.eye, story.room.target = (-2.4, 0.6), (-1.0, 0.3, 0.0)
+    graph = story.run(12)
+    assert graph.object("book_1").state is (ObjectState.PRESENT if grasped_at else ObjectState.MISSING)
+    small = [node.id for node in graph.of_type(ObjectNode) if node.graspable]
+    assert small == (["book_1"] if grasped_at else ["book_1", "box_1"])
+    if grasped_at:
+        assert graph.position("book_1", "room_1") == pytest.approx((-1.0, 0.3, 0.018), abs=0.03)
+
+
 def test_things_on_a_table_become_nodes_with_their_place_color_size_and_support():
     graph = Story([TABLE, BLUE_BOTTLE, RED_CUP]).run(8)
     assert [n.id for n in graph.of_type(ObjectNode)] == ["bottle_1", "cup_1", "table_1"]

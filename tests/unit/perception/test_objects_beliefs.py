@@ -598,6 +598,27 @@ def test_a_book_that_fell_on_its_edge_is_the_book_though_the_network_is_sure_tha
 
 
 @pytest.mark.parametrize(
+    ("touched", "at", "color", "same"),
+    [
+        (True, (0.6, 0.4, 0.02), "yellow", True),
+        (False, (0.6, 0.4, 0.02), "yellow", False),
+        (True, (1.6, 0.4, 0.02), "yellow", False),
+        (True, (0.6, 0.4, 0.02), "red", False),
+    ],
+)
+def test_what_the_hand_has_knocked_off_a_desk_is_what_lies_near_below_though_surely_called_otherwise(
+    touched, at, color, same
+):
+    book = thing(1, "book", "yellow", (0.2, 0.085, 0.035), state=ObjectState.MISSING)
+    book.put_at("room_1", np.array((0.0, 0.0, 0.77)), 0.01)
+    book.touched = touched
+    sighting = thing(2, "banana", color, (0.195, 0.088, 0.02), seen=(20.0, 21.0))
+    sighting.put_at("room_1", np.array(at), 0.01)
+    known = known_as(sighting, [book], taken_from={}, looked_before={}, settings=IdentitySettings())
+    assert (known is book) is same
+
+
+@pytest.mark.parametrize(
     ("label", "state", "same"),
     [
         ("stove", ObjectState.PRESENT, False),

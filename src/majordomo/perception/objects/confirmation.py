@@ -122,17 +122,19 @@ def _fell_here(sighting: Track, track: Track, settings: IdentitySettings) -> boo
 
 
 def _lies_near(sighting: Track, missing: Track, settings: IdentitySettings) -> bool:
-    """Whether a small sighting without a name, as large and of the same color, lies near where a thing is missed, or
-    below: of what has toppled or was knocked down, nobody may be able to say what it is.
+    """Whether a small sighting, as large and of the same color, lies near where a thing is missed, or below: of what
+    has toppled or was knocked down, nobody may be able to say what it is. It may have a name only where the hand had
+    just closed on the thing: else it is likelier another.
     """
     if missing.state is not ObjectState.MISSING or missing.is_furniture or sighting.is_furniture:
         return False
-    if sighting.label.best != UNKNOWN_LABEL or sighting.room != missing.room:
+    if sighting.room != missing.room or missing.last_seen_s >= sighting.first_seen_s:
         return False
-    if missing.last_seen_s >= sighting.first_seen_s:
+    if sighting.label.best != UNKNOWN_LABEL and not missing.touched:
         return False
     away_m = float(np.hypot(*(sighting.position - missing.position)[:2]))
-    return away_m <= settings.near_m and _body_agreement(sighting, missing) >= _SAME_LOOK
+    alike = _SAME_LOOK if sighting.label.best == UNKNOWN_LABEL else _SAME_BODY
+    return away_m <= settings.near_m and _body_agreement(sighting, missing) >= alike
 
 
 def _is_like(sighting: Track, track: Track, settings: IdentitySettings) -> bool:

@@ -72,6 +72,12 @@ class Grip:
             return self._taken(joints.stamp_s) if self._lasting(closed_on_something, joints.stamp_s) else None
         return self._let_go(holding, joints) if self._lasting(free, joints.stamp_s) else None
 
+    @staticmethod
+    def closing_on(status: str) -> str | None:
+        """What the hand is about to close on, as the skills say."""
+        words = status.split()
+        return words[1] if len(words) >= 2 and words[0] == "grasping" else None
+
     def _listen(self, status: str, stamp_s: float) -> None:
         words = status.split()
         if len(words) >= 2 and words[0] in {"grasping", "releasing"}:

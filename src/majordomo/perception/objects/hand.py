@@ -51,6 +51,7 @@ class Hand:
             return frozenset()
         before, self.T_base_gripper = self.T_base_gripper, joints.T_base_gripper
         self._agree_with_graph(snapshot, robot.holding)
+        self._note_touch(self._grip.closing_on(robot.status))
         holding = self.held.track.node_id if self.held is not None else None
         event = self._grip.update(joints, robot.status, holding)
         if event is None:
@@ -64,6 +65,12 @@ class Hand:
     def T_robot_object(self, held: Held) -> SE3:
         """Pose of the held thing in the robot's base."""
         return self.T_base_gripper @ held.T_gripper_object
+
+    def _note_touch(self, object_id: str | None) -> None:
+        """What the hand closes on may be gone from there afterwards, be it held or not."""
+        track = self._tracker.of_node(object_id) if object_id is not None else None
+        if track is not None:
+            track.touched = True
 
     def _agree_with_graph(self, snapshot: Snapshot, holding: str | None) -> None:
         """Sight may have shown that the hand is empty, and a restart may find it full."""

@@ -66,7 +66,7 @@ class Track:
             homeless: whether it is in none of the rooms known so far; ``room`` then is the one it was seen from.
             awaited: whether the hand has put it down and it was not seen since; carried: whether it is where it is
             because the hand has put it there; fell: whether it slipped from the hand
-            and was not seen since.
+            and was not seen since; touched: whether the hand has closed where it was, and it was not seen since.
     """
 
     def __init__(self, number: int, room: str, *, settings: TrackSettings, random: Generator) -> None:
@@ -86,6 +86,7 @@ class Track:
         self.awaited = False
         self.carried = False
         self.fell = False
+        self.touched = False
         self.hits = 0
         self.seen_whole = False
         self.misses = 0
@@ -149,7 +150,7 @@ class Track:
         """
         side, trust = self._side_of(detection, view, T_room_view), _trust_in(detection)
         self.label.update(detection.distribution, detection.weight, (*side, trust), trust=trust)
-        self.awaited = self.fell = False
+        self.awaited = self.fell = self.touched = False
         self.color.update(detection.colors, detection.weight)
         self.accents.update(detection.accents, detection.weight)
         self._note_place(T_room_view.apply(view.T_room_camera.translation_m), detection, T_room_view)
@@ -265,7 +266,7 @@ class Track:
         self.back = other.back
         self.color, self.accents = other.color, other.accents
         self.state, self.log_odds = ObjectState.PRESENT, other.log_odds
-        self.awaited = self.carried = self.fell = False
+        self.awaited = self.carried = self.fell = self.touched = False
         self.label.start_from(self.label.distribution, self.hits)
         self.label.update(other.label.distribution, view=other.number)
         self.seen_from = [*self.seen_from, *other.seen_from][-_PLACES:]

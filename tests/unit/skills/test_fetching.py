@@ -626,6 +626,15 @@ async def test_a_small_thing_without_a_name_does_not_keep_the_hand_from_what_it_
     assert costs.tolist() == [cost_m, cost_m]
 
 
+def test_no_arm_reaches_through_a_wall_and_one_does_through_a_door(flat):
+    snapshot = flat().memory.snapshot()
+    behind_the_wall, behind_the_door, at_the_wall = (3.3, 1.2, 0.0), (3.3, 0.0, 0.0), (2.9, 1.2, 0.0)
+    for target, free in ((behind_the_wall, False), (behind_the_door, True), (at_the_wall, True)):
+        places = np.array([[2.5, target[1]]])
+        costs = passing_over(snapshot, "room_1", np.array(target), 0.5, places, set(), stamp_s=0.0)
+        assert bool(np.isfinite(costs[0])) is free
+
+
 @pytest.mark.parametrize(
     ("kind", "back_rad", "from_back", "from_side", "from_front"),
     [

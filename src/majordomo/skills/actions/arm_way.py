@@ -28,6 +28,8 @@ ARM_HALF_WIDTH_M = 0.09
 SURELY_MET_M = 0.06
 """So near to the middle of its way, the hand meets what is higher, however well that was measured."""
 AT_TARGET_M, ALONG_M = 0.12, 0.01
+AT_WALL_M = 0.04
+"""What comes so near to the line of a wall, between two samples, may be beyond it with the next."""
 HELD_MARGIN_M = 0.06
 PERSON_CLEARANCE_M, DRIFT_M = 0.32, 0.04
 """So far from the middle of a person the middle of the arm keeps, from a place that is as far off as a drive may be."""
@@ -104,11 +106,11 @@ def passing_over(
 ) -> Points:
     """For each place, (N,), what it costs that things which reach up to ``low_m`` lie on the way of the hand from there
     straight to the target: small ones may be pushed, furniture bars it, and so does a person who was there a while ago;
-    no place will do from which the hand is sure to meet furniture, the back or the arm of the seat itself that it
-    reaches for included, or comes near to a person who is there.
+    no place will do from which the hand is sure to meet a wall or furniture, the back or the arm of the seat itself
+    that it reaches for included, or comes near to a person who is there.
     """
-    costs = np.zeros(len(points))
     way, farthest_m = _ways_straight(target, points)
+    costs = np.where(_meets_wall(snapshot, frame, target, way), np.inf, 0.0)
     for node in snapshot.of_type(ObjectNode):
         if node.state is not ObjectState.PRESENT or snapshot.room_of(node.id) != frame:
             continue
@@ -141,6 +143,16 @@ def _ways_straight(target: Points, places: Points, short_m: float = 0.0) -> tupl
     farthest_m = float(away_m.max(initial=0.0))
     along = np.linspace(np.minimum(short_m / np.maximum(away_m, 1e-6), 1.0), 1.0, max(int(farthest_m / SAMPLE_M), 2))
     return target[:2] + along[:, :, None] * (places - target[:2]), farthest_m
+
+
+def _meets_wall(snapshot: Snapshot, frame: str, target: Points, way: Points) -> NDArray[np.bool_]:
+    """On which of the ways (S, N, 2) to a target a wall stands before the target; (N,)."""
+    walls = Walls.of(snapshot, frame).tree
+    if walls is None or not way.size:
+        return np.zeros(way.shape[1], np.bool_)
+    near_m, _ = walls.query(way.reshape(-1, 2), distance_upper_bound=AT_WALL_M)
+    before = np.linalg.norm(way - target[:2], axis=2) > AT_TARGET_M
+    return np.asarray((np.isfinite(near_m.reshape(way.shape[:2])) & before).any(axis=0))
 
 
 def _rim_costs(snapshot: Snapshot, frame: str, seat: ObjectNode, target: Points, low_m: float, way: Points) -> Points:

@@ -117,6 +117,7 @@ building-other-merged, pavement-merged, rock-merged, tree-merged, grass-merged, 
 """
 
 LARGEST = """
+banana | 0.28 0.08 0.1
 bench | 2.6 0.52 1.1
 stool | 0.6 0.6 0.95
 chair, office chair | 0.95 0.95 1.4

@@ -930,6 +930,21 @@ def test_fruits_are_not_as_broad_as_a_book():
     assert oversize("apple", (0.09, 0.09, 0.09)) < 1.3
 
 
+def test_a_yellow_book_is_no_banana_though_every_view_says_so():
+    """Without a name it can be known by its looks; as a banana, nobody would look for the book there."""
+    belief = LabelBelief()
+    for view, frame in enumerate(((("banana", 0.93), ("book", 0.02)), (("banana", 0.96), ("book", 0.01))) * 2):
+        for _ in range(8):
+            belief.update(frame, view=view)
+            belief.measure((0.195, 0.0883, 0.035))
+    assert belief.best == UNKNOWN_LABEL
+    banana = LabelBelief()
+    for view in range(4):
+        banana.update((("banana", 0.93), ("book", 0.02)), view=view)
+        banana.measure((0.195, 0.05, 0.035))
+    assert banana.best == "banana"
+
+
 def test_a_yellow_thing_too_broad_for_a_banana_is_a_book_though_most_views_said_banana():
     belief = LabelBelief()
     for view in range(5):

@@ -75,13 +75,12 @@ class Grip:
     @staticmethod
     def closing_on(status: str) -> str | None:
         """What the hand is about to close on, as the skills say."""
-        words = status.split()
-        return words[1] if len(words) >= 2 and words[0] == "grasping" else None
+        said = _said(status)
+        return said[1] if said is not None and said[0] == "grasping" else None
 
     def _listen(self, status: str, stamp_s: float) -> None:
-        words = status.split()
-        if len(words) >= 2 and words[0] in {"grasping", "releasing"}:
-            self._announced = (words[0], words[1], words[2] if len(words) > 2 else None, stamp_s)
+        if (said := _said(status)) is not None:
+            self._announced = (*said, stamp_s)
 
     def _lasting(self, condition: bool, stamp_s: float) -> bool:
         if not condition:
@@ -116,3 +115,11 @@ class Grip:
         if self._announced is None or self._announced[0] != word:
             return None
         return self._announced[1:3] if stamp_s - self._announced[3] <= self._settings.memory_s else None
+
+
+def _said(status: str) -> tuple[str, str, str | None] | None:
+    """What the skills say they try: the word, the thing, and where to, if that was said."""
+    words = status.split()
+    if len(words) < 2 or words[0] not in {"grasping", "releasing"}:
+        return None
+    return words[0], words[1], words[2] if len(words) > 2 else None

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from itertools import pairwise
-from math import inf, pi
+from math import cos, inf, pi, sin
 
 import numpy as np
 import pytest
@@ -109,6 +109,16 @@ async def test_with_no_table_near_it_is_put_on_the_floor_beside_the_person(kitch
     snapshot = rehearsal.memory.snapshot()
     assert snapshot.support_of("bottle_1") is None
     assert snapshot.position("bottle_1", "room_1")[2] == pytest.approx(0.12)
+
+
+@pytest.mark.parametrize("bearing_rad", [pi, 5 * pi / 4, 3 * pi / 2])
+async def test_who_is_handed_something_stands_where_the_arm_does_not_go(kitchen, bearing_rad):
+    built = []
+    rehearsal = kitchen(lambda flat: built.append(flat) or flat)
+    assert await carry_out(rehearsal, ("PICK", "bottle_1")) is None
+    x_m, y_m, _ = rehearsal.memory.snapshot().position("table_1", "room_1")
+    built[0].person(float(x_m + 0.5 * cos(bearing_rad)), float(y_m + 0.5 * sin(bearing_rad)), stamp_s=1e6)
+    assert await carry_out(rehearsal, ("GOTO", "person_1"), ("PLACE", "bottle_1", "person_1")) is None
 
 
 @pytest.mark.parametrize("seen_m", [0.18, 0.24])

@@ -95,10 +95,13 @@ def pushes_aside(
 
 
 def spared_nodes(snapshot: Snapshot, *targets: str) -> set[str]:
-    """Nodes that are no obstacle to the arm: the targets, what the first stands on, and what is held."""
+    """Nodes that are no obstacle to the arm: the targets, what the first stands on, and what is held. A person is one
+    even while something is handed to them.
+    """
     support = snapshot.support_of(targets[0]) if isinstance(snapshot.get(targets[0]), ObjectNode) else None
     held = snapshot.robot.holding if snapshot.robot is not None else None
-    return {*targets, *(node for node in (support, held) if node is not None)}
+    things = (node_id for node_id in targets if not isinstance(snapshot.get(node_id), PersonNode))
+    return {*things, *(node for node in (support, held) if node is not None)}
 
 
 def passing_over(

@@ -19,11 +19,18 @@ from majordomo.app.evaluations.missions.inventing import invent
 from majordomo.app.evaluations.missions.mission import Mission
 from majordomo.app.evaluations.missions.mission_file import MissionFileError, load_missions
 from majordomo.app.evaluations.missions.outcome import HAND, Outcome, Placed, RobotIn, Scene, stirred
-from majordomo.app.evaluations.missions.playing import Verdict, is_within_reach, touched_last
+from majordomo.app.evaluations.missions.playing import (
+    OUT_OF_REACH,
+    Verdict,
+    impossible_as_told,
+    is_within_reach,
+    touched_last,
+)
 from majordomo.app.evaluations.missions.resident import meant
 from majordomo.app.evaluations.missions.ways import Ways
 from majordomo.planner.tasks import PlanReport, StepReport, StepStatus, Task, TaskStatus, TaskTimes
 from majordomo.simulation.house import Door, Object, Room, load_house, parse_disturbance
+from majordomo.skills.failures import Evidence, Failure, FailureCode
 
 FLAT = load_house("flat")
 CUP = {"id": "cup_1", "category": "cup", "color": "red", "position_m": [1.0, 1.0, 0.8], "room": "kitchen", "in": None}
@@ -118,6 +125,30 @@ def test_a_room_behind_shut_doors_is_out_of_reach_for_the_robot_as_for_what_it_b
     )]  # fmt: skip
     assert [is_within_reach(mission, there, Ways(there)) for mission in sent] == [True] * 5
     assert [is_within_reach(mission, here, Ways(here)) for mission in sent] == [False, True, True, False, True]
+
+
+@pytest.mark.parametrize(
+    ("codes", "near", "right"),
+    [
+        (["unreachable", "object_gone"], True, True),
+        (["unreachable", "object_gone"], False, True),
+        (["object_gone", "unreachable"], False, True),
+        (["object_gone", "unreachable"], True, False),
+        (["support_full"], False, False),
+        ([], True, False),
+    ],
+)
+def test_what_was_removed_from_out_of_reach_may_be_called_either(codes, near, right):
+    evidence = Evidence(revision=1)
+    failures = tuple(Failure(code=FailureCode(code), message="", evidence=evidence) for code in codes)
+    reasons = DISTURBANCES["removed"].reasons | (frozenset() if near else OUT_OF_REACH)
+    told = impossible_as_told(replace(task(TaskStatus.FAILED), failures=failures), reasons, within_reach=near)
+    assert told is (Verdict.RIGHTLY_IMPOSSIBLE if right else Verdict.OTHER_REASON)
+
+
+@pytest.mark.parametrize(("near", "verdict"), [(True, Verdict.OTHER_REASON), (False, Verdict.RIGHTLY_IMPOSSIBLE)])
+def test_what_is_out_of_reach_need_not_be_known(near, verdict):
+    assert impossible_as_told(task(TaskStatus.REFUSED), OUT_OF_REACH, within_reach=near) is verdict
 
 
 def test_nobody_reaches_through_a_wall():

@@ -38,8 +38,10 @@ class Meddler:
 
     @property
     def reasons(self) -> frozenset[FailureCode]:
-        """What the robot may rightly say if nothing came of the request."""
-        return self._disturbance.reasons if self._disturbance is not None else frozenset()
+        """What the robot may rightly say if nothing came of the request; nothing before it was disturbed."""
+        if self._disturbance is None or self.made_s is None:
+            return frozenset()
+        return self._disturbance.reasons
 
     @property
     def touched(self) -> frozenset[str]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from enum import StrEnum
 from pathlib import Path
@@ -235,15 +235,13 @@ class _Play:
         met = any(outcome.met(after, task) and (reported or outcome.refused) for outcome in outcomes)
         question = all(outcome.words and not outcome.states for outcome in outcomes)
         possible = self._meddler.possible and within_reach
-        reasons = self._meddler.reasons if within_reach else OUT_OF_REACH
-        unknown = not within_reach and task.status is TaskStatus.REFUSED
-        right_reason = unknown or (bool(task.failures) and task.failures[-1].code in reasons)
+        reasons = self._meddler.reasons | (frozenset() if within_reach else OUT_OF_REACH)
         if met:
             verdict = Verdict.DONE
         elif reported:
             verdict = Verdict.UNJUDGED if not outcomes else Verdict.WRONG_ANSWER if question else Verdict.PHANTOM
         elif not possible:
-            verdict = Verdict.RIGHTLY_IMPOSSIBLE if right_reason else Verdict.OTHER_REASON
+            verdict = impossible_as_told(task, reasons, within_reach=within_reach)
         elif self._course.asked:
             verdict = Verdict.ASKED
         else:
@@ -283,6 +281,15 @@ def is_within_reach(mission: Mission, scene: Scene, ways: Ways) -> bool:
 
     near = all(leads_to(scene.where(name)) for name in mission.things)
     return near and all(not each or any(map(is_reached, each)) for each in (mission.places, mission.rooms))
+
+
+def impossible_as_told(task: Task, reasons: Collection[FailureCode], *, within_reach: bool) -> Verdict:
+    """Whether what the robot said of a request that could not be fulfilled is one of the reasons why; what is out of
+    reach it need not know at all.
+    """
+    unknown = not within_reach and task.status is TaskStatus.REFUSED
+    told = bool(task.failures) and task.failures[-1].code in reasons
+    return Verdict.RIGHTLY_IMPOSSIBLE if unknown or told else Verdict.OTHER_REASON
 
 
 def touched_last(truth: Mapping[str, Any], collisions: int) -> list[str]:

@@ -29,17 +29,23 @@ def seeking_plan(
 
     The next room is the one that is likeliest to hold it for the time that it takes to get there and to look through
     it; in a room, surfaces that were never inspected come first, then the others, each time the nearest one, and at
-    last the room as a whole. Left out is what was looked at since ``since_s`` or is
-    in ``already_looked``, and what cannot be reached.
+    last the room as a whole. Small things without a name that turned up after ``object_id`` was last seen are looked at
+    from near: one of them may be it. Left out is what was looked at since ``since_s`` or is in ``already_looked``, and
+    what cannot be reached.
     """
+    node = snapshot.get(object_id)
     last_room = snapshot.room_of(object_id) or state.robot_room
     rooms = (room.id for room in snapshot.of_type(RoomNode))
-    surfaces = (node.id for node in snapshot.of_type(ObjectNode) if node.support)
-    reachable = _reachable((*rooms, *surfaces), {object_id, *already_looked}, snapshot, state, since_s)
+    seen_s = node.last_seen_s if isinstance(node, ObjectNode) else inf
+    places = (
+        each.id
+        for each in snapshot.of_type(ObjectNode)
+        if each.support or (_is_nameless(each) and each.first_seen_s > seen_s)
+    )
+    reachable = _reachable((*rooms, *places), {object_id, *already_looked}, snapshot, state, since_s)
     if not reachable:
         name = name_of(object_id, snapshot)
         return Impossible(reason=f"I have looked everywhere I can get to and did not find {name}.", nodes=(object_id,))
-    node = snapshot.get(object_id)
     called = (node.label, *node.categories) if isinstance(node, ObjectNode) else ()
     plan = _plan(reachable, room_weights(called, last_room, snapshot), snapshot, state)
     return replace(plan, goals=(goal("found", object_id),), seeking=object_id)

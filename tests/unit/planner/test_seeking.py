@@ -3,6 +3,7 @@
 import pytest
 
 from majordomo.planner.likely_rooms import room_weights
+from majordomo.planner.plan import Impossible
 from majordomo.planner.sketch import Sketch, flat
 from majordomo.planner.verifier import Verifier
 from majordomo.scene_graph.nodes import ObjectState
@@ -66,6 +67,18 @@ def test_what_is_lost_is_looked_for_where_it_was_before_anywhere_else():
     snapshot = sketch.snapshot(robot_in="room_1", at=(4.0, 0.0))
     plan = VERIFIER.search_plan("cup_9", snapshot, 95.0)
     assert rooms_in_order(plan, snapshot) == ["room_3", "room_2", "room_1"]
+
+
+@pytest.mark.parametrize(
+    ("label", "first_seen_s", "looked_at"), [("unknown", 95.0, True), ("unknown", 85.0, False), ("cup", 95.0, False)]
+)
+def test_what_turned_up_without_a_name_may_be_what_is_lost_and_is_looked_at(label, first_seen_s, looked_at):
+    sketch = row("hall", "kitchen").thing("cup_9", "cup", on="table_2", state=ObjectState.MISSING)
+    sketch.thing("thing_1", label, on="table_1", first_seen_s=first_seen_s)
+    snapshot = sketch.snapshot(robot_in="room_1", at=(4.0, 0.0))
+    places = [step.args[0] for step in VERIFIER.search_plan("cup_9", snapshot, 95.0).steps]
+    assert ("thing_1" in places) is looked_at
+    assert isinstance(VERIFIER.search_plan("cup_9", snapshot, 95.0, places), Impossible)
 
 
 def test_every_place_is_in_the_tour_once():

@@ -98,7 +98,8 @@ class ArmAction(Action):
     def wait_for(self, person: str, what: str) -> Status:
         """Fail because of a person in the arm's way, who may move on; the arm stays where it is."""
         self.context.commands.arm = self.context.body.arm
-        message = f"{person} is where my arm would go to reach {what}."
+        purpose = "" if person == what else f" to reach {what}"
+        message = f"{person} is where my arm would go{purpose}."
         return self.fail(FailureCode.PERSON_IN_WAY, message, (person,))
 
     def slipped(self) -> bool:

@@ -10,7 +10,7 @@ from majordomo.planner.comparing import COMPARING, Comparing
 from majordomo.planner.grammar.syntax import Ask, NounPhrase, Pronoun, Quantity, Reference, Restriction
 from majordomo.planner.grounding import Ambiguous, Context, Grounding, NoReferent
 from majordomo.planner.matching import nodes_of
-from majordomo.planner.naming import at, listed, name_of
+from majordomo.planner.naming import at, listed, name_of, plain_name
 from majordomo.planner.narrowing import Narrowing
 from majordomo.planner.openness import about_loss, about_openness, is_open, not_known, undecided, without_openness
 from majordomo.planner.phrasing import article, describe, described, phrase_text, place_phrase, told_apart
@@ -231,7 +231,7 @@ class Answers:
     def _plain(self, node_id: str) -> str:
         node = self._snapshot.node(node_id)
         if isinstance(node, ObjectNode):
-            return " ".join(f"{node.color} {node.name or node.label}".split()).replace("_", " ")
+            return plain_name(node)
         return described(node_id, self._snapshot)
 
     def _exists(self, ask: Ask, found: Sequence[str], context: Context) -> str:

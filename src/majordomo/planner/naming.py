@@ -19,11 +19,22 @@ MOST_LISTED = 5
 IDENTIFIER = re.compile(r"[a-z][a-z0-9_]*_\d+(?:_pre)?\b")
 
 
+def plain_name(node: ObjectNode) -> str:
+    """What an object is called, without article or place: "blue bottle", "yellow thing" where its kind is not known."""
+    kind = "thing" if node.label == UNKNOWN_LABEL else node.label
+    return " ".join(f"{node.color} {node.name or kind}".split()).replace("_", " ")
+
+
+def bare_name(node: ObjectNode) -> str:
+    """What an object is called, without its place: "the blue bottle", or by the name that somebody gave it."""
+    return node.name or f"the {plain_name(node)}"
+
+
 def name_of(node_id: str, snapshot: Snapshot) -> str:
     """What a person would call a node: "the blue bottle", "the table in the kitchen", "the hall", "Anna"."""
     node = snapshot.get(node_id)
     if isinstance(node, ObjectNode):
-        name = node.name or f"the {node.color} {node.label}".replace("  ", " ").replace("_", " ")
+        name = bare_name(node)
         room = snapshot.room_of(node_id)
         fixed = node.support and not node.graspable
         return f"{name} in {name_of(room, snapshot)}" if fixed and room is not None else name

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from majordomo.planner.grammar.syntax import NounPhrase, Pronoun, Quantity, Reference, Spot
 from majordomo.planner.matching import nodes_of, similar
-from majordomo.planner.naming import at, listed, name_of
+from majordomo.planner.naming import at, bare_name, listed, name_of
 from majordomo.planner.vocabulary import ALWAYS_PLURAL, is_known, is_plural, normal, singular
 from majordomo.scene_graph.nodes import (
     CrossingStatus,
@@ -115,19 +115,15 @@ def _with_company(node_id: str, text: str, snapshot: Snapshot) -> str:
     if isinstance(node, RoomNode):
         there = [other for other in nodes_of(snapshot) if snapshot.room_of(other.id) == node_id]
         people = [other.name for other in there if isinstance(other, PersonNode) and other.name]
-        objects = [_bare(other) for other in there if isinstance(other, ObjectNode) and not other.graspable]
+        objects = [bare_name(other) for other in there if isinstance(other, ObjectNode) and not other.graspable]
         marks = people or objects
     else:
         marks = [
-            _bare(other)
+            bare_name(other)
             for other in nodes_of(snapshot)
             if isinstance(other, ObjectNode) and snapshot.support_of(other.id) == node_id
         ]
     return f"{text} with {marks[0]}" if marks else text
-
-
-def _bare(node: ObjectNode) -> str:
-    return node.name or f"the {node.color} {node.label}".replace("  ", " ").replace("_", " ")
 
 
 def alternatives(phrase: NounPhrase, same: Sequence[str], snapshot: Snapshot) -> str:

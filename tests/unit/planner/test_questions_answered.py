@@ -9,12 +9,13 @@ from hypothesis import strategies as st
 from grammar_home import home
 from majordomo.planner.grammar.parser import CommandGrammar
 from majordomo.planner.interpreter import Interpreter
+from majordomo.planner.naming import name_of
 from majordomo.planner.phrasing import article
 from majordomo.planner.plan import Dialogue, Kind, QueryKind
 from majordomo.planner.sketch import Sketch, flat
 from majordomo.planner.verifier import Verifier
 from majordomo.planner.whereabouts import age_phrase
-from majordomo.scene_graph.nodes import DoorState, ObjectState
+from majordomo.scene_graph.nodes import UNKNOWN_LABEL, DoorState, ObjectState
 from majordomo.skills.registry import load_registry
 
 EVERY_QUESTION = [
@@ -50,6 +51,16 @@ def ask(text, snapshot):
 )
 def test_an_age_is_said_in_its_own_unit(seconds, words):
     assert age_phrase(seconds) == words
+
+
+def test_what_has_no_name_is_called_a_thing_of_its_color():
+    sketch = Sketch().room("room_1", "hall", at=(0.0, 0.0)).furniture("table_1", "table", "room_1", at=(0.0, 1.0))
+    sketch.thing("unknown_1", UNKNOWN_LABEL, on="table_1", color="yellow").thing(
+        "unknown_2", UNKNOWN_LABEL, on="table_1"
+    )
+    snapshot = sketch.snapshot(robot_in="room_1", at=(0.0, 0.0))
+    assert ask("what is on the table?", snapshot).reply == "I have seen a yellow thing and a thing there."
+    assert name_of("unknown_1", snapshot) == "the yellow thing"
 
 
 def test_an_answer_says_how_old_it_is():

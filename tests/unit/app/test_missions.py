@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import math
 from dataclasses import replace
+from itertools import combinations
 
 import matplotlib.image
 import numpy as np
@@ -12,6 +13,7 @@ import pytest
 
 from majordomo.app.evaluations.inventory import GraphContents, GraphThing
 from majordomo.app.evaluations.missions.attempts import Attempts
+from majordomo.app.evaluations.missions.crowding import boxes_over
 from majordomo.app.evaluations.missions.disturbances import DISTURBANCES, Moment
 from majordomo.app.evaluations.missions.evaluation import met, summarize
 from majordomo.app.evaluations.missions.filmstrip import MOST, Still, draw_filmstrip
@@ -29,6 +31,8 @@ from majordomo.app.evaluations.missions.playing import (
 from majordomo.app.evaluations.missions.resident import meant
 from majordomo.app.evaluations.missions.ways import Ways
 from majordomo.planner.tasks import PlanReport, StepReport, StepStatus, Task, TaskStatus, TaskTimes
+from majordomo.simulation.blocks import Block, overlapping
+from majordomo.simulation.catalog import category_named
 from majordomo.simulation.house import Door, Object, Room, load_house, parse_disturbance
 from majordomo.skills.failures import Evidence, Failure, FailureCode
 
@@ -267,6 +271,26 @@ def test_the_robot_is_never_set_down_on_somebodys_feet_nor_on_what_lies_on_the_f
     assert left
     assert len(left) < len(spots(moment(name)))
     assert all(math.dist(spot, crowded) > 0.4 for spot in left)
+
+
+@pytest.mark.parametrize("item", [item for item in FLAT.furniture if item.id in ("desk_1", "shelf_1", "sofa_1")])
+def test_boxes_fill_every_level_around_what_stands_there_and_touch_nothing(item):
+    kind = category_named(item.category, static=True)
+    width_m, depth_m, height_m = item.size or kind.size_m
+    alone = boxes_over(item, scene())
+    *at, z_m = alone[0].center_m
+    around = Block(center_m=(*at, z_m), size_m=(0.08, 0.08, 0.1), yaw_rad=item.pose[2])
+    beside = boxes_over(item, scene({**CUP, "on": item.id, "position_m": [*at, z_m]}))
+    for boxes in (alone, beside):
+        bottoms_m = [box.center_m[2] - box.size_m[2] / 2 for box in boxes]
+        for level in kind.levels:
+            assert any(0.0 < bottom_m - level * height_m < 0.01 for bottom_m in bottoms_m)
+        apart = [(a, b) for a, b in combinations(boxes, 2) if abs(a.center_m[2] - b.center_m[2]) < 0.2]
+        assert not any(overlapping(a, b) for a, b in apart)
+    met = [box for box in beside if overlapping(box, around) and abs(box.center_m[2] - z_m) < 0.2]
+    assert not met
+    covered = sum(box.size_m[0] * box.size_m[1] for box in beside) / (width_m * depth_m * len(kind.levels))
+    assert covered > (0.4 if item.category == "sofa" else 0.6)
 
 
 def test_a_mission_gets_only_what_can_happen_to_it():

@@ -10,6 +10,7 @@ from typing import Any
 
 from numpy.random import Generator
 
+from majordomo.app.evaluations.missions.crowding import boxes_over
 from majordomo.app.evaluations.missions.mission import Mission
 from majordomo.app.evaluations.missions.outcome import HAND, Scene
 from majordomo.app.evaluations.missions.ways import PASSABLE_M, Ways
@@ -157,24 +158,20 @@ def _removed(moment: Moment) -> list[list[Event]]:
 
 
 def _crowded(moment: Moment) -> list[list[Event]]:
-    """Fill every level of the place with large boxes, side by side."""
+    """Fill every level of the place with boxes, side by side, around what stands there."""
     item = moment.scene.furniture(moment.place) if moment.place is not None else None
     if item is None:
         return []
-    kind = category_named(item.category, item.size, static=True)
-    size = item.size or kind.size_m
-    counts = [max(1, round(side / 0.3)) for side in size[:2]]
-    steps = [side / count for side, count in zip(size[:2], counts, strict=True)]
-    bottom_m = kind.levels[0] * size[2]
-    cos, sin = math.cos(item.pose[2]), math.sin(item.pose[2])
-    events: list[Event] = []
-    for i in range(counts[0]):
-        for j in range(counts[1]):
-            x, y = (i + 0.5) * steps[0] - size[0] / 2, (j + 0.5) * steps[1] - size[1] / 2
-            pose = [item.pose[0] + cos * x - sin * y, item.pose[1] + sin * x + cos * y, bottom_m, item.pose[2]]
-            box = {"category": "box", "size": [steps[0] - 0.03, steps[1] - 0.03, 0.25], "pose": pose}
-            events.append({"do": "add", "object": {"id": f"crowd_{item.id}_{i}_{j}", **box}})
-    return [events]
+    boxes = [
+        {
+            "id": f"crowd_{item.id}_{number}",
+            "category": "box",
+            "size": [*block.size_m],
+            "pose": [*block.center_m[:2], block.center_m[2] - block.size_m[2] / 2, block.yaw_rad],
+        }
+        for number, block in enumerate(boxes_over(item, moment.scene))
+    ]
+    return [[{"do": "add", "object": box} for box in boxes]]
 
 
 def _taken_away(moment: Moment) -> list[list[Event]]:

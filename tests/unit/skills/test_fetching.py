@@ -15,7 +15,7 @@ from majordomo.scene_graph.se3 import SE3
 from majordomo.skills.action import Grip
 from majordomo.skills.actions.approach import STOPPED_RAD
 from majordomo.skills.actions.arm import CARRY_LIFT_M, Retract
-from majordomo.skills.actions.arm_way import BARRED_COST_M, IN_THE_WAY_COST_M, clear_over_m, passing_over
+from majordomo.skills.actions.arm_way import BARRED_COST_M, IN_THE_WAY_COST_M, MET_COST_M, clear_over_m, passing_over
 from majordomo.skills.actions.finger_room import fingers_met, palm_meets_rims
 from majordomo.skills.actions.grasp import CloseGripper
 from majordomo.skills.actions.place import LowerToPlace
@@ -109,6 +109,18 @@ async def test_with_no_table_near_it_is_put_on_the_floor_beside_the_person(kitch
     snapshot = rehearsal.memory.snapshot()
     assert snapshot.support_of("bottle_1") is None
     assert snapshot.position("bottle_1", "room_1")[2] == pytest.approx(0.12)
+
+
+async def test_where_something_stands_before_a_thing_the_arm_comes_from_another_side(kitchen):
+    built = []
+    rehearsal = kitchen(lambda flat: built.append(flat) or flat)
+    bottle = rehearsal.memory.snapshot().position("bottle_1", "room_1")
+    x_m, y_m = 0.6 * bottle[:2] + 0.4 * np.array(rehearsal.body.pose.point)
+    built[0].thing("can_1", (float(x_m), float(y_m), 0.82), (0.07, 0.07, 0.13), on="table_1", graspable=True)
+    assert await carry_out(rehearsal, ("PICK", "bottle_1")) is None
+    base = np.array(rehearsal.body.pose.point)
+    places, snapshot = base[None, :], rehearsal.memory.snapshot()
+    assert passing_over(snapshot, "room_1", bottle, 0.8, places, {"bottle_1", "table_1"}, stamp_s=0.0) == 0.0
 
 
 @pytest.mark.parametrize("bearing_rad", [pi, 5 * pi / 4, 3 * pi / 2])
@@ -625,15 +637,21 @@ async def test_the_end_of_something_long_bars_the_arm_if_it_is_higher_than_the_h
     assert costs.tolist() == [cost_m, 0.0]
 
 
-@pytest.mark.parametrize(
-    ("name", "cost_m"), [("unknown_1", IN_THE_WAY_COST_M), ("cup_1", IN_THE_WAY_COST_M), ("plant_1", inf)]
-)
+@pytest.mark.parametrize(("name", "cost_m"), [("unknown_1", MET_COST_M), ("cup_1", MET_COST_M), ("plant_1", inf)])
 async def test_a_small_thing_without_a_name_does_not_keep_the_hand_from_what_it_may_be_a_part_of(flat, name, cost_m):
     built = flat().thing("book_1", (0.0, 0.0, 0.47), (0.2, 0.08, 0.03), graspable=True)
     built.thing(name, (0.02, 0.0, 0.6), (0.14, 0.13, 0.2), graspable=name == "cup_1")
     places = np.array(((0.6, 0.0), (-0.6, 0.3)))
     costs = passing_over(built.memory.snapshot(), "room_1", np.zeros(3), 0.5, places, {"book_1"}, stamp_s=0.0)
     assert costs.tolist() == [cost_m, cost_m]
+
+
+def test_what_the_arm_would_meet_in_the_middle_costs_more_than_what_it_would_graze(flat):
+    built = flat().thing("book_1", (0.0, 0.0, 0.47), (0.2, 0.08, 0.03), graspable=True)
+    snapshot = built.thing("bottle_1", (0.25, 0.0, 0.6), (0.07, 0.07, 0.24), graspable=True).memory.snapshot()
+    places = np.array([(0.6 * cos(turn), 0.6 * sin(turn)) for turn in (0.0, 0.2, 0.4, 0.8)])
+    costs = passing_over(snapshot, "room_1", np.zeros(3), 0.5, places, {"book_1"}, stamp_s=0.0)
+    assert costs[0] == MET_COST_M > costs[1] > costs[2] > IN_THE_WAY_COST_M > costs[3] == 0.0
 
 
 def test_no_arm_reaches_through_a_wall_and_one_does_through_a_door(flat):

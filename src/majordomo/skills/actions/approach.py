@@ -14,6 +14,7 @@ from majordomo.scene_graph.se3 import SE3
 from majordomo.skills.action import RobotContext
 from majordomo.skills.actions.arm_way import (
     BARRED_COST_M,
+    IN_THE_WAY_COST_M,
     nearest_to,
     passing_over,
     people_here,
@@ -77,8 +78,8 @@ class ApproachForReach(DriveTo):
         super().begin()
 
     def step(self) -> Status:
-        """Stay when the arm already reaches from here, else drive on."""
-        if self.context.stamp_s == self.started_s and self._reaches_from_here():
+        """Stay when the arm already reaches from here without passing over anything, else drive on."""
+        if self.context.stamp_s == self.started_s and self._reaches_from_here(IN_THE_WAY_COST_M):
             return Status.SUCCESS
         return super().step()
 
@@ -91,6 +92,8 @@ class ApproachForReach(DriveTo):
             return Status.RUNNING
         if not no_way:
             return super().blocked(obstacle, no_way=no_way)
+        if self._reaches_from_here(BARRED_COST_M):
+            return Status.SUCCESS
         if (person := self._who_bars()) is not None:
             message = f"{person} stands where I would have to be, or to reach, to get at {self.target}."
             return self.fail(FailureCode.PERSON_IN_WAY, message, (person, self.target))
@@ -142,7 +145,8 @@ class ApproachForReach(DriveTo):
             if np.isfinite(cost)
         ]
 
-    def _reaches_from_here(self) -> bool:
+    def _reaches_from_here(self, most_m: float) -> bool:
+        """Whether the arm gets there from here, and what is on its way costs less than that."""
         anchor = resolved(self._where)
         if anchor.node_id not in self.context.snapshot:
             return False
@@ -157,7 +161,7 @@ class ApproachForReach(DriveTo):
         over_m = passing_over(
             self.context.snapshot, frame, target, low_m, here, self._spared(), stamp_s=self.context.stamp_s
         )[0]
-        faces = over_m + self._price_m(here)[0] < BARRED_COST_M and self._faces_board(frame, here)[0]
+        faces = over_m + self._price_m(here)[0] < most_m and self._faces_board(frame, here)[0]
         return bool(nearest_m < float(np.hypot(x_m, y_m)) < farthest_m and fits and faces and not stopped)
 
     def _stopped_lately(self, bearings_rad: Points) -> NDArray[np.bool_]:

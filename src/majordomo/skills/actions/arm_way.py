@@ -19,7 +19,8 @@ from majordomo.skills.navigation.route import Routes, find_routes
 from majordomo.skills.navigation.walls import Walls
 from majordomo.skills.seats import rims
 
-IN_THE_WAY_COST_M = 3.0
+IN_THE_WAY_COST_M, MET_COST_M = 3.0, 12.0
+"""What it costs that the arm just touches a small thing, and that it goes straight through the middle of one."""
 BARRED_COST_M = 20.0
 """More than any other: the arm would meet furniture that is higher than the hand, or the end of a shelf."""
 SAMPLE_M = 0.06
@@ -108,9 +109,9 @@ def passing_over(
     snapshot: Snapshot, frame: str, target: Points, low_m: float, points: Points, spared: set[str], *, stamp_s: float
 ) -> Points:
     """For each place, (N,), what it costs that things which reach up to ``low_m`` lie on the way of the hand from there
-    straight to the target: small ones may be pushed, furniture bars it, and so does a person who was there a while ago;
-    no place will do from which the hand is sure to meet a wall or furniture, the back or the arm of the seat itself
-    that it reaches for included, or comes near to a person who is there.
+    straight to the target: small ones may be pushed, the less the better, furniture bars it, and so does a person who
+    was there a while ago; no place will do from which the hand is sure to meet a wall or furniture, the back or the arm
+    of the seat itself that it reaches for included, or comes near to a person who is there.
     """
     way, farthest_m = _ways_straight(target, points)
     costs = np.where(_meets_wall(snapshot, frame, target, way), np.inf, 0.0)
@@ -127,7 +128,10 @@ def passing_over(
         away_m = footprint(snapshot, node, frame).distance_m(way.reshape(-1, 2)).reshape(way.shape[:2])
         nearest_m = away_m.min(axis=0)
         bars = not (node.graspable or is_small_and_nameless(node))
-        costs += np.where(nearest_m < ARM_HALF_WIDTH_M, BARRED_COST_M if bars else IN_THE_WAY_COST_M, 0.0)
+        cost_m = (
+            BARRED_COST_M if bars else np.interp(nearest_m, (0.0, ARM_HALF_WIDTH_M), (MET_COST_M, IN_THE_WAY_COST_M))
+        )
+        costs += np.where(nearest_m < ARM_HALF_WIDTH_M, cost_m, 0.0)
         if bars:
             costs += np.where(nearest_m < SURELY_MET_M, np.inf, 0.0)
     for person in snapshot.of_type(PersonNode):

@@ -10,15 +10,17 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from math import cos, inf, pi, sin
 
+import numpy as np
+
 from majordomo.scene_graph.nodes import ObjectNode, ObjectState
 from majordomo.scene_graph.se3 import SE3
 from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.skills.boards import HAND_HALF_WIDTH_M, board_under, boards_of, headroom_m
 from majordomo.skills.errors import Unreachable
-from majordomo.skills.geometry import wrap_rad
+from majordomo.skills.geometry import Pose2, wrap_rad
 from majordomo.skills.kinematics import arm_target
 from majordomo.skills.ports import ArmGeometry, ArmTarget, BodyLimits
-from majordomo.skills.seats import is_seat
+from majordomo.skills.seats import is_seat, rims
 
 Size3 = tuple[float, float, float]
 Met = Callable[[float, float], int]
@@ -60,6 +62,8 @@ PALM_HALF_HEIGHT_M, FINGER_HALF_HEIGHT_M, LEVEL_BITE_M = 0.02, 0.015, 0.005
 """Half of how high palm and fingers of a level hand are, and how far at least below a thing's top their middle is."""
 TIP_AIR_M = 0.01
 """Between the finger tips and a thing over which they come in below a board."""
+SWEEP_M = 0.03
+"""How finely the hand's way over a seat is looked at."""
 TALL_M, TALL_RATIO = 0.16, 2.0
 SQUARE_SHARE = 0.15
 
@@ -239,10 +243,15 @@ def _in_the_way(snapshot: Snapshot, object_id: str, T_base_object: SE3) -> bool:
     """
     node = snapshot.object(object_id)
     hand_low_m = underside_m(node.size_m, T_base_object.z_m) - LEVEL_AIR_M
+    support = snapshot.support_of(object_id)
     for other in snapshot.of_type(ObjectNode):
         if other.id == object_id or other.state is not ObjectState.PRESENT:
             continue
         if snapshot.room_of(other.id) != snapshot.room_of(object_id):
+            continue
+        if other.id == support and is_seat(other.label) and rims(other):
+            if _meets_rims(other, T_base_object @ snapshot.transform(object_id, other.id), T_base_object, hand_low_m):
+                return True
             continue
         center = (T_base_object @ snapshot.transform(object_id, other.id)).translation_m
         half_m = max(other.size_m[:2]) / 2
@@ -250,6 +259,21 @@ def _in_the_way(snapshot: Snapshot, object_id: str, T_base_object: SE3) -> bool:
         if beside and center[2] + other.size_m[2] / 2 > hand_low_m:
             return True
     return False
+
+
+def _meets_rims(seat: ObjectNode, T_base_seat: SE3, T_base_object: SE3, hand_low_m: float) -> bool:
+    """Whether back or arms of the seat on which an object stands reach up into what a level hand sweeps on its way from
+    the seat's edge to a little beyond the object.
+    """
+    pose, reach_m = Pose2.of(T_base_seat), T_base_object.x_m + TIP_M + LEVEL_AIR_M
+    along, across = np.meshgrid(
+        np.linspace(0.0, reach_m, int(reach_m / SWEEP_M) + 2), (-HAND_HALF_WIDTH_M, 0.0, HAND_HALF_WIDTH_M)
+    )
+    swept = pose.inverse_apply(np.stack([along.ravel(), across.ravel()], axis=1))
+    over = swept[(np.abs(swept) < np.array(seat.size_m[:2]) / 2).all(axis=1)]
+    (at,) = pose.inverse_apply(np.array([[T_base_object.x_m, T_base_object.y_m]]))
+    high = (rim.beyond(at) for rim in rims(seat) if T_base_seat.z_m + rim.top_m > hand_low_m)
+    return any(rim.covers(over, 0.0).any() for rim in high)
 
 
 def is_covered(snapshot: Snapshot, object_id: str, room: str) -> bool:

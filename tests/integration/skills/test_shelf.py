@@ -17,15 +17,16 @@ BOARDS_M = (0.4, 0.8, 1.2, 1.6)
 IN_REACH_M = (0.4, 0.8)
 
 
-def with_shelf(make_house, category, on_shelf=(), turn=0.0):
-    """A thing on a table, and a shelf whose back is at a wall."""
+def with_shelf(make_house, category, on_shelf=(), turn=0.0, from_kind="table"):
+    """A thing on a table, or a chair, and a shelf whose back is at a wall."""
     furniture = [
-        {"id": "table_1", "category": "table", "pose": [1.4, -1.2, 0.0]},
+        {"id": "table_1", "category": from_kind, "pose": [1.4, -1.2, 0.0]},
         {"id": "shelf_1", "category": "shelf", "pose": [-1.2, 2.5 - 0.2, 0.0]},
     ]
     if turn:
         furniture[1]["pose"] = [-3.0 + 0.2, 0.6, pi / 2]
-    things = [{"id": f"{category}_1", "category": category, "on": "table_1", "offset": [0.0, 0.25]}, *on_shelf]
+    offset = [0.0, 0.25] if from_kind == "table" else [0.05, -0.05]
+    things = [{"id": f"{category}_1", "category": category, "on": "table_1", "offset": offset}, *on_shelf]
     return make_house(furniture, things, [0.0, 0.0, 0.5])
 
 
@@ -69,6 +70,13 @@ async def test_where_one_board_is_crowded_another_is_taken(stage, make_house):
     assert {round(built.where(box["id"])["position_m"][2], 1) for box in crowd} == {0.8}
     assert await bring(built, "bottle_1") is None
     assert board_of(built, "bottle_1", 0.24) == 0.4
+
+
+async def test_a_bottle_is_brought_from_a_chair_to_a_board(stage, make_house):
+    """Held at its neck by a hand that points down it would not get in below the board above."""
+    built = await stage(with_shelf(make_house, "bottle", from_kind="chair"), noise_m=0.004)
+    assert await bring(built, "bottle_1") is None
+    assert board_of(built, "bottle_1", 0.24) in IN_REACH_M
 
 
 async def test_of_a_shelf_whose_boards_are_not_known_it_is_said_that_the_arm_does_not_reach_it(stage, make_house):

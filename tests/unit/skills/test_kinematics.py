@@ -138,6 +138,26 @@ def test_a_bottle_is_taken_level_unless_something_stands_before_it_as_high_as_th
     assert prefers_level(built.memory.snapshot(), "bottle_1", ahead) is level
 
 
+@pytest.mark.parametrize(
+    ("kind", "back_rad", "bearing_rad", "level"),
+    [
+        ("chair", pi / 2, -pi / 2, True),
+        ("chair", pi / 2, 0.0, True),
+        ("chair", pi / 2, pi / 2, False),
+        ("chair", None, -pi / 2, False),
+        ("sofa", pi / 2, -pi / 2, True),
+        ("sofa", pi / 2, 0.0, False),
+    ],
+)
+def test_a_bottle_on_a_seat_is_taken_level_unless_over_its_back_or_an_arm(flat, kind, back_rad, bearing_rad, level):
+    size_m = (0.45, 0.45, 0.9) if kind == "chair" else (1.4, 0.9, 0.8)
+    built = flat().thing(f"{kind}_1", (0.0, 0.0, size_m[2] / 2), size_m, support=True, back_rad=back_rad)
+    z_m = 0.5 * size_m[2] + 0.12
+    built.thing("bottle_1", (0.0, 0.0, z_m), (0.07, 0.07, 0.24), on=f"{kind}_1", graspable=True)
+    from_there = SE3.from_xyz_yaw(0.65, 0.0, z_m, pi - bearing_rad)
+    assert prefers_level(built.memory.snapshot(), "bottle_1", from_there) is level
+
+
 def test_a_cup_is_taken_from_above_and_level_under_a_board(flat):
     built = flat().table().thing("cup_1", (1.0, 1.2, 0.8), (0.08, 0.08, 0.1), on="table_1")
     ahead = SE3.from_xyz_yaw(0.6, 0.0, 0.8, 0.0)

@@ -60,6 +60,11 @@ class MissionStage(Stage):
             self._heard = self.newest
         return self._heard
 
+    @property
+    def frame(self) -> None:
+        """What is seen here is played: there are no pictures."""
+        return
+
     async def ask(self, *goals: Goal, body: Any = None, silent: tuple[type[Exception], ...] = (OSError,)) -> None:
         """Set the crew to work on a request that means these goals. ``body``: stands between skills and the robot."""
         self.crew = Crew(

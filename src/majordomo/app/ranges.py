@@ -1,4 +1,6 @@
-"""Raw proximity for obstacle avoidance, from the newest LiDAR revolution; an adapter between two siblings."""
+"""Raw proximity for obstacle avoidance, from the newest LiDAR revolution and camera frame; an adapter between two
+siblings.
+"""
 
 from __future__ import annotations
 
@@ -7,6 +9,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from majordomo.perception.objects.projection import back_project
 from majordomo.perception.ports import LidarScan
 from majordomo.perception.range_noise import calmed
 from majordomo.perception.sensing import SensorBuffer, ray_directions_base, scan_points_between
@@ -18,6 +21,7 @@ FLOOR_REACH_M = 2.6
 """Rays that should meet the floor beyond this tell its height badly."""
 FLOOR_M = 0.06
 """Returns below this height are floor: three standard deviations of range noise at a steep ring."""
+SEEN_STEP_PX, SEEN_REACH_M = 3, 2.0
 
 
 class ScanRanges:
@@ -47,6 +51,17 @@ class ScanRanges:
         if scan is not None and scan.stamp_s != self._floor_stamp_s:
             self._floor, self._floor_stamp_s = _floor_returns(scan), scan.stamp_s
         return self._floor
+
+    def seen_base(self) -> NDArray[np.float64]:
+        """Points within the arm's reach that the newest camera frame shows, one of every few pixels."""
+        frame = self._buffer.frame
+        if frame is None:
+            return np.zeros((0, 3))
+        v, u = np.mgrid[0 : frame.depth_m.shape[0] : SEEN_STEP_PX, 0 : frame.depth_m.shape[1] : SEEN_STEP_PX]
+        depth_m = frame.depth_m[v, u].astype(np.float64)
+        known = (depth_m > 0.0) & (depth_m < SEEN_REACH_M)
+        points = back_project(u[known], v[known], depth_m[known], frame.intrinsics)
+        return np.asarray(frame.T_base_camera.apply(points))
 
 
 def _floor_returns(scan: LidarScan) -> FloorReturns:

@@ -106,6 +106,7 @@ class Executor:
         context = self.context
         context.body, context.stamp_s = state, stamp_s
         context.obstacles_base, context.floor_base = self._ranges.points_base(), self._ranges.floor_base()
+        context.seen_base = self._ranges.seen_base
         return context
 
     def _work(self, context: RobotContext, dt_s: float) -> None:

@@ -216,6 +216,10 @@ class StillBody:
         """Nor anything low."""
         return NO_FLOOR
 
+    def seen_base(self) -> NDArray[np.float64]:
+        """Nor has it a camera."""
+        return np.zeros((0, 3))
+
     def _answer(self) -> None:
         if self.silent:
             raise TimeoutError("the body does not answer")

@@ -6,7 +6,7 @@ waits.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -61,11 +61,16 @@ class Grip:
     size_m: tuple[float, float, float]
 
 
+def _nothing_seen() -> NDArray[np.float64]:
+    return np.zeros((0, 3))
+
+
 @dataclass(kw_only=True)
 class RobotContext:
     """What actions share: the graph, the body as measured at this tick, raw obstacle points, and the commands to send.
 
-    ``obstacles_base``: (N, 3), base frame; ``floor_base``: what may rise a little from the floor. ``path_room``: the
+    ``obstacles_base``: (N, 3), base frame; ``floor_base``: what may rise a little from the floor.
+    ``seen_base``: gives the points (N, 3), base frame, that the depth camera saw last. ``path_room``: the
     path being followed, for display, current room's frame. ``surroundings`` remembers obstacle points, ``grip`` what
     the fingers hold, ``blocked_doors`` in which doors something stood, and when, ``blocked_spots`` over which
     points of which node the arm was stopped as it put something down, and when, ``blocked_reaches`` from which side
@@ -80,6 +85,7 @@ class RobotContext:
     stamp_s: float = 0.0
     obstacles_base: NDArray[np.float64] = field(default_factory=lambda: np.zeros((0, 3)))
     floor_base: FloorReturns = NO_FLOOR
+    seen_base: Callable[[], NDArray[np.float64]] = _nothing_seen
     commands: Commands = field(default_factory=Commands)
     path_room: tuple[tuple[float, float], ...] = ()
     surroundings: Surroundings = field(default_factory=Surroundings)

@@ -136,3 +136,9 @@ class RangeSource(Protocol):
     def floor_base(self) -> FloorReturns:
         """What the newest scan says about the floor around the base."""
         ...
+
+    def seen_base(self) -> NDArray[np.float64]:
+        """(N, 3) points in the base frame that the depth camera saw last, the robot's own arm included; none without
+        one.
+        """
+        ...

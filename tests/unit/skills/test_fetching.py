@@ -19,7 +19,7 @@ from majordomo.skills.actions.arm_way import BARRED_COST_M, IN_THE_WAY_COST_M, M
 from majordomo.skills.actions.finger_room import fingers_met, palm_meets_rims
 from majordomo.skills.actions.grasp import CloseGripper
 from majordomo.skills.actions.place import LowerToPlace
-from majordomo.skills.actions.spot_choice import ChooseSpot
+from majordomo.skills.actions.spot_choice import CheckSpot, ChooseSpot
 from majordomo.skills.actions.spot_reach import Placement, admitted, pressing_m
 from majordomo.skills.anchor import Anchor
 from majordomo.skills.doubles import BoxWorld, FakeBody, Rehearsal
@@ -735,6 +735,39 @@ async def test_who_stands_at_the_only_free_spot_is_the_reason_why_nothing_is_put
     )
     failure = await rehearsal.run([ChooseSpot(context, placement)])
     assert (failure.code, failure.evidence.nodes) == (FailureCode.PERSON_IN_WAY, ("person_1", "table_2"))
+
+
+@pytest.mark.parametrize(
+    ("across_m", "high_m", "taken"),
+    [(0.02, 0.2, "another"), (0.02, 0.02, "the same"), (0.3, 0.2, "the same"), (3.0, 0.2, "none")],
+)
+async def test_where_the_camera_sees_what_is_not_in_the_graph_nothing_is_put(kitchen, across_m, high_m, taken):
+    rehearsal = kitchen()
+    context = await rehearsal.prepare()
+    assert await carry_out(rehearsal, ("PICK", "bottle_1"), ("GOTO", "table_2")) is None
+    actions = SKILLS["PLACE"].actions(context, ["bottle_1", "table_2"])
+    check = next(action for action in actions if isinstance(action, CheckSpot))
+    assert await rehearsal.run(actions[: actions.index(check)], 900.0) is None
+    placement = check._placement
+    assert await rehearsal.run([check]) is None
+    chosen = placement.spot.anchor
+    x_m, y_m, z_m = chosen.in_base(context)
+    sides = np.linspace(-3.0, 3.0, 600) if taken == "none" else np.linspace(across_m, across_m + 0.05, 12)
+    along, aside, up = np.meshgrid(np.linspace(-0.05, 0.05, 20), sides, [0.5, 0.9, 1.0], indexing="ij")
+    turn_rad, away_m = np.arctan2(y_m, x_m), np.hypot(x_m, y_m)
+    along = along.ravel() + away_m if taken != "none" else along.ravel() + 0.5
+    x, y = (
+        along * np.cos(turn_rad) - aside.ravel() * np.sin(turn_rad),
+        along * np.sin(turn_rad) + aside.ravel() * np.cos(turn_rad),
+    )
+    context.seen_base = lambda: np.column_stack((x, y, z_m + high_m * up.ravel()))
+    failure = await rehearsal.run([check])
+    if taken == "none":
+        assert failure.code is FailureCode.UNREACHABLE
+        assert (chosen.node_id, chosen.point_m) in context.blocked_spots
+    else:
+        assert failure is None
+        assert (placement.spot.anchor == chosen) is (taken == "the same")
 
 
 async def test_somebody_who_steps_before_the_arm_is_not_touched_and_the_arm_waits(kitchen):

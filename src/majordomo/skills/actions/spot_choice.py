@@ -21,6 +21,7 @@ from majordomo.skills.actions.arm_way import (
     spared_nodes,
     underside_of_held_m,
 )
+from majordomo.skills.actions.seen_in_way import Seen
 from majordomo.skills.actions.spot_reach import Placement, admitted, is_within_lift, pressing_m
 from majordomo.skills.boards import TURN_RAD
 from majordomo.skills.failures import FailureCode
@@ -144,7 +145,11 @@ class ChooseSpot(Action):
 
 
 class CheckSpot(Action):
-    """Looks the chosen spot over once perception has seen it from near; takes another within reach when it is taken."""
+    """Looks the chosen spot over once perception has seen it from near; takes another within reach when it is taken.
+
+    Fails with SUPPORT_FULL where there is none any more, and with UNREACHABLE where the camera sees something in the
+    way to all of them that the graph does not have.
+    """
 
     def __init__(self, context: RobotContext, placement: Placement) -> None:
         super().__init__(f"check the spot at {placement.target}", context)
@@ -161,12 +166,16 @@ class CheckSpot(Action):
         within = [(self._offset_m(spot, chosen), i) for i, spot in enumerate(here) if self._within_reach(spot)]
         if not within:
             return _full(self, self._placement)
-        least_m, best = inf, min(within)[1]
+        seen, least_m, best = Seen(self.context, self._placement.target), inf, None
         for offset_m, i in sorted(within):
             if offset_m >= least_m:
                 break
-            if (cost_m := offset_m + self._over_m(here[i])) < least_m:
+            if (cost_m := offset_m + self._over_m(here[i])) < least_m and not seen.is_in_way_to(here[i]):
                 least_m, best = cost_m, i
+        if best is None:
+            self.context.blocked_spots[chosen.anchor.node_id, chosen.anchor.point_m] = self.context.stamp_s
+            message = f"something that I do not know yet is in the arm's way to {self._placement.target}."
+            return self.fail(FailureCode.UNREACHABLE, message, (self._placement.target,), f"{len(within)} spots tried")
         self._placement.spot = here[best]
         return Status.SUCCESS
 

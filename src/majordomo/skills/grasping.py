@@ -11,13 +11,14 @@ from dataclasses import dataclass, replace
 from math import cos, inf, pi, sin
 
 import numpy as np
+from numpy.typing import NDArray
 
 from majordomo.scene_graph.nodes import ObjectNode, ObjectState
 from majordomo.scene_graph.se3 import SE3
 from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.skills.boards import HAND_HALF_WIDTH_M, board_under, boards_of, headroom_m
 from majordomo.skills.errors import Unreachable
-from majordomo.skills.geometry import Pose2, wrap_rad
+from majordomo.skills.geometry import Points, Pose2, wrap_rad
 from majordomo.skills.kinematics import arm_target
 from majordomo.skills.ports import ArmGeometry, ArmTarget, BodyLimits
 from majordomo.skills.seats import is_seat, rims
@@ -115,9 +116,11 @@ def choose_grasp(
     limits: BodyLimits,
     met: Met = none_met,
     roof_m: float = inf,
+    level_too: bool = True,
 ) -> Grasp:
     """The first grasp that the arm can carry out at the object's present height and distance; ``met``: from above, the
-    fingers close from where fewer of them come down on something; ``roof_m``: as ``roof_over_m`` gives it.
+    fingers close from where fewer of them come down on something; ``roof_m``: as ``roof_over_m`` gives it;
+    ``level_too``: whether a level hand gets there at all.
 
     Raises:
         Unreachable: none can be; the error is that of the preferred grasp.
@@ -125,6 +128,8 @@ def choose_grasp(
     first: Unreachable | None = None
     options = grasp_options(size_m, T_base_object, level_first=level_first, limits=limits, met=met, roof_m=roof_m)
     for grasp in options:
+        if grasp.is_level and not level_too:
+            continue
         try:
             grasp.approach(float(T_base_object.x_m), geometry, limits)
         except Unreachable as error:
@@ -134,10 +139,12 @@ def choose_grasp(
     raise first or _no_way(size_m, T_base_object)
 
 
-def can_grasp(size_m: Size3, T_base_object: SE3, *, geometry: ArmGeometry, limits: BodyLimits) -> bool:
-    """Whether the arm can take an object that is so before it, in any way."""
+def can_grasp(
+    size_m: Size3, T_base_object: SE3, *, geometry: ArmGeometry, limits: BodyLimits, level_too: bool = True
+) -> bool:
+    """Whether the arm can take an object that is so before it, in any way, or in any but level."""
     try:
-        choose_grasp(size_m, T_base_object, level_first=False, geometry=geometry, limits=limits)
+        choose_grasp(size_m, T_base_object, level_first=False, geometry=geometry, limits=limits, level_too=level_too)
     except Unreachable:
         return False
     return True
@@ -243,15 +250,13 @@ def _in_the_way(snapshot: Snapshot, object_id: str, T_base_object: SE3) -> bool:
     """
     node = snapshot.object(object_id)
     hand_low_m = underside_m(node.size_m, T_base_object.z_m) - LEVEL_AIR_M
-    support = snapshot.support_of(object_id)
+    seat = _seat_under(snapshot, object_id)
+    if seat is not None and meets_seat_level(snapshot, object_id, T_base_object):
+        return True
     for other in snapshot.of_type(ObjectNode):
-        if other.id == object_id or other.state is not ObjectState.PRESENT:
+        if other.id == object_id or other.state is not ObjectState.PRESENT or other == seat:
             continue
         if snapshot.room_of(other.id) != snapshot.room_of(object_id):
-            continue
-        if other.id == support and is_seat(other.label) and rims(other):
-            if _meets_rims(other, T_base_object @ snapshot.transform(object_id, other.id), T_base_object, hand_low_m):
-                return True
             continue
         center = (T_base_object @ snapshot.transform(object_id, other.id)).translation_m
         half_m = max(other.size_m[:2]) / 2
@@ -261,19 +266,55 @@ def _in_the_way(snapshot: Snapshot, object_id: str, T_base_object: SE3) -> bool:
     return False
 
 
-def _meets_rims(seat: ObjectNode, T_base_seat: SE3, T_base_object: SE3, hand_low_m: float) -> bool:
-    """Whether back or arms of the seat on which an object stands reach up into what a level hand sweeps on its way from
-    the seat's edge to a little beyond the object.
+def meets_seat_level(snapshot: Snapshot, object_id: str, T_base_object: SE3) -> bool:
+    """Whether a level hand would meet the back or an arm of the seat on which an object stands, on its way straight
+    ahead from the seat's edge to a little beyond the object; never of what stands on anything else, nor of a seat whose
+    back and arms nobody knows.
     """
-    pose, reach_m = Pose2.of(T_base_seat), T_base_object.x_m + TIP_M + LEVEL_AIR_M
-    along, across = np.meshgrid(
-        np.linspace(0.0, reach_m, int(reach_m / SWEEP_M) + 2), (-HAND_HALF_WIDTH_M, 0.0, HAND_HALF_WIDTH_M)
+    seat = _seat_under(snapshot, object_id)
+    if seat is None:
+        return False
+    T_base_seat = T_base_object @ snapshot.transform(object_id, seat.id)
+    hand_low_m = underside_m(snapshot.object(object_id).size_m, T_base_object.z_m) - LEVEL_AIR_M
+    return bool(
+        level_meets_rims(
+            seat,
+            Pose2.of(T_base_seat),
+            float(T_base_seat.z_m),
+            np.array((T_base_object.x_m, T_base_object.y_m)),
+            np.zeros(1),
+            hand_low_m,
+        )[0]
     )
-    swept = pose.inverse_apply(np.stack([along.ravel(), across.ravel()], axis=1))
-    over = swept[(np.abs(swept) < np.array(seat.size_m[:2]) / 2).all(axis=1)]
-    (at,) = pose.inverse_apply(np.array([[T_base_object.x_m, T_base_object.y_m]]))
-    high = (rim.beyond(at) for rim in rims(seat) if T_base_seat.z_m + rim.top_m > hand_low_m)
-    return any(rim.covers(over, 0.0).any() for rim in high)
+
+
+def level_meets_rims(
+    seat: ObjectNode, pose: Pose2, seat_z_m: float, middle: Points, toward_rad: Points, low_m: float
+) -> NDArray[np.bool_]:
+    """(N,) whether a level hand with its fingers about ``middle`` (2,) meets the back or an arm of a seat, for each of
+    the directions ``toward_rad`` (N,) in which it comes; all in one frame, in which the seat has that ``pose`` and its
+    middle is ``seat_z_m`` high. ``low_m``: height of what is lowest of the hand.
+    """
+    along, across = np.meshgrid(
+        np.arange(TIP_M + LEVEL_AIR_M, -max(seat.size_m[:2]), -SWEEP_M), (-HAND_HALF_WIDTH_M, 0.0, HAND_HALF_WIDTH_M)
+    )
+    toward = np.stack((np.cos(toward_rad), np.sin(toward_rad)), axis=-1)[:, None]
+    aside = np.stack((-toward[..., 1], toward[..., 0]), axis=-1)
+    hand = pose.inverse_apply(
+        (middle + along.ravel()[:, None] * toward + across.ravel()[:, None] * aside).reshape(-1, 2)
+    )
+    over = (np.abs(hand) < np.array(seat.size_m[:2]) / 2).all(axis=1)
+    met = np.zeros(len(hand), np.bool_)
+    for rim in rims(seat):
+        if seat_z_m + rim.top_m > low_m:
+            met |= rim.covers(hand, 0.0) & over
+    return np.asarray(met.reshape(len(toward_rad), -1).any(axis=1))
+
+
+def _seat_under(snapshot: Snapshot, object_id: str) -> ObjectNode | None:
+    """The seat on which an object stands, if it is known where its back is, or what its arms are."""
+    support = snapshot.get(snapshot.support_of(object_id) or "")
+    return support if isinstance(support, ObjectNode) and is_seat(support.label) and rims(support) else None
 
 
 def is_covered(snapshot: Snapshot, object_id: str, room: str) -> bool:

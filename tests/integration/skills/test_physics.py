@@ -165,6 +165,23 @@ async def test_to_a_bottle_close_to_the_back_of_a_chair_the_palm_does_not_come_a
     assert (built.truth["robot"]["holding"], built.truth["collisions"]) == ("bottle_1", 0)
 
 
+@pytest.mark.parametrize("turn", [1.57, variant(0.0), variant(3.14)])
+async def test_a_bottle_held_level_is_put_on_a_chair_off_its_back_and_taken_up_again(stage, make_house, turn):
+    furniture = [
+        {"id": "chair_1", "category": "chair", "pose": [1.2, 0.4, turn]},
+        {"id": "table_1", "category": "table", "pose": [-1.6, -1.2, 0.0]},
+    ]
+    things = [
+        {"id": "bottle_1", "category": "bottle", "on": "table_1", "offset": [0.0, 0.25]},
+        {"id": "cup_1", "category": "cup", "on": "chair_1", "offset": [0.0, -0.1]},
+    ]
+    built = await stage(make_house(furniture, things, [0.0, 0.0, 0.0]), noise_m=0.004)
+    there = (("GOTO", "bottle_1"), ("PICK", "bottle_1"), ("GOTO", "chair_1"), ("PLACE", "bottle_1", "chair_1"))
+    assert await built.carry_out(*there, ("GOTO", "table_1"), ("GOTO", "bottle_1"), ("PICK", "bottle_1")) is None
+    built.truth = await built.robot.truth()
+    assert (built.truth["robot"]["holding"], built.truth["collisions"]) == ("bottle_1", 0)
+
+
 @pytest.mark.parametrize("in_m", [-0.2, variant(0.05)])
 async def test_a_can_that_touches_the_arm_of_a_sofa_is_taken_with_the_fingers_before_and_behind_it(
     stage, make_house, in_m

@@ -910,4 +910,4 @@ async def test_what_is_put_before_the_back_of_a_chair_comes_with_the_palm_along_
     places = np.array([[-1.0, -0.6], [-0.3, 0.13]])
     assert admitted(context, spot, places).tolist() == [from_front, from_side]
     context.body = replace(context.body, arm=replace(arm, wrist_pitch_rad=0.0))
-    assert admitted(context, spot, places).all(), "a level hand is behind what it holds"
+    assert admitted(context, spot, places).tolist() == [True, False], "a level hand is behind what it holds, and broad"

@@ -11,7 +11,15 @@ from hypothesis import strategies as st
 
 from majordomo.scene_graph.se3 import SE3
 from majordomo.skills.errors import Unreachable
-from majordomo.skills.grasping import MAX_WIDTH_M, TIP_M, choose_grasp, grasp_options, prefers_level
+from majordomo.skills.grasping import (
+    MAX_WIDTH_M,
+    TIP_M,
+    can_grasp,
+    choose_grasp,
+    grasp_options,
+    meets_seat_level,
+    prefers_level,
+)
 from majordomo.skills.kinematics import arm_target, gripper_pose, reach_band_m
 from majordomo.skills.ports import ArmGeometry, ArmTarget, BodyLimits
 
@@ -156,6 +164,18 @@ def test_a_bottle_on_a_seat_is_taken_level_unless_over_its_back_or_an_arm(flat, 
     built.thing("bottle_1", (0.0, 0.0, z_m), (0.07, 0.07, 0.24), on=f"{kind}_1", graspable=True)
     from_there = SE3.from_xyz_yaw(0.65, 0.0, z_m, pi - bearing_rad)
     assert prefers_level(built.memory.snapshot(), "bottle_1", from_there) is level
+
+
+@pytest.mark.parametrize(("y_m", "level"), [(0.0, True), (0.1, True), (0.17, False)])
+def test_at_the_back_of_a_chair_no_level_hand_closes_however_far_the_bottle_is(flat, y_m, level):
+    built = flat().thing("chair_1", (0.0, 0.0, 0.45), (0.45, 0.45, 0.9), support=True, back_rad=pi / 2)
+    built.thing("bottle_1", (0.0, y_m, 0.57), (0.07, 0.07, 0.24), on="chair_1", graspable=True)
+    far = SE3.from_xyz_yaw(1.0, 0.0, 0.57, -pi / 2)  # so far that only a level hand gets there
+    snapshot, size_m = built.memory.snapshot(), (0.07, 0.07, 0.24)
+    assert meets_seat_level(snapshot, "bottle_1", far) is not level
+    free = not meets_seat_level(snapshot, "bottle_1", far)
+    assert can_grasp(size_m, far, geometry=GEOMETRY, limits=LIMITS)
+    assert can_grasp(size_m, far, geometry=GEOMETRY, limits=LIMITS, level_too=free) is level
 
 
 def test_a_cup_is_taken_from_above_and_level_under_a_board(flat):

@@ -27,7 +27,7 @@ from majordomo.skills.anchor import Anchor, AnchorSource, resolved
 from majordomo.skills.boards import board_under, is_before
 from majordomo.skills.failures import FailureCode
 from majordomo.skills.geometry import Point2, Points
-from majordomo.skills.grasping import DOWN_RAD, can_grasp, is_tall, underside_m
+from majordomo.skills.grasping import DOWN_RAD, can_grasp, is_tall, meets_seat_level, underside_m
 from majordomo.skills.navigation.driver import DriverConfig
 from majordomo.skills.navigation.plan import Goal
 from majordomo.skills.navigation.pose import planar_pose, robot_frame
@@ -193,7 +193,16 @@ class ApproachForReach(DriveTo):
         poses = (
             SE3.from_xyz_yaw(hypot(dx, dy), 0.0, float(target[2]), yaw_rad - atan2(dy, dx)) for dx, dy in aside.tolist()
         )
-        grasps = (can_grasp(node.size_m, pose, geometry=context.geometry, limits=context.limits) for pose in poses)
+        grasps = (
+            can_grasp(
+                node.size_m,
+                pose,
+                geometry=context.geometry,
+                limits=context.limits,
+                level_too=not meets_seat_level(context.snapshot, node.id, pose),
+            )
+            for pose in poses
+        )
         return np.fromiter(grasps, np.bool_, len(points))
 
     def _faces_board(self, frame: str, places: Points) -> NDArray[np.bool_]:

@@ -17,7 +17,7 @@ from majordomo.skills.boards import HAND_HALF_WIDTH_M, palm_room_m
 from majordomo.skills.containers import is_open_container
 from majordomo.skills.errors import Unreachable
 from majordomo.skills.failures import FailureCode
-from majordomo.skills.grasping import TIP_M, Grasp, choose_grasp, prefers_level, roof_over_m
+from majordomo.skills.grasping import TIP_M, Grasp, choose_grasp, meets_seat_level, prefers_level, roof_over_m
 from majordomo.skills.navigation.pose import in_base
 from majordomo.skills.place_spot import surface_m
 
@@ -96,6 +96,7 @@ class Reach(ArmAction):
             limits=context.limits,
             met=fingers_met(context, self.object_id),
             roof_m=roof_m,
+            level_too=not meets_seat_level(snapshot, self.object_id, T_base_object),
         )
         self._x_m = hypot(T_base_object.x_m, T_base_object.y_m)
         if abs(T_base_object.y_m) > SIDE_TOLERANCE_M + (self._grasp.opening_m - 0.06) / 4:

@@ -23,7 +23,7 @@ from majordomo.skills.boards import (
     is_before,
 )
 from majordomo.skills.geometry import Points, Pose2, wrap_rad
-from majordomo.skills.grasping import DOWN_RAD, PAD_DEPTH_M, PALM_HALF_HEIGHT_M
+from majordomo.skills.grasping import DOWN_RAD, PAD_DEPTH_M, PALM_HALF_HEIGHT_M, level_meets_rims
 from majordomo.skills.navigation.pose import in_base, robot_frame
 from majordomo.skills.outline import disc
 from majordomo.skills.place_spot import Spot
@@ -77,7 +77,7 @@ def admitted(
 ) -> NDArray[np.bool_]:
     """From which of (N, 2) places, in the robot's frame, the hand gets to a spot: to one below a board, from straight
     before; to any other, where what it holds is brought over all that lies on the way, however low the lift ends; and
-    to one on a seat, where the palm meets neither back nor arms. ``spared``: things that are thought away.
+    to one on a seat, where the hand meets neither back nor arms. ``spared``: things that are thought away.
     """
     on, frame = spot.anchor, robot_frame(context.snapshot)
     if spot.is_covered:
@@ -87,18 +87,24 @@ def admitted(
     wide_m = held_radius_m(context)
     free = ~pushes_aside(context.snapshot, frame, target, places, no_obstacle, low_m=low_m, wide_m=wide_m)
     seat = context.snapshot.get(on.node_id)
-    if spot.inside or not isinstance(seat, ObjectNode) or not rims(seat) or not _points_down(context):
+    if spot.inside or not isinstance(seat, ObjectNode) or not rims(seat):
         return free
     x_m, y_m, surface_z_m = target
-    pose = Pose2.of(context.snapshot.transform(frame, seat.id))
+    pose, seat_z_m = (
+        Pose2.of(context.snapshot.transform(frame, seat.id)),
+        float(context.snapshot.position(seat.id, frame)[2]),
+    )
+    facing_rad = np.arctan2(y_m - places[:, 1], x_m - places[:, 0])
+    if not _points_down(context):
+        low_m = float(surface_z_m) + above_bottom_m(context) - PALM_HALF_HEIGHT_M
+        return free & ~level_meets_rims(seat, pose, seat_z_m, target[:2], facing_rad, low_m)
     if spot.turn_rad is None:
         # from above, fingers that close along a, from where the robot faces, take a roll of pi/2 - a
-        toward_rad = np.arctan2(y_m - places[:, 1], x_m - places[:, 0]) + pi / 2 - context.body.arm.wrist_roll_rad
+        toward_rad = facing_rad + pi / 2 - context.body.arm.wrist_roll_rad
     else:
         toward_rad = np.full(len(places), pose.yaw_rad + spot.turn_rad + pi / 2)
     palm_m = float(surface_z_m) + above_bottom_m(context) + PAD_DEPTH_M
-    seat_z_m = float(context.snapshot.position(seat.id, frame)[2])
-    return free & ~palm_meets_rims(seat, pose, seat_z_m, np.array((x_m, y_m)), toward_rad, palm_m)
+    return free & ~palm_meets_rims(seat, pose, seat_z_m, target[:2], toward_rad, palm_m)
 
 
 def pressing_m(context: RobotContext, spot: Spot, places: Points, *, spared: Collection[str] = ()) -> Points:

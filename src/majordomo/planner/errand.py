@@ -310,15 +310,21 @@ class Errand:
         return Ending(status=TaskStatus.PLANNING, explanation="")
 
     def _despair(self, why: Impossible, snapshot: Snapshot) -> Ending:
-        """There is no plan any more. What was looked for in vain is the last failure, not the last place on the way."""
+        """There is no plan any more. What was looked for in vain, or has happened, is the last failure, not what went
+        wrong before that became known.
+        """
         if why.lost is not None:
             carried = any(goal.object_id == why.lost for goal in self._ledger.goals)
             code = FailureCode.OBJECT_GONE if carried else FailureCode.SUPPORT_GONE
-            evidence = Evidence(nodes=why.nodes, revision=snapshot.revision, observation="not found anywhere")
-            failure = Failure(code=code, message=f"{capital(humanize(why.reason, snapshot))}.", evidence=evidence)
-            step = Step(skill="SEARCH", args=(why.lost,))
-            self._chronicle.failure(failure, step, snapshot, self._stamp_s, hopeless=True)
+            self._conclude(code, why, "not found anywhere", Step(skill="SEARCH", args=(why.lost,)), snapshot)
+        elif why.code is not None:
+            self._conclude(why.code, why, "no plan is left", self._progress.step or VERIFY, snapshot)
         return self._chronicle.surrender(why.reason, snapshot)
+
+    def _conclude(self, code: FailureCode, why: Impossible, observation: str, step: Step, snapshot: Snapshot) -> None:
+        evidence = Evidence(nodes=why.nodes, revision=snapshot.revision, observation=observation)
+        failure = Failure(code=code, message=f"{capital(humanize(why.reason, snapshot))}.", evidence=evidence)
+        self._chronicle.failure(failure, step, snapshot, self._stamp_s, hopeless=True)
 
     def _start(self, name: str, actions: list[Action], timeout_s: float, watch: Watch | None = None) -> None:
         self._job = Job(name, actions, timeout_s=timeout_s, watch=watch, wanted=self._wanted)

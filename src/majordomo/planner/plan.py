@@ -56,12 +56,14 @@ class Plan:
 class Impossible:
     """No plan exists; ``reason`` says why in one sentence, ``nodes`` are what it is about.
 
-    ``lost``: what was looked for everywhere and not found, if that is why.
+    ``lost``: what was looked for everywhere and not found, if that is why. ``code``: what has happened, if it was
+    possible when the task began.
     """
 
     reason: str
     nodes: tuple[str, ...] = ()
     lost: str | None = None
+    code: FailureCode | None = None
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -53,7 +53,7 @@ class Verifier:
         """The cheapest proven plan for ``goals`` in order, or the reason why there is none."""
         flaws = self.verify_goals(goals, snapshot)
         if flaws:
-            return Impossible(reason=flaws[0].message, nodes=flaws[0].nodes)
+            return Impossible(reason=flaws[0].message, nodes=flaws[0].nodes, code=flaws[0].code)
         state = self.state(snapshot)
         found = self._searched(goals, state)
         if isinstance(found, Exhausted):
@@ -69,7 +69,9 @@ class Verifier:
             changes=forecast(state, end, [arg for step in found.steps for arg in step.args]),
         )
         unproven = self.check_plan(plan, snapshot)
-        return Impossible(reason=unproven[0].message, nodes=unproven[0].nodes) if unproven else plan
+        if unproven:
+            return Impossible(reason=unproven[0].message, nodes=unproven[0].nodes, code=unproven[0].code)
+        return plan
 
     def _searched(self, goals: Sequence[Goal], state: PlanState) -> Found | Exhausted:
         """The cheapest steps, all goals considered at once; where that takes too long, the cheapest for each in turn.
@@ -160,7 +162,7 @@ def _impossible(goals: Sequence[Goal], exhausted: Exhausted, snapshot: Snapshot,
     elif exhausted.unmet:
         final = [condition for condition in exhausted.unmet if condition.final]
         why = final[0] if final else exhausted.unmet[-1]
-        return Impossible(reason=humanize(why.message, snapshot), nodes=why.nodes or left.args)
+        return Impossible(reason=humanize(why.message, snapshot), nodes=why.nodes or left.args, code=why.code)
     else:
         reason = f"I know of no way to make it so that {goal_phrase(left, snapshot)}."
     return Impossible(reason=reason, nodes=left.args)

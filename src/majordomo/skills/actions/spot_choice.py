@@ -35,6 +35,7 @@ SLACK_RAD = 0.15
 MOST_SPOTS = 40
 TIGHT_M = 0.10
 TIGHT_WEIGHT = 3.0
+LOOKED_AT_M = 0.1
 BARRING_COST_M = 1.0
 """For each thing that could no longer be taken from the board if something stood before it."""
 
@@ -148,7 +149,7 @@ class CheckSpot(Action):
     """Looks the chosen spot over once perception has seen it from near; takes another within reach when it is taken.
 
     Fails with SUPPORT_FULL where there is none any more, and with UNREACHABLE where the camera sees something in the
-    way to all of them that the graph does not have.
+    way to all that are in view which the graph does not have.
     """
 
     def __init__(self, context: RobotContext, placement: Placement) -> None:
@@ -170,7 +171,8 @@ class CheckSpot(Action):
         for offset_m, i in sorted(within):
             if offset_m >= least_m:
                 break
-            if (cost_m := offset_m + self._over_m(here[i])) < least_m and not seen.is_in_way_to(here[i]):
+            cost_m = offset_m + self._over_m(here[i])
+            if cost_m < least_m and not seen.is_in_way_to(here[i]) and self._is_looked_at(here[i], chosen, seen):
                 least_m, best = cost_m, i
         if best is None:
             self.context.blocked_spots[chosen.anchor.node_id, chosen.anchor.point_m] = self.context.stamp_s
@@ -178,6 +180,11 @@ class CheckSpot(Action):
             return self.fail(FailureCode.UNREACHABLE, message, (self._placement.target,), f"{len(within)} spots tried")
         self._placement.spot = here[best]
         return Status.SUCCESS
+
+    @staticmethod
+    def _is_looked_at(spot: Spot, chosen: Spot, seen: Seen) -> bool:
+        """What is not about where the robot looks must be seen to be there; what is may be behind its hand."""
+        return dist(spot.anchor.point_m, chosen.anchor.point_m) < LOOKED_AT_M or spot.is_covered or seen.shows(spot)
 
     def _within_reach(self, spot: Spot) -> bool:
         x_m, y_m, _ = spot.anchor.in_base(self.context)

@@ -513,6 +513,25 @@ def test_what_was_in_the_way_is_looked_at_once_more_before_the_next_go(skill, co
     assert looks == looked_at
 
 
+def test_a_support_that_is_seen_to_be_full_after_a_failed_go_is_the_reason_that_is_given():
+    show = Show(Script(outcomes={"PLACE": [FailureCode.UNREACHABLE]}))
+    look_at = show.crew.look_at
+
+    def look(node_id, context):
+        desk = show.memory.snapshot().object("desk_1")
+        crate = ObjectNode(id="crate_1", label="crate", size_m=(*desk.size_m[:2], 0.3), last_seen_s=show.stamp_s)
+        there = replace(show.memory.snapshot().parent("desk_1"), target="crate_1")
+        on_it = RelationEdge(source="crate_1", target="desk_1", predicate="on", probability=0.95)
+        edits = [PutNode(crate), PutEdge(there), PutEdge(InEdge(source="crate_1", target="room_2")), PutEdge(on_it)]
+        show.memory.commit(edits, agent="objects", stamp_s=show.stamp_s)
+        return look_at(node_id, context)
+
+    show.mission = Mission(replace(show.crew, look_at=look), ScriptedInterpreter(MEANINGS))
+    assert show.finish().status is TaskStatus.FAILED
+    assert show.codes == [FailureCode.UNREACHABLE, FailureCode.SUPPORT_FULL]
+    assert "full" in show.task.explanation
+
+
 @pytest.mark.parametrize("knocked_off", [True, False])
 def test_what_was_put_down_first_is_looked_at_again_when_the_hand_was_there_again(knocked_off):
     show = Show()

@@ -19,6 +19,7 @@ from majordomo.skills.actions.arm_way import BARRED_COST_M, IN_THE_WAY_COST_M, M
 from majordomo.skills.actions.finger_room import fingers_met, palm_meets_rims
 from majordomo.skills.actions.grasp import CloseGripper
 from majordomo.skills.actions.place import LowerToPlace
+from majordomo.skills.actions.seen_in_way import Seen
 from majordomo.skills.actions.spot_choice import CheckSpot, ChooseSpot
 from majordomo.skills.actions.spot_reach import Placement, admitted, pressing_m
 from majordomo.skills.anchor import Anchor
@@ -768,6 +769,37 @@ async def test_where_the_camera_sees_what_is_not_in_the_graph_nothing_is_put(kit
     else:
         assert failure is None
         assert (placement.spot.anchor == chosen) is (taken == "the same")
+
+
+@pytest.mark.parametrize(
+    ("before_m", "high_m", "free_m", "met"),
+    [
+        (0.1, 0.15, inf, True),
+        (0.1, 0.06, inf, False),  # the hand passes over it
+        (0.1, 0.06, 0.4, True),  # below a board it does not
+        (0.1, 0.39, 0.4, False),  # that is the board
+        (-0.2, 0.15, inf, False),
+        (0.0, 0.06, inf, True),
+    ],
+)
+async def test_what_is_seen_bars_the_hand_where_it_passes_or_what_it_holds_is_to_stand(
+    kitchen, before_m, high_m, free_m, met
+):
+    rehearsal = kitchen()
+    context = await rehearsal.prepare()
+    assert await carry_out(rehearsal, ("PICK", "bottle_1")) is None
+    x_m, y_m, yaw_rad = rehearsal.body.pose.x_m, rehearsal.body.pose.y_m, rehearsal.body.pose.yaw_rad
+    at = (x_m + 0.75 * cos(yaw_rad), y_m + 0.75 * sin(yaw_rad), 0.75)
+    spot = Spot(anchor=Anchor("room_1", at), room_m=1.0, free_m=free_m)
+    along, across = np.meshgrid(np.linspace(-0.01, 0.01, 5), np.linspace(-0.05, 0.05, 9))
+    heights = np.full(along.size, 0.75 + high_m)
+    context.seen_base = lambda: np.column_stack((along.ravel() + 0.75 - before_m, across.ravel(), heights))
+    assert Seen(context, "room_1").is_in_way_to(spot) is met
+    assert not Seen(context, "room_1").shows(spot)
+    context.seen_base = lambda: np.column_stack((along.ravel() + 0.75, across.ravel(), np.full(along.size, 0.76)))
+    assert Seen(context, "room_1").shows(spot)
+    context.seen_base = lambda: np.zeros((0, 3))
+    assert Seen(context, "room_1").shows(spot)
 
 
 async def test_somebody_who_steps_before_the_arm_is_not_touched_and_the_arm_waits(kitchen):

@@ -764,7 +764,7 @@ async def test_where_the_camera_sees_what_is_not_in_the_graph_nothing_is_put(kit
     context.seen_base = lambda: np.column_stack((x, y, z_m + high_m * up.ravel()))
     failure = await rehearsal.run([check])
     if taken == "none":
-        assert failure.code is FailureCode.UNREACHABLE
+        assert failure.code is FailureCode.SUPPORT_FULL
         assert (chosen.node_id, chosen.point_m) in context.blocked_spots
     else:
         assert failure is None

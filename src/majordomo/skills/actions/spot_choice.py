@@ -148,8 +148,8 @@ class ChooseSpot(Action):
 class CheckSpot(Action):
     """Looks the chosen spot over once perception has seen it from near; takes another within reach when it is taken.
 
-    Fails with SUPPORT_FULL where there is none any more, and with UNREACHABLE where the camera sees something in the
-    way to all that are in view which the graph does not have.
+    Fails with SUPPORT_FULL where there is none any more, or where the camera sees something in the way to all that are
+    in view which the graph does not have yet.
     """
 
     def __init__(self, context: RobotContext, placement: Placement) -> None:
@@ -176,8 +176,7 @@ class CheckSpot(Action):
                 least_m, best = cost_m, i
         if best is None:
             self.context.blocked_spots[chosen.anchor.node_id, chosen.anchor.point_m] = self.context.stamp_s
-            message = f"something that I do not know yet is in the arm's way to {self._placement.target}."
-            return self.fail(FailureCode.UNREACHABLE, message, (self._placement.target,), f"{len(within)} spots tried")
+            return _full(self, self._placement, "I see something there that I do not know yet")
         self._placement.spot = here[best]
         return Status.SUCCESS
 
@@ -238,6 +237,6 @@ def _crowding_m(spot: Spot) -> float:
     return TIGHT_WEIGHT * tight_m + BARRING_COST_M * spot.bars
 
 
-def _full(action: Action, placement: Placement) -> Status:
+def _full(action: Action, placement: Placement, seen: str = "") -> Status:
     message = f"{placement.target} has no free spot for {placement.object_id}."
-    return action.fail(FailureCode.SUPPORT_FULL, message, (placement.target, placement.object_id))
+    return action.fail(FailureCode.SUPPORT_FULL, message, (placement.target, placement.object_id), seen)

@@ -542,6 +542,16 @@ def test_who_seems_to_stand_on_a_table_or_to_be_it_is_nobody_and_who_stands_behi
     assert np.linalg.norm(story.memory.snapshot().position(person.id, "room_1")[:2] - behind.center[:2]) < 0.2
 
 
+@pytest.mark.parametrize(("top_m", "somebody"), [(0.88, False), (1.3, True)])
+def test_what_stands_on_a_chair_is_nobody_and_who_sits_on_it_rises_above_it(top_m, somebody):
+    chair = Solid(label="chair", center=(0.0, 0.1, 0.45), size_m=(0.45, 0.45, 0.9))
+    there = Solid(label="person", center=(0.0, 0.1, top_m / 2), size_m=(0.46, 0.46, top_m))
+    story = Story([chair])
+    story.run(8)
+    story.room.solids = [there]
+    assert bool(list(story.run(4).of_type(PersonNode))) is somebody
+
+
 def test_a_person_whose_legs_and_body_are_seen_as_two_masks_is_one():
     legs = Solid(label="person", center=(1.0, 0.5, 0.4), size_m=(0.35, 0.35, 0.8), cylinder=True)
     body = Solid(label="person", center=(1.0, 0.55, 1.3), size_m=(0.4, 0.4, 0.8), cylinder=True)

@@ -18,7 +18,7 @@ from majordomo.perception.objects.track import Track
 from majordomo.perception.vocabulary import category_of
 from majordomo.scene_graph.nodes import UNKNOWN_LABEL, ObjectState
 
-_PERSON_M = 2.5
+_PERSON_M, _ABOVE_SEAT_M = 2.5, 0.1
 _EDGE_M, _MOST = 0.02, 0.85
 """Such a share of the points of what is furniture is so near to it."""
 _PART_EDGE_M = 0.02
@@ -152,18 +152,20 @@ def is_part(
 
 def is_of_furniture(detection: Detection, tracks: Sequence[Track], surroundings: Surroundings) -> bool:
     """Whether what is taken for a person is a table or the like that is known, with what stands on it: nobody stands
-    where that is, and before it or behind it there would be something of them.
+    where that is, and before it or behind it there would be something of them; or a seat, with what stands on that:
+    whoever sits there rises above it.
     """
     points = detection.cloud.points
     for track in tracks:
         known = track.node_id is not None and track.state is ObjectState.PRESENT and track.is_furniture
         category = track.category
-        if not known or not category.support or category.levels or track.room not in surroundings.T_here_room:
+        if not known or not category.support or track.room not in surroundings.T_here_room:
             continue
         T_here_room, size_m = surroundings.T_here_room[track.room], track.box.size_m
         x_m, y_m, _ = T_here_room.apply(track.position).tolist()
         yaw_rad = track.box.yaw_rad + T_here_room.yaw_rad
-        column = Box(np.array((x_m, y_m, _PERSON_M / 2.0)), (size_m[0], size_m[1], _PERSON_M), yaw_rad)
+        height_m = size_m[2] + _ABOVE_SEAT_M if category.levels else _PERSON_M
+        column = Box(np.array((x_m, y_m, height_m / 2.0)), (size_m[0], size_m[1], height_m), yaw_rad)
         if float(column.contains(points, _EDGE_M).mean()) > _MOST:
             return True
     return False

@@ -174,7 +174,7 @@ def prefers_level(snapshot: Snapshot, object_id: str, T_base_object: SE3) -> boo
     size_m = snapshot.object(object_id).size_m
     if roof_over_m(snapshot, object_id) < inf:
         return not comes_from_above(snapshot, object_id)
-    return is_tall(size_m) and not _in_the_way(snapshot, object_id, T_base_object)
+    return is_tall(size_m) and not bars_level_hand(snapshot, object_id, T_base_object)
 
 
 def comes_from_above(snapshot: Snapshot, object_id: str) -> bool:
@@ -244,9 +244,9 @@ def _has_room_above(size_m: Size3, roof_m: float) -> bool:
     return roof_m >= size_m[2] / 2 + TIP_M + TIP_AIR_M
 
 
-def _in_the_way(snapshot: Snapshot, object_id: str, T_base_object: SE3) -> bool:
-    """Whether another thing reaches up into what a level hand sweeps from the base to a little beyond the object, or
-    so nearly that nobody has measured it so well.
+def bars_level_hand(snapshot: Snapshot, object_id: str, T_base_object: SE3) -> bool:
+    """Whether another thing, or the back or an arm of the seat on which the object stands, reaches up into what a level
+    hand sweeps from the base to a little beyond the object, or so nearly that nobody has measured it so well.
     """
     node = snapshot.object(object_id)
     hand_low_m = underside_m(node.size_m, T_base_object.z_m) - LEVEL_AIR_M

@@ -13,9 +13,16 @@ from majordomo.scene_graph.edges import RtEdge
 from majordomo.scene_graph.nodes import ObjectState
 from majordomo.scene_graph.se3 import SE3
 from majordomo.skills.action import Grip
-from majordomo.skills.actions.approach import STOPPED_RAD
+from majordomo.skills.actions.approach import STOPPED_RAD, ApproachForReach
 from majordomo.skills.actions.arm import CARRY_LIFT_M, Retract
-from majordomo.skills.actions.arm_way import BARRED_COST_M, IN_THE_WAY_COST_M, MET_COST_M, clear_over_m, passing_over
+from majordomo.skills.actions.arm_way import (
+    BARRED_COST_M,
+    IN_THE_WAY_COST_M,
+    MET_COST_M,
+    clear_over_m,
+    passing_over,
+    routes_around,
+)
 from majordomo.skills.actions.finger_room import fingers_met, palm_meets_rims
 from majordomo.skills.actions.grasp import CloseGripper
 from majordomo.skills.actions.place import LowerToPlace
@@ -122,6 +129,19 @@ async def test_where_something_stands_before_a_thing_the_arm_comes_from_another_
     base = np.array(rehearsal.body.pose.point)
     places, snapshot = base[None, :], rehearsal.memory.snapshot()
     assert passing_over(snapshot, "room_1", bottle, 0.8, places, {"bottle_1", "table_1"}, stamp_s=0.0) == 0.0
+
+
+@pytest.mark.parametrize("crowded", [False, True])
+async def test_to_what_only_a_hand_from_above_gets_the_robot_comes_near_enough_for_that(flat, crowded):
+    built = flat().table().bottle("bottle_1", 1.0, 1.0)
+    for k in range(4 if crowded else 0):
+        x_m, y_m = 1.0 + 0.1 * cos(pi / 4 + k * pi / 2), 1.0 + 0.1 * sin(pi / 4 + k * pi / 2)
+        built.thing(f"can_{k}", (x_m, y_m, 0.815), (0.05, 0.05, 0.13), on="table_1", graspable=True)
+    context = await Rehearsal(memory=built.memory).prepare()
+    action = ApproachForReach(context, "bottle_1", Anchor("bottle_1"))
+    routes = routes_around(context, (0.0, 0.0), [(1.0, 1.0)])
+    away_m = [np.hypot(goal.point[0] - 1.0, goal.point[1] - 1.0) for goal in action._goals_around(routes)]
+    assert (max(away_m) > 0.9) is not crowded
 
 
 @pytest.mark.parametrize("bearing_rad", [pi, 5 * pi / 4, 3 * pi / 2])
@@ -802,7 +822,8 @@ async def test_what_is_seen_bars_the_hand_where_it_passes_or_what_it_holds_is_to
     assert Seen(context, "room_1").shows(spot)
 
 
-async def test_somebody_who_steps_before_the_arm_is_not_touched_and_the_arm_waits(kitchen):
+@pytest.mark.parametrize(("ago_s", "waits"), [(0.0, True), (10.0, True), (30.0, False)])
+async def test_somebody_who_steps_before_the_arm_is_not_touched_and_the_arm_waits(kitchen, ago_s, waits):
     built = []
     rehearsal = kitchen(lambda flat: built.append(flat) or flat)
     context = await rehearsal.prepare()
@@ -810,10 +831,13 @@ async def test_somebody_who_steps_before_the_arm_is_not_touched_and_the_arm_wait
     assert await rehearsal.run(actions[:5], 900.0) is None
     base, bottle = rehearsal.body.pose.point, rehearsal.memory.snapshot().position("bottle_1", "room_1")
     between = 0.3 * np.array(base) + 0.7 * bottle[:2]
-    built[0].person(*(float(each) for each in between))
+    built[0].person(*(float(each) for each in between), stamp_s=context.stamp_s - ago_s)
     failure = await rehearsal.run(actions[5:], 900.0)
-    assert failure.code is FailureCode.PERSON_IN_WAY
-    assert rehearsal.body.arm.extension_m < 0.05
+    if waits:
+        assert failure.code is FailureCode.PERSON_IN_WAY
+        assert rehearsal.body.arm.extension_m < 0.05
+    else:
+        assert failure is None
 
 
 async def test_a_hand_that_let_go_rises_over_the_arm_of_a_sofa_before_it_is_drawn_back(flat):

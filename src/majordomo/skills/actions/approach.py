@@ -27,7 +27,7 @@ from majordomo.skills.anchor import Anchor, AnchorSource, resolved
 from majordomo.skills.boards import board_under, is_before
 from majordomo.skills.failures import FailureCode
 from majordomo.skills.geometry import Point2, Points
-from majordomo.skills.grasping import DOWN_RAD, can_grasp, is_tall, meets_seat_level, underside_m
+from majordomo.skills.grasping import DOWN_RAD, bars_level_hand, can_grasp, is_tall, underside_m
 from majordomo.skills.navigation.driver import DriverConfig
 from majordomo.skills.navigation.plan import Goal
 from majordomo.skills.navigation.pose import planar_pose, robot_frame
@@ -193,17 +193,17 @@ class ApproachForReach(DriveTo):
         poses = (
             SE3.from_xyz_yaw(hypot(dx, dy), 0.0, float(target[2]), yaw_rad - atan2(dy, dx)) for dx, dy in aside.tolist()
         )
-        grasps = (
-            can_grasp(
-                node.size_m,
-                pose,
-                geometry=context.geometry,
-                limits=context.limits,
-                level_too=not meets_seat_level(context.snapshot, node.id, pose),
-            )
-            for pose in poses
-        )
+        grasps = (self._can_grasp(node, pose) for pose in poses)
         return np.fromiter(grasps, np.bool_, len(points))
+
+    def _can_grasp(self, node: ObjectNode, pose: SE3) -> bool:
+        """Whether the hand takes hold of what is so before the base: from above, or level if nothing is in the way."""
+        geometry, limits = self.context.geometry, self.context.limits
+        if can_grasp(node.size_m, pose, geometry=geometry, limits=limits, level_too=False):
+            return True
+        if not can_grasp(node.size_m, pose, geometry=geometry, limits=limits):
+            return False
+        return not bars_level_hand(self.context.snapshot, node.id, pose)
 
     def _faces_board(self, frame: str, places: Points) -> NDArray[np.bool_]:
         """From which of (N, 2) places the hand gets straight to a thing that stands below a board; else from all."""

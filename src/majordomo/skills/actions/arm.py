@@ -9,9 +9,8 @@ from math import cos, hypot, sin
 
 from py_trees.common import Status
 
-from majordomo.scene_graph.nodes import PersonNode
 from majordomo.skills.action import Action, RobotContext
-from majordomo.skills.actions.arm_way import DRIFT_M, PERSON_CLEARANCE_M, clear_over_m
+from majordomo.skills.actions.arm_way import DRIFT_M, PERSON_CLEARANCE_M, clear_over_m, people_here
 from majordomo.skills.actions.spot_reach import above_bottom_m, held_radius_m
 from majordomo.skills.boards import is_among_boards
 from majordomo.skills.failures import FailureCode
@@ -30,6 +29,8 @@ ANGLE_TOLERANCE_RAD = 0.05
 STALL_S = 0.8
 EMPTY_OPENING_M = 0.004
 SLIP_S = 0.3
+PERSON_AWAY_S = 20.0
+"""Who was not seen for so long where the robot looks to reach is there no more."""
 
 
 class ArmProgress(Enum):
@@ -81,18 +82,17 @@ class ArmAction(Action):
         return ArmProgress.STALLED if stalled else ArmProgress.MOVING
 
     def meets_person(self) -> str | None:
-        """A person whom the arm would come too near to on its way out."""
+        """A person, seen a while ago at most, whom the arm would come too near to on its way out."""
         context, arm = self.context, self.context.body.arm
         out = [target for target in self._targets if target.extension_m > arm.extension_m + LENGTH_TOLERANCE_M]
         if not out:
             return None
         farthest_m = max(_hand_x_m(context, target) for target in out)
-        for person in context.snapshot.of_type(PersonNode):
-            if context.snapshot.room_of(person.id) == robot_frame(context.snapshot):
-                T_base_person = in_base(context, person.id)
-                beyond_m = max(T_base_person.x_m - farthest_m, 0.0)
-                if T_base_person.x_m > 0.0 and hypot(beyond_m, T_base_person.y_m) < PERSON_CLEARANCE_M - DRIFT_M:
-                    return person.id
+        for person in people_here(context, PERSON_AWAY_S):
+            T_base_person = in_base(context, person)
+            beyond_m = max(T_base_person.x_m - farthest_m, 0.0)
+            if T_base_person.x_m > 0.0 and hypot(beyond_m, T_base_person.y_m) < PERSON_CLEARANCE_M - DRIFT_M:
+                return person
         return None
 
     def wait_for(self, person: str, what: str) -> Status:

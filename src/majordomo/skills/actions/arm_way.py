@@ -184,13 +184,13 @@ def _rim_costs(snapshot: Snapshot, frame: str, seat: ObjectNode, target: Points,
     return costs
 
 
-def people_here(context: RobotContext) -> list[str]:
-    """Who was seen a moment ago in the robot's room."""
+def people_here(context: RobotContext, fresh_s: float = PERSON_FRESH_S) -> list[str]:
+    """Who was seen so short a time ago in the robot's room."""
     snapshot, frame = context.snapshot, robot_frame(context.snapshot)
     return [
         person.id
         for person in snapshot.of_type(PersonNode)
-        if snapshot.room_of(person.id) == frame and context.stamp_s - person.last_seen_s < PERSON_FRESH_S
+        if snapshot.room_of(person.id) == frame and context.stamp_s - person.last_seen_s < fresh_s
     ]
 
 

@@ -141,7 +141,7 @@ async def test_to_what_only_a_hand_from_above_gets_the_robot_comes_near_enough_f
     action = ApproachForReach(context, "bottle_1", Anchor("bottle_1"))
     routes = routes_around(context, (0.0, 0.0), [(1.0, 1.0)])
     away_m = [np.hypot(goal.point[0] - 1.0, goal.point[1] - 1.0) for goal in action._goals_around(routes)]
-    assert (max(away_m) > 0.9) is not crowded
+    assert bool(max(away_m) > 0.95) is not crowded
 
 
 @pytest.mark.parametrize("bearing_rad", [pi, 5 * pi / 4, 3 * pi / 2])

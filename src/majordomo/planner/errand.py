@@ -317,9 +317,13 @@ class Errand:
             carried = any(goal.object_id == why.lost for goal in self._ledger.goals)
             code = FailureCode.OBJECT_GONE if carried else FailureCode.SUPPORT_GONE
             self._conclude(code, why, "not found anywhere", Step(skill="SEARCH", args=(why.lost,)), snapshot)
-        elif why.code is not None:
+        elif why.code is not None and why.code != self._last_code():
             self._conclude(why.code, why, "no plan is left", self._progress.step or VERIFY, snapshot)
         return self._chronicle.surrender(why.reason, snapshot)
+
+    def _last_code(self) -> str | None:
+        failures = self._crew.queue.task(self._task_id).failures
+        return failures[-1].code if failures else None
 
     def _conclude(self, code: FailureCode, why: Impossible, observation: str, step: Step, snapshot: Snapshot) -> None:
         evidence = Evidence(nodes=why.nodes, revision=snapshot.revision, observation=observation)

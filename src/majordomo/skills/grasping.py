@@ -250,11 +250,12 @@ def bars_level_hand(snapshot: Snapshot, object_id: str, T_base_object: SE3) -> b
     """
     node = snapshot.object(object_id)
     hand_low_m = underside_m(node.size_m, T_base_object.z_m) - LEVEL_AIR_M
-    seat = _seat_under(snapshot, object_id)
-    if seat is not None and meets_seat_level(snapshot, object_id, T_base_object):
+    if meets_seat_level(snapshot, object_id, T_base_object):
         return True
+    seat = _seat_under(snapshot, object_id)
+    judged = {object_id, seat.id} if seat is not None else {object_id}
     for other in snapshot.of_type(ObjectNode):
-        if other.id == object_id or other.state is not ObjectState.PRESENT or other == seat:
+        if other.id in judged or other.state is not ObjectState.PRESENT:
             continue
         if snapshot.room_of(other.id) != snapshot.room_of(object_id):
             continue

@@ -90,10 +90,8 @@ def admitted(
     if spot.inside or not isinstance(seat, ObjectNode) or not rims(seat):
         return free
     x_m, y_m, surface_z_m = target
-    pose, seat_z_m = (
-        Pose2.of(context.snapshot.transform(frame, seat.id)),
-        float(context.snapshot.position(seat.id, frame)[2]),
-    )
+    T_frame_seat = context.snapshot.transform(frame, seat.id)
+    pose, seat_z_m = Pose2.of(T_frame_seat), float(T_frame_seat.z_m)
     facing_rad = np.arctan2(y_m - places[:, 1], x_m - places[:, 0])
     if not _points_down(context):
         low_m = float(surface_z_m) + above_bottom_m(context) - PALM_HALF_HEIGHT_M

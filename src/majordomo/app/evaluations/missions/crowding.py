@@ -20,14 +20,14 @@ Range = tuple[float, float]
 
 
 @dataclass(frozen=True, kw_only=True)
-class _Room:
+class _Cuboid:
     """What lies between lowest and highest x, y, z (m) in the furniture's own frame, over the middle of its foot."""
 
     x_m: Range
     y_m: Range
     z_m: Range
 
-    def meets(self, other: _Room) -> bool:
+    def meets(self, other: _Cuboid) -> bool:
         """Whether the two share room."""
         pairs = ((self.x_m, other.x_m), (self.y_m, other.y_m), (self.z_m, other.z_m))
         return all(a[0] < b[1] and b[0] < a[1] for a, b in pairs)
@@ -44,13 +44,13 @@ def boxes_over(item: Furniture, scene: Scene) -> list[Block]:
     boxes: list[Block] = []
     for level_m, next_m in zip(levels_m, [*levels_m[1:], math.inf], strict=True):
         top_m = min(level_m + _HEIGHT_M, next_m - _BELOW_BOARD_M)
-        whole = _Room(x_m=(-width_m / 2, width_m / 2), y_m=(-depth_m / 2, depth_m / 2), z_m=(level_m + 0.005, top_m))
+        whole = _Cuboid(x_m=(-width_m / 2, width_m / 2), y_m=(-depth_m / 2, depth_m / 2), z_m=(level_m + 0.005, top_m))
         for room in _cells(_between(whole, solid), _SIDE_M):
             boxes += (_block(item, box) for box in _free(room, taken))
     return boxes
 
 
-def _between(room: _Room, solid: Sequence[_Room]) -> _Room:
+def _between(room: _Cuboid, solid: Sequence[_Cuboid]) -> _Cuboid:
     """What is left of a room between the sides, the arms and the back of the furniture."""
     for part in solid:
         if not part.meets(room):
@@ -68,7 +68,7 @@ def _between(room: _Room, solid: Sequence[_Room]) -> _Room:
     return room
 
 
-def _free(room: _Room, taken: Sequence[_Room]) -> Iterator[_Room]:
+def _free(room: _Cuboid, taken: Sequence[_Cuboid]) -> Iterator[_Cuboid]:
     """One box in the room, or smaller ones where something stands."""
     if min(_length(room.x_m), _length(room.y_m)) < _LEAST_M:
         return
@@ -82,7 +82,7 @@ def _free(room: _Room, taken: Sequence[_Room]) -> Iterator[_Room]:
             yield from _free(half, taken)
 
 
-def _cells(room: _Room, side_m: float) -> Iterator[_Room]:
+def _cells(room: _Cuboid, side_m: float) -> Iterator[_Cuboid]:
     """Equal parts of a room, side by side, about as wide and as deep."""
     columns, rows = (max(1, round(_length(side) / side_m)) for side in (room.x_m, room.y_m))
     for i in range(columns):
@@ -95,7 +95,7 @@ def _share(side: Range, number: int, count: int) -> Range:
     return side[0] + number * step_m, side[0] + (number + 1) * step_m
 
 
-def _standing(item: Furniture, scene: Scene) -> Iterator[_Room]:
+def _standing(item: Furniture, scene: Scene) -> Iterator[_Cuboid]:
     """What stands there, however it is turned."""
     sizes = {thing.id: thing.size for thing in scene.house.objects}
     frame = _frame(item)
@@ -108,12 +108,12 @@ def _standing(item: Furniture, scene: Scene) -> Iterator[_Room]:
         yield _around((*frame.inward((x_m, y_m)), z_m), (across_m, across_m, max(across_m, height_m)))
 
 
-def _around(center_m: tuple[float, float, float], size_m: tuple[float, float, float]) -> _Room:
+def _around(center_m: tuple[float, float, float], size_m: tuple[float, float, float]) -> _Cuboid:
     x_m, y_m, z_m = ((at - side / 2, at + side / 2) for at, side in zip(center_m, size_m, strict=True))
-    return _Room(x_m=x_m, y_m=y_m, z_m=z_m)
+    return _Cuboid(x_m=x_m, y_m=y_m, z_m=z_m)
 
 
-def _block(item: Furniture, box: _Room) -> Block:
+def _block(item: Furniture, box: _Cuboid) -> Block:
     x_m, y_m = _frame(item).outward((sum(box.x_m) / 2, sum(box.y_m) / 2))
     size_m = (_length(box.x_m), _length(box.y_m), _length(box.z_m))
     return Block(center_m=(x_m, y_m, sum(box.z_m) / 2), size_m=size_m, yaw_rad=item.pose[2])

@@ -30,7 +30,7 @@ from majordomo.skills.geometry import Points
 from majordomo.skills.grasping import is_tall
 from majordomo.skills.outline import Outline, disc, turned
 from majordomo.skills.rooms import in_room
-from majordomo.skills.seats import rims_m, seat_share
+from majordomo.skills.seats import back, rims_m, seat_share
 
 EDGE_MARGIN_M = 0.04
 GAP_M = 0.03
@@ -40,6 +40,8 @@ FINE_STEP_M = 0.01
 """Tried where no spot of the coarse steps is free: a gap between things need not lie on them."""
 AMPLE_M = 0.10
 """More room than this around a thing is no better."""
+BACK_AIR_M = 0.03
+"""Between a thing and the back of a seat: nearer, what is brought over the seat meets the back, which is higher."""
 STRIP_M = 0.48
 """How far in from an edge the arm reaches: 0.80 m from the axis less the base and its clearance."""
 TOP_TOLERANCE_M = 0.12
@@ -250,9 +252,27 @@ def lattice(support: ObjectNode, outline: Outline, step_m: float = STEP_M, *, co
     if (half < 0).any():
         return np.zeros((0, 2))
     half = np.maximum(half - (rim_m if size_m[0] >= size_m[1] else rim_m[::-1]), 0.0)
-    x, y = (np.linspace(-h, h, max(int(2 * h / step_m) + 1, 1)) if h > 0 else np.zeros(1) for h in half)
+    low, high = _before_back(support, outline, -half, half)
+    if (low > high).any():
+        return np.zeros((0, 2))
+    bounds = zip(low, high, strict=True)
+    x, y = (np.linspace(a, b, int((b - a) / step_m) + 1) if b > a else np.array([a]) for a, b in bounds)
     points = np.stack([axis.ravel() for axis in np.meshgrid(x, y, indexing="ij")], axis=1)
     return np.asarray(points[_edge_distance_m(points, size_m) <= STRIP_M])
+
+
+def _before_back(support: ObjectNode, outline: Outline, low: Points, high: Points) -> tuple[Points, Points]:
+    """Bounds (2,) of where a thing's middle may be, drawn in so that it stays clear of the back of a seat, where the
+    face of that was measured.
+    """
+    rim = back(support)
+    if rim is None or support.back_m is None:
+        return low, high
+    farthest_m = rim.half_m - rim.thick_m - BACK_AIR_M - outline.half_m[rim.axis]
+    along = np.arange(2) == rim.axis
+    if rim.sign > 0:
+        return low, np.where(along, np.minimum(high, farthest_m), high)
+    return np.where(along, np.maximum(low, -farthest_m), low), high
 
 
 def room_m(

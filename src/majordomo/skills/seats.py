@@ -56,9 +56,9 @@ class Rim:
 
 def rims(seat: ObjectNode) -> tuple[Rim, ...]:
     """The back of a seat, if it is known where it is, and its arms, if its kind has any."""
-    back, share = _back(seat), ARM_SHARES.get(_plain(seat.label))
+    known, share = back(seat), ARM_SHARES.get(_plain(seat.label))
     arms = ends(seat, top_m=(share - 0.5) * seat.size_m[2]) if share is not None else ()
-    return (*((back,) if back is not None else ()), *arms)
+    return (*((known,) if known is not None else ()), *arms)
 
 
 def ends(seat: ObjectNode, *, top_m: float) -> tuple[Rim, ...]:
@@ -70,7 +70,7 @@ def ends(seat: ObjectNode, *, top_m: float) -> tuple[Rim, ...]:
     return tuple(Rim(axis=long, sign=sign, half_m=half_m, thick_m=along_m, top_m=top_m) for sign in (1, -1))
 
 
-def _back(seat: ObjectNode) -> Rim | None:
+def back(seat: ObjectNode) -> Rim | None:
     """The back of a seat, ``None`` where it has none or nobody knows where it is."""
     if seat.back_rad is None:
         return None

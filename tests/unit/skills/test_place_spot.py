@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from math import cos, pi, sin
+
 import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
@@ -125,6 +127,24 @@ def test_nothing_is_put_on_the_arms_or_the_back_of_a_sofa(flat):
         assert abs(x) <= 0.9 - 0.2 - 0.04
         assert abs(y) <= 0.45 - 0.22 - 0.04
         assert z == 0.0
+
+
+@pytest.mark.parametrize("back_rad", [0.0, pi / 2, pi, -pi / 2])
+def test_what_is_put_on_a_chair_stays_clear_of_its_back(flat, back_rad):
+    """A book, brought over the seat at the height of the back, met it and was lost out of the hand."""
+    back = {"back_rad": back_rad, "back_m": 0.17}
+    built = flat().thing("chair_1", (0.0, 0.0, 0.45), (0.45, 0.45, 0.9), support=True, **back)
+    size_m = (0.2, 0.09, 0.04)
+    spots = spots_on(built.memory.snapshot(), "chair_1", size_m, None)
+    toward = [spot.anchor.point_m[0] * cos(back_rad) + spot.anchor.point_m[1] * sin(back_rad) for spot in spots]
+    assert spots
+    assert max(toward) + disc(size_m).radius_m <= 0.17 - 0.03 + 1e-9
+    assert min(toward) < -0.02
+
+
+def test_a_chair_of_which_the_back_leaves_no_room_is_full(flat):
+    built = flat().thing("chair_1", (0.0, 0.0, 0.45), (0.45, 0.45, 0.9), support=True, back_rad=pi / 2, back_m=-0.1)
+    assert spots_on(built.memory.snapshot(), "chair_1", (0.2, 0.18, 0.04), None) == []
 
 
 def test_a_narrow_chair_is_used_in_its_middle(flat):

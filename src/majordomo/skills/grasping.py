@@ -150,6 +150,14 @@ def can_grasp(
     return True
 
 
+def can_grasp_level(size_m: Size3, T_base_object: SE3, geometry: ArmGeometry, limits: BodyLimits) -> bool:
+    """Whether the arm can take an object that is so before it with a level hand."""
+    try:
+        return choose_grasp(size_m, T_base_object, level_first=True, geometry=geometry, limits=limits).is_level
+    except Unreachable:
+        return False
+
+
 def grasp_options(
     size_m: Size3,
     T_base_object: SE3,
@@ -248,23 +256,40 @@ def bars_level_hand(snapshot: Snapshot, object_id: str, T_base_object: SE3) -> b
     """Whether another thing, or the back or an arm of the seat on which the object stands, reaches up into what a level
     hand sweeps from the base to a little beyond the object, or so nearly that nobody has measured it so well.
     """
-    node = snapshot.object(object_id)
-    hand_low_m = underside_m(node.size_m, T_base_object.z_m) - LEVEL_AIR_M
-    if meets_seat_level(snapshot, object_id, T_base_object):
-        return True
+    return bool(_is_barred(snapshot, object_id, *_bases(T_base_object), T_base_object.z_m)[0])
+
+
+def level_hand_barred(snapshot: Snapshot, object_id: str, frame: str, places: Points) -> NDArray[np.bool_]:
+    """The same for each of (N, 2) places in the frame of a room, from where the base faces the object; (N,)."""
+    T_object_frame = snapshot.transform(object_id, frame)
+    bases = Pose2.of(T_object_frame).apply(places)
+    z_m = float(snapshot.position(object_id, frame)[2])
+    return _is_barred(snapshot, object_id, bases, np.arctan2(-bases[:, 1], -bases[:, 0]), z_m)
+
+
+def _is_barred(
+    snapshot: Snapshot, object_id: str, bases: Points, headings_rad: Points, z_m: float
+) -> NDArray[np.bool_]:
+    """(N,): from ``bases`` (N, 2) that are so turned (N,), both in the frame of the object, ``z_m`` over the floor."""
+    barred = _meets_seat(snapshot, object_id, headings_rad, z_m)
     seat = _seat_under(snapshot, object_id)
     judged = {object_id, seat.id} if seat is not None else {object_id}
+    hand_low_m = underside_m(snapshot.object(object_id).size_m, z_m) - LEVEL_AIR_M
+    ahead = np.stack((np.cos(headings_rad), np.sin(headings_rad)), axis=-1)
+    aside = np.stack((-ahead[:, 1], ahead[:, 0]), axis=-1)
+    away_m = -(bases * ahead).sum(axis=1)
     for other in snapshot.of_type(ObjectNode):
         if other.id in judged or other.state is not ObjectState.PRESENT:
             continue
         if snapshot.room_of(other.id) != snapshot.room_of(object_id):
             continue
-        center = (T_base_object @ snapshot.transform(object_id, other.id)).translation_m
-        half_m = max(other.size_m[:2]) / 2
-        beside = abs(center[1]) < HAND_HALF_WIDTH_M + half_m and 0.0 < center[0] < T_base_object.x_m + half_m + 0.05
-        if beside and center[2] + other.size_m[2] / 2 > hand_low_m:
-            return True
-    return False
+        x_m, y_m, over_m = snapshot.transform(object_id, other.id).translation_m
+        if z_m + over_m + other.size_m[2] / 2 <= hand_low_m:
+            continue
+        from_base, half_m = np.array((x_m, y_m)) - bases, max(other.size_m[:2]) / 2
+        along_m, across_m = (from_base * ahead).sum(axis=1), np.abs((from_base * aside).sum(axis=1))
+        barred |= (across_m < HAND_HALF_WIDTH_M + half_m) & (along_m > 0.0) & (along_m < away_m + half_m + 0.05)
+    return barred
 
 
 def meets_seat_level(snapshot: Snapshot, object_id: str, T_base_object: SE3) -> bool:
@@ -272,21 +297,24 @@ def meets_seat_level(snapshot: Snapshot, object_id: str, T_base_object: SE3) -> 
     ahead from the seat's edge to a little beyond the object; never of what stands on anything else, nor of a seat whose
     back and arms nobody knows.
     """
+    return bool(_meets_seat(snapshot, object_id, _bases(T_base_object)[1], T_base_object.z_m)[0])
+
+
+def _bases(T_base_object: SE3) -> tuple[Points, Points]:
+    """Where the base is, (1, 2), and how it is turned, (1,), in the frame of the object."""
+    T_object_base = T_base_object.inverse()
+    return np.array([T_object_base.translation_m[:2]]), np.array([T_object_base.yaw_rad])
+
+
+def _meets_seat(snapshot: Snapshot, object_id: str, headings_rad: Points, z_m: float) -> NDArray[np.bool_]:
+    """(N,): where the hand comes in those directions in the frame of the object, ``z_m`` over the floor."""
     seat = _seat_under(snapshot, object_id)
     if seat is None:
-        return False
-    T_base_seat = T_base_object @ snapshot.transform(object_id, seat.id)
-    hand_low_m = underside_m(snapshot.object(object_id).size_m, T_base_object.z_m) - LEVEL_AIR_M
-    return bool(
-        level_meets_rims(
-            seat,
-            Pose2.of(T_base_seat),
-            float(T_base_seat.z_m),
-            np.array((T_base_object.x_m, T_base_object.y_m)),
-            np.zeros(1),
-            hand_low_m,
-        )[0]
-    )
+        return np.zeros(len(headings_rad), np.bool_)
+    T_object_seat = snapshot.transform(object_id, seat.id)
+    hand_low_m = underside_m(snapshot.object(object_id).size_m, z_m) - LEVEL_AIR_M
+    pose, seat_z_m = Pose2.of(T_object_seat), z_m + float(T_object_seat.z_m)
+    return level_meets_rims(seat, pose, seat_z_m, np.zeros(2), headings_rad, hand_low_m)
 
 
 def level_meets_rims(

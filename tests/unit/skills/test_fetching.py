@@ -131,6 +131,19 @@ async def test_where_something_stands_before_a_thing_the_arm_comes_from_another_
     assert passing_over(snapshot, "room_1", bottle, 0.8, places, {"bottle_1", "table_1"}, stamp_s=0.0) == 0.0
 
 
+@pytest.mark.parametrize("beside", [False, True])
+async def test_a_tall_thing_is_taken_level_from_another_side_rather_than_from_above(kitchen, beside):
+    """Hanging from the hand it is lifted onto nothing high: a bottle could not be put on a cabinet."""
+    built = []
+    rehearsal = kitchen(lambda flat: built.append(flat.bottle("bottle_2", 0.6, 1.0)) or flat)
+    if beside:  # so far off that the arm passes, but not surely the hand
+        built[0].thing("box_1", (0.77, 1.0, 0.85), (0.04, 0.2, 0.2), on="table_1", graspable=True)
+    rehearsal.body.pose = Pose2(0.6, 0.4, pi / 2)
+    assert await carry_out(rehearsal, ("PICK", "bottle_2")) is None
+    assert abs(rehearsal.body.arm.wrist_pitch_rad) < 0.1
+    assert bool(rehearsal.body.pose.x_m < 0.3) is beside
+
+
 @pytest.mark.parametrize("crowded", [False, True])
 async def test_to_what_only_a_hand_from_above_gets_the_robot_comes_near_enough_for_that(flat, crowded):
     built = flat().table().bottle("bottle_1", 1.0, 1.0)

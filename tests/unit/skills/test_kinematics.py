@@ -6,7 +6,7 @@ from math import cos, inf, pi, sin
 
 import numpy as np
 import pytest
-from hypothesis import assume, given
+from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
 from majordomo.scene_graph.se3 import SE3
@@ -14,9 +14,11 @@ from majordomo.skills.errors import Unreachable
 from majordomo.skills.grasping import (
     MAX_WIDTH_M,
     TIP_M,
+    bars_level_hand,
     can_grasp,
     choose_grasp,
     grasp_options,
+    level_hand_barred,
     meets_seat_level,
     prefers_level,
 )
@@ -144,6 +146,23 @@ def test_a_bottle_is_taken_level_unless_something_stands_before_it_as_high_as_th
     assert prefers_level(built.memory.snapshot(), "bottle_1", ahead)
     built.thing("cup_1", (0.8, 1.25, 0.75 + height_m / 2), (0.08, 0.08, height_m), on="table_1")
     assert prefers_level(built.memory.snapshot(), "bottle_1", ahead) is level
+
+
+@settings(max_examples=40, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(
+    st.lists(st.tuples(st.floats(-0.5, 0.5), st.floats(-0.3, 0.3), st.floats(0.04, 0.3)), min_size=1, max_size=4),
+    st.floats(-3.0, 3.0),
+    st.floats(-3.0, 3.0),
+)
+def test_from_many_places_a_level_hand_is_barred_as_from_each_of_them(flat, things, yaw_rad, bearing_rad):
+    built = flat().table().thing("bottle_1", (1.0, 1.2, 0.87), (0.07, 0.07, 0.24), yaw=yaw_rad, on="table_1")
+    for k, (x_m, y_m, height_m) in enumerate(things):
+        built.thing(f"box_{k + 1}", (1.0 + x_m, 1.2 + y_m, 0.75 + height_m / 2), (0.1, 0.05, height_m), on="table_1")
+    snapshot = built.memory.snapshot()
+    facing_rad = bearing_rad + pi
+    alone = bars_level_hand(snapshot, "bottle_1", SE3.from_xyz_yaw(0.6, 0.0, 0.87, yaw_rad - facing_rad))
+    places = np.array([(1.0 + 0.6 * cos(bearing_rad), 1.2 + 0.6 * sin(bearing_rad)), (0.4, 1.2)])
+    assert bool(level_hand_barred(snapshot, "bottle_1", "room_1", places)[0]) is alone
 
 
 @pytest.mark.parametrize(

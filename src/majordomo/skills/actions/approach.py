@@ -27,7 +27,15 @@ from majordomo.skills.anchor import Anchor, AnchorSource, resolved
 from majordomo.skills.boards import board_under, is_before
 from majordomo.skills.failures import FailureCode
 from majordomo.skills.geometry import Point2, Points
-from majordomo.skills.grasping import DOWN_RAD, bars_level_hand, can_grasp, is_tall, underside_m
+from majordomo.skills.grasping import (
+    DOWN_RAD,
+    bars_level_hand,
+    can_grasp,
+    can_grasp_level,
+    is_tall,
+    level_hand_barred,
+    underside_m,
+)
 from majordomo.skills.navigation.driver import DriverConfig
 from majordomo.skills.navigation.plan import Goal
 from majordomo.skills.navigation.pose import planar_pose, robot_frame
@@ -41,6 +49,8 @@ EASY_RADIUS_M = 0.70
 STRETCH_COST_M = 2.0
 """Farther than ``EASY_RADIUS_M`` the arm is stretched only where no place is nearer."""
 ANGLES = 36
+FROM_ABOVE_COST_M = 3.0
+"""A tall thing that hangs from the hand is lifted onto nothing high: it is taken level from where that can be done."""
 RADIUS_WEIGHT = 1.5
 CLEARANCE_WEIGHT = 1.0
 STOPPED_COST_M, STOPPED_RAD, STOPPED_S = 5.0, 0.35, 120.0
@@ -134,7 +144,7 @@ class ApproachForReach(DriveTo):
         costs += np.where(self._stopped_lately(bearings), STOPPED_COST_M, 0.0)
         fits = self._fits(points, target)
         costs += np.where(fits | ~fits.any(), 0.0, np.inf)
-        costs += self._price_m(points)
+        costs += self._price_m(points) + self._hanging_m(frame, points)
         costs += np.where(self._faces_board(frame, points), 0.0, BARRED_COST_M)
         for failed in self._failed:
             costs += np.where(np.hypot(*(points - failed).T) < 0.25, np.inf, 0.0)
@@ -161,7 +171,8 @@ class ApproachForReach(DriveTo):
         over_m = passing_over(
             self.context.snapshot, frame, target, low_m, here, self._spared(), stamp_s=self.context.stamp_s
         )[0]
-        faces = over_m + self._price_m(here)[0] < most_m and self._faces_board(frame, here)[0]
+        over_m += self._price_m(here)[0] + self._hanging_m(frame, here)[0]
+        faces = over_m < most_m and self._faces_board(frame, here)[0]
         return bool(nearest_m < float(np.hypot(x_m, y_m)) < farthest_m and fits and faces and not stopped)
 
     def _stopped_lately(self, bearings_rad: Points) -> NDArray[np.bool_]:
@@ -175,18 +186,21 @@ class ApproachForReach(DriveTo):
 
     def _reaches_m(self) -> tuple[float, ...]:
         """Level with what the hand holds and with what it will grasp around its middle, else from above."""
-        context = self.context
-        node = context.snapshot.get(resolved(self._where).node_id)
+        context, node = self.context, self._to_grasp()
         if context.grip is not None:
             return reaches_m(context, context.body.arm.wrist_pitch_rad)
-        level = isinstance(node, ObjectNode) and node.graspable and is_tall(node.size_m)
-        return reaches_m(context, 0.0 if level else DOWN_RAD)
+        return reaches_m(context, 0.0 if node is not None and is_tall(node.size_m) else DOWN_RAD)
+
+    def _to_grasp(self) -> ObjectNode | None:
+        """What the empty hand is to take hold of."""
+        node = self.context.snapshot.get(resolved(self._where).node_id)
+        free = self.context.grip is None and isinstance(node, ObjectNode) and node.graspable
+        return node if free and isinstance(node, ObjectNode) else None
 
     def _fits(self, points: Points, target: Points) -> NDArray[np.bool_]:
         """Which of (N, 2) places the hand can take hold from: from above or level, as it is turned towards there."""
-        context = self.context
-        node = context.snapshot.get(resolved(self._where).node_id)
-        if context.grip is not None or not isinstance(node, ObjectNode) or not node.graspable:
+        context, node = self.context, self._to_grasp()
+        if node is None:
             return np.ones(len(points), np.bool_)
         yaw_rad = context.snapshot.transform(robot_frame(context.snapshot), node.id).yaw_rad
         aside = target[:2] - points
@@ -204,6 +218,17 @@ class ApproachForReach(DriveTo):
         if not can_grasp(node.size_m, pose, geometry=geometry, limits=limits):
             return False
         return not bars_level_hand(self.context.snapshot, node.id, pose)
+
+    def _hanging_m(self, frame: str, points: Points) -> Points:
+        """What it costs, (N,), that a tall thing can only be taken from above from (N, 2) places."""
+        context, node = self.context, self._to_grasp()
+        if node is None:
+            return np.zeros(len(points))
+        pose = SE3.from_xyz_yaw(BEST_RADIUS_M, 0.0, float(context.snapshot.position(node.id, frame)[2]), 0.0)
+        if not is_tall(node.size_m) or not can_grasp_level(node.size_m, pose, context.geometry, context.limits):
+            return np.zeros(len(points))
+        barred = level_hand_barred(context.snapshot, node.id, frame, points)
+        return np.where(barred, FROM_ABOVE_COST_M, 0.0)
 
     def _faces_board(self, frame: str, places: Points) -> NDArray[np.bool_]:
         """From which of (N, 2) places the hand gets straight to a thing that stands below a board; else from all."""

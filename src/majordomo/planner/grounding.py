@@ -240,7 +240,8 @@ class Grounding:
             return lost
         if phrase.other:
             found = self._others(found, context)
-        chosen = tuple(i for i in context.choices.get(text, ()) if i in found)
+        told = tuple(i for i in context.choices.get(text, ()) if i in self.snapshot)
+        chosen = tuple(i for i in told if i in found) or self._suited(told, carried=carried)
         if chosen:
             return chosen
         if not found:

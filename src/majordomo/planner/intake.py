@@ -13,7 +13,7 @@ from majordomo.planner.explainer import plan_sentence
 from majordomo.planner.goals import Goal
 from majordomo.planner.lessons import teach
 from majordomo.planner.openness import suppose_not_known
-from majordomo.planner.plan import Dialogue, Exchange, Impossible, Interpretation, Kind, Plan, Source
+from majordomo.planner.plan import Dialogue, Exchange, Impossible, Interpretation, Kind, Offer, Plan, Source
 from majordomo.planner.queue import TaskQueue
 from majordomo.planner.replanner import PlanMaker, Replanner, Verifier
 from majordomo.planner.scouting import Scout, kinds_called
@@ -117,6 +117,7 @@ class Intake:
         snapshot = self._memory.building()
         dialogue = Dialogue(
             answers=task.dialogue,
+            offers=task.offers,
             mentioned=self._mentioned,
             earlier=self._earlier(task),
             origins=self._origins,
@@ -159,7 +160,9 @@ class Intake:
             case Kind.REFUSE:
                 return self._scouted(task, meaning, stamp_s)
             case Kind.CLARIFY:
-                asked = {"candidates": meaning.candidates, "dialogue": (*task.dialogue, (meaning.reply, ""))}
+                offer = Offer(asked=meaning.asked, candidates=meaning.candidates)
+                asked = {"dialogue": (*task.dialogue, (meaning.reply, "")), "offers": (*task.offers, offer)}
+                asked["candidates"] = meaning.candidates
                 self._queue.move(task.id, TaskStatus.AWAITING_ANSWER, stamp_s=stamp_s, **said, **asked)
             case Kind.PLAN:
                 return self._plan(self._queue.amend(task.id, **said), meaning.goals, meaning.source, stamp_s)

@@ -325,8 +325,9 @@ def _is_deed(step: ParsedStep) -> bool:
 def _troubled(trouble: Trouble) -> Reading:
     """A question or a refusal."""
     if isinstance(trouble, Ambiguous):
-        found = Interpretation(kind=Kind.CLARIFY, reply=trouble.question, candidates=trouble.candidates)
-        return Reading(interpretation=found, asked=trouble.phrase)
+        question, candidates, asked = trouble.question, trouble.candidates, trouble.phrase
+        found = Interpretation(kind=Kind.CLARIFY, reply=question, candidates=candidates, asked=asked)
+        return Reading(interpretation=found, asked=asked)
     kind = Kind.CLARIFY if trouble.asks else Kind.REFUSE
     found = Interpretation(kind=kind, reply=trouble.reason, sought=trouble.sought if kind is Kind.REFUSE else "")
     return Reading(interpretation=found, wholly=not trouble.unknown)

@@ -166,7 +166,8 @@ class Interpretation:
     """What a request means on one revision of the graph.
 
     ``kind`` plan: ``goals`` are set and checked. answer: ``reply`` holds the answer, ``query`` the question. clarify:
-    ``reply`` is the question to ask, ``candidates`` the identifiers to choose from, if that is the question.
+    ``reply`` is the question to ask, ``candidates`` the identifiers to choose from, if that is the question, ``asked``
+    the phrase that it is about.
     refuse: ``reply`` says why. ``lessons``: for the graph.
     ``mentioned``: identifiers that were spoken of, for later pronouns, the newest first. ``sought``: the kind of thing
     that was never seen, if that is why nothing can be done; ``closed``: the doors that are, if that is all that is why.
@@ -177,6 +178,7 @@ class Interpretation:
     goals: tuple[Goal, ...] = ()
     reply: str = ""
     candidates: tuple[str, ...] = ()
+    asked: str = ""
     query: Query | None = None
     mentioned: tuple[str, ...] = ()
     lessons: tuple[Lesson, ...] = ()
@@ -185,10 +187,21 @@ class Interpretation:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Offer:
+    """What a question gave to choose from: the phrase that it was about, and identifiers in the order of the question;
+    none for a question of another kind.
+    """
+
+    asked: str = ""
+    candidates: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, kw_only=True)
 class Dialogue:
     """What was said before.
 
-    ``answers``: the robot's questions about this very request and what was answered, oldest first. ``mentioned``:
+    ``answers``: the robot's questions about this very request and what was answered, oldest first. ``offers``: what
+    each of them gave to choose from: *the second one* is the second of those, whatever is known by now. ``mentioned``:
     identifiers spoken of in earlier requests, the newest first. ``speaker``: the person who asks, if known.
     ``earlier``: what was asked before, the newest first. ``origins``: where things were before they were last moved.
     ``last``: identifiers that the turn before spoke of, which *them* may mean. ``displaced``: things that are no longer
@@ -196,6 +209,7 @@ class Dialogue:
     """
 
     answers: tuple[tuple[str, str], ...] = ()
+    offers: tuple[Offer, ...] = ()
     mentioned: tuple[str, ...] = ()
     speaker: str | None = None
     earlier: tuple[Exchange, ...] = ()

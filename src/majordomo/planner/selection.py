@@ -187,7 +187,8 @@ def select(
         if chosen:
             return chosen
     chosen = _chosen(answer, candidates, snapshot, interpreter, grammar)
-    return chosen or spoken_for(answer, candidates, interpreter.lexicon(snapshot), interpreter.grounding(snapshot))
+    known = tuple(i for i in candidates if i in snapshot)
+    return chosen or spoken_for(answer, known, interpreter.lexicon(snapshot), interpreter.grounding(snapshot))
 
 
 def _chosen(
@@ -207,7 +208,7 @@ def _chosen(
         return (candidates[_ORDINALS[short[0]]],)
     if short in (["last"], ["latter"]):
         return tuple(candidates[-1:])
-    return _described(said, candidates, snapshot, interpreter, grammar)
+    return _described(said, tuple(i for i in candidates if i in snapshot), snapshot, interpreter, grammar)
 
 
 def _described(

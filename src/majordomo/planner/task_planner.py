@@ -10,6 +10,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 from dataclasses import replace
+from itertools import zip_longest
 from typing import Any
 
 from majordomo.planner.choosing import left_by
@@ -20,7 +21,7 @@ from majordomo.planner.grounding import AMONG
 from majordomo.planner.interpreter import DOUBT, Choices, Interpreter, Reading
 from majordomo.planner.model_rounds import ModelRounds
 from majordomo.planner.models.protocol import CORRECTABLE, FailureKind, LanguageModel, ModelFailure
-from majordomo.planner.plan import Dialogue, Interpretation, Kind
+from majordomo.planner.plan import Dialogue, Interpretation, Kind, Offer
 from majordomo.planner.revision import revision
 from majordomo.planner.selection import NOTHING_THEN, agrees, confirms, declines, left_out, select
 from majordomo.planner.verifier import Verifier
@@ -73,18 +74,34 @@ class TaskPlanner:
 
     def read(self, text: str, snapshot: Snapshot, dialogue: Dialogue) -> Reading:
         """The grammar's reading of the request and the answers given so far."""
-        choices: Choices = {}
+        offers = dialogue.offers[: len(dialogue.answers)]
+        told = [
+            (answer, self._told(offer or Offer(), answer, snapshot))
+            for (_, answer), offer in zip_longest(dialogue.answers, offers)
+        ]
+        choices: Choices = {phrase: chosen for _, settled in told for phrase, chosen in settled.items()}
         reading = self._interpreter.read(text, snapshot, dialogue, choices)
-        for _, answer in dialogue.answers:
+        for answer, settled in told:
             if reading.interpretation.kind is not Kind.CLARIFY:
                 break
-            if not answer.strip():
+            if settled or not answer.strip():
                 continue
             if declines(answer) and not reading.asked.startswith(WHETHER):
                 return Reading(interpretation=Interpretation(kind=Kind.REFUSE, reply=NOTHING_THEN))
             text, choices = self._take_answer(text, answer, reading, choices, snapshot)
             reading = self._interpreter.read(text, snapshot, dialogue, choices)
         return reading
+
+    def _told(self, offer: Offer, answer: str, snapshot: Snapshot) -> Choices:
+        """What an answer chose of what its question offered, as far as that is still known; empty where it says
+        something else. What was offered may not be what would be asked now.
+        """
+        if not (offer.asked and offer.candidates and answer.strip()) or text_flaw(answer) is not None:
+            return {}
+        about = revision(answer)
+        words = about.rest if about is not None and about.how == "correct" else answer
+        chosen = select(words, offer.candidates, snapshot, self._interpreter, self._grammar)
+        return {offer.asked: tuple(i for i in chosen if i in snapshot)} if chosen else {}
 
     def _take_answer(
         self, text: str, answer: str, reading: Reading, choices: Choices, snapshot: Snapshot

@@ -12,7 +12,7 @@ from majordomo.planner.approval import Approval
 from majordomo.planner.errors import IllegalTransition
 from majordomo.planner.forecast import NO_CHANGES, Forecast
 from majordomo.planner.goals import Goal
-from majordomo.planner.plan import Plan
+from majordomo.planner.plan import Offer, Plan
 from majordomo.skills.failures import Evidence
 
 NO_EVIDENCE = Evidence()
@@ -171,8 +171,8 @@ class Task:
     """One request and everything that became of it.
 
     ``dialogue``: what the robot asked and what was answered, as (question, answer) pairs, the last answer ``""`` while
-    open. ``candidates``: identifiers to choose from while an answer is awaited. ``key``: what the client called the
-    request, so that it can send it again without asking for it twice.
+    open; ``offers``: what each question gave to choose from. ``candidates``: those while an answer is awaited.
+    ``key``: what the client called the request, so that it can send it again without asking for it twice.
     """
 
     id: str
@@ -186,6 +186,7 @@ class Task:
     reply: str = ""
     candidates: tuple[str, ...] = ()
     dialogue: tuple[tuple[str, str], ...] = ()
+    offers: tuple[Offer, ...] = ()
     plan: PlanReport | None = None
     replans: int = 0
     failures: tuple[FailureReport, ...] = ()
@@ -212,7 +213,7 @@ class Task:
     def document(self) -> dict[str, Any]:
         """The task as the API shows it (design, section 9)."""
         fields = asdict(self)
-        del fields["key"]
+        del fields["key"], fields["offers"]
         fields["plan"] = _plan_document(self.plan) if self.plan is not None else None
         fields["verified"] = [{**_goal_document(v.goal), "confirmed": v.confirmed} for v in self.verified]
         fields["dialogue"] = [{"question": question, "answer": answer} for question, answer in self.dialogue]

@@ -7,7 +7,7 @@ import pytest
 from grammar_home import home
 from majordomo.planner.goals import Goal, Predicate
 from majordomo.planner.grammar.parser import CommandGrammar
-from majordomo.planner.plan import Dialogue, Exchange, Kind
+from majordomo.planner.plan import Dialogue, Exchange, Kind, Offer
 from majordomo.planner.task_planner import TaskPlanner
 from majordomo.planner.verifier import Verifier
 from majordomo.skills.registry import load_registry
@@ -87,3 +87,29 @@ def test_both_of_one_thing_is_asked_about():
 def test_both_are_the_two_things_taken_in_this_request():
     found = heard("take the key. take the phone. put both on the counter", SNAPSHOT, Dialogue())
     assert len({goal.args[0] for goal in found.goals}) == 2
+
+
+def test_the_second_one_is_the_second_of_what_the_question_offered_whatever_has_turned_up_since():
+    """A cup was brought instead of another: by the time that the request was read again, a third was known."""
+    text = "bring me the book"
+    asked = heard(text, SNAPSHOT, Dialogue())
+    offered = asked.candidates[1:]
+    offer = Offer(asked=asked.asked, candidates=offered)
+    found = heard(text, SNAPSHOT, Dialogue(answers=(("Which one?", "the second one"),), offers=(offer,)))
+    assert len(asked.candidates) == 3
+    assert [goal.args[0] for goal in found.goals] == [offered[1]]
+
+
+def test_what_was_chosen_is_meant_though_something_else_alone_is_called_so_now():
+    chosen, other = "cup_1", "bottle_1"
+    offer = Offer(asked="bottle", candidates=(other, chosen))
+    found = heard("take the bottle", SNAPSHOT, Dialogue(answers=(("Which one?", "the second one"),), offers=(offer,)))
+    assert [goal.args for goal in found.goals] == [(chosen,)]
+
+
+def test_an_answer_to_what_is_no_longer_known_decides_nothing():
+    text = "bring me the book"
+    asked = heard(text, SNAPSHOT, Dialogue())
+    offer = Offer(asked=asked.asked, candidates=(asked.candidates[0], "book_99"))
+    found = heard(text, SNAPSHOT, Dialogue(answers=(("Which one?", "the second one"),), offers=(offer,)))
+    assert found.kind is Kind.CLARIFY

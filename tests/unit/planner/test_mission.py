@@ -579,6 +579,7 @@ def test_a_question_is_asked_with_candidates_and_its_answer_planned():
     show.run(6)
     assert show.task.status is TaskStatus.AWAITING_ANSWER
     assert show.task.candidates == ("bottle_1", "bottle_2")
+    assert [offer.candidates for offer in show.task.offers] == [show.task.candidates]
     assert show.task.reply == "Which one?"
     show.queue.answer("task_1", "the blue one", stamp_s=show.stamp_s)
     show.run_until(lambda: show.task.status.ended)

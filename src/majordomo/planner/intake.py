@@ -161,9 +161,15 @@ class Intake:
                 return self._scouted(task, meaning, stamp_s)
             case Kind.CLARIFY:
                 offer = Offer(asked=meaning.asked, candidates=meaning.candidates)
-                asked = {"dialogue": (*task.dialogue, (meaning.reply, "")), "offers": (*task.offers, offer)}
-                asked["candidates"] = meaning.candidates
-                self._queue.move(task.id, TaskStatus.AWAITING_ANSWER, stamp_s=stamp_s, **said, **asked)
+                self._queue.move(
+                    task.id,
+                    TaskStatus.AWAITING_ANSWER,
+                    stamp_s=stamp_s,
+                    candidates=meaning.candidates,
+                    dialogue=(*task.dialogue, (meaning.reply, "")),
+                    offers=(*task.offers, offer),
+                    **said,
+                )
             case Kind.PLAN:
                 return self._plan(self._queue.amend(task.id, **said), meaning.goals, meaning.source, stamp_s)
         return None

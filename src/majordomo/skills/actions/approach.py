@@ -194,8 +194,9 @@ class ApproachForReach(DriveTo):
     def _to_grasp(self) -> ObjectNode | None:
         """What the empty hand is to take hold of."""
         node = self.context.snapshot.get(resolved(self._where).node_id)
-        free = self.context.grip is None and isinstance(node, ObjectNode) and node.graspable
-        return node if free and isinstance(node, ObjectNode) else None
+        if self.context.grip is None and isinstance(node, ObjectNode) and node.graspable:
+            return node
+        return None
 
     def _fits(self, points: Points, target: Points) -> NDArray[np.bool_]:
         """Which of (N, 2) places the hand can take hold from: from above or level, as it is turned towards there."""

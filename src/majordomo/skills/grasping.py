@@ -17,6 +17,7 @@ from majordomo.scene_graph.nodes import ObjectNode, ObjectState
 from majordomo.scene_graph.se3 import SE3
 from majordomo.scene_graph.snapshot import Snapshot
 from majordomo.skills.boards import HAND_HALF_WIDTH_M, board_under, boards_of, headroom_m
+from majordomo.skills.containers import is_open_container
 from majordomo.skills.errors import Unreachable
 from majordomo.skills.geometry import Points, Pose2, wrap_rad
 from majordomo.skills.kinematics import arm_target
@@ -272,8 +273,7 @@ def _is_barred(
 ) -> NDArray[np.bool_]:
     """(N,): from ``bases`` (N, 2) that are so turned (N,), both in the frame of the object, ``z_m`` over the floor."""
     barred = _meets_seat(snapshot, object_id, headings_rad, z_m)
-    seat = _seat_under(snapshot, object_id)
-    judged = {object_id, seat.id} if seat is not None else {object_id}
+    judged = {object_id, *_harmless_below(snapshot, object_id)}
     hand_low_m = underside_m(snapshot.object(object_id).size_m, z_m) - LEVEL_AIR_M
     ahead = np.stack((np.cos(headings_rad), np.sin(headings_rad)), axis=-1)
     aside = np.stack((-ahead[:, 1], ahead[:, 0]), axis=-1)
@@ -283,13 +283,38 @@ def _is_barred(
             continue
         if snapshot.room_of(other.id) != snapshot.room_of(object_id):
             continue
-        x_m, y_m, over_m = snapshot.transform(object_id, other.id).translation_m
+        T_object_other = snapshot.transform(object_id, other.id)
+        x_m, y_m, over_m = T_object_other.translation_m
         if z_m + over_m + other.size_m[2] / 2 <= hand_low_m:
             continue
-        from_base, half_m = np.array((x_m, y_m)) - bases, max(other.size_m[:2]) / 2
+        from_base = np.array((x_m, y_m)) - bases
         along_m, across_m = (from_base * ahead).sum(axis=1), np.abs((from_base * aside).sum(axis=1))
-        barred |= (across_m < HAND_HALF_WIDTH_M + half_m) & (along_m > 0.0) & (along_m < away_m + half_m + 0.05)
+        deep_m, wide_m = _half_extents_m(other.size_m, headings_rad - T_object_other.yaw_rad)
+        barred |= (across_m < HAND_HALF_WIDTH_M + wide_m) & (along_m > 0.0) & (along_m < away_m + deep_m + 0.05)
     return barred
+
+
+def _harmless_below(snapshot: Snapshot, object_id: str) -> tuple[str, ...]:
+    """What an object stands on, if nothing of that rises beside it, or only the back and arms of a seat, of which it is
+    known where they are: what stands on furniture may have been measured as a part of it.
+    """
+    support, room = snapshot.get(snapshot.support_of(object_id) or ""), snapshot.room_of(object_id)
+    if not isinstance(support, ObjectNode) or room is None or is_open_container(support.label):
+        return ()
+    known = bool(rims(support)) if is_seat(support.label) else not is_covered(snapshot, object_id, room)
+    return (support.id,) if known else ()
+
+
+def _half_extents_m(size_m: Size3, headings_rad: Points) -> tuple[Points, Points]:
+    """How far a thing reaches from its middle along directions (N,) in its own frame, and across them: (N,) each.
+
+    No farther than half its length: what is round is not seen as a square with corners.
+    """
+    half_x_m, half_y_m = size_m[0] / 2, size_m[1] / 2
+    cosines, sines = np.abs(np.cos(headings_rad)), np.abs(np.sin(headings_rad))
+    longest_m = max(half_x_m, half_y_m)
+    along_m = np.minimum(half_x_m * cosines + half_y_m * sines, longest_m)
+    return along_m, np.minimum(half_x_m * sines + half_y_m * cosines, longest_m)
 
 
 def meets_seat_level(snapshot: Snapshot, object_id: str, T_base_object: SE3) -> bool:

@@ -148,6 +148,25 @@ def test_a_bottle_is_taken_level_unless_something_stands_before_it_as_high_as_th
     assert prefers_level(built.memory.snapshot(), "bottle_1", ahead) is level
 
 
+@pytest.mark.parametrize(
+    ("label", "high_m", "barred"), [("stool", 0.84, False), ("basket", 0.84, True), ("bench", 1.2, True)]
+)
+def test_what_was_measured_as_a_part_of_a_stool_bars_no_level_hand_over_it(flat, label, high_m, barred):
+    """A bottle beside a clock on a stool: the stool seemed 8 cm higher than it is."""
+    built = flat().thing(f"{label}_1", (1.0, 1.2, high_m / 2), (0.4, 0.4, high_m), support=True)
+    built.bottle("bottle_1", 1.0, 1.2, on=f"{label}_1")
+    ahead = SE3.from_xyz_yaw(0.6, 0.0, 0.87, 0.0)
+    assert bars_level_hand(built.memory.snapshot(), "bottle_1", ahead) is barred
+
+
+@pytest.mark.parametrize(("yaw_rad", "level"), [(0.0, True), (pi / 2, False), (pi, True)])
+def test_a_thin_clock_beside_a_bottle_bars_a_level_hand_only_where_it_stands_across(flat, yaw_rad, level):
+    built = flat().table().bottle("bottle_1", 1.0, 1.2)
+    built.thing("clock_1", (0.85, 1.32, 0.81), (0.12, 0.03, 0.12), yaw=yaw_rad, on="table_1")
+    ahead = SE3.from_xyz_yaw(0.6, 0.0, 0.87, 0.0)
+    assert prefers_level(built.memory.snapshot(), "bottle_1", ahead) is level
+
+
 @settings(max_examples=40, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(
     st.lists(st.tuples(st.floats(-0.5, 0.5), st.floats(-0.3, 0.3), st.floats(0.04, 0.3)), min_size=1, max_size=4),

@@ -29,7 +29,6 @@ from majordomo.skills.failures import FailureCode
 from majordomo.skills.geometry import Point2, Points
 from majordomo.skills.grasping import (
     DOWN_RAD,
-    bars_level_hand,
     can_grasp,
     can_grasp_level,
     is_tall,
@@ -203,22 +202,20 @@ class ApproachForReach(DriveTo):
         context, node = self.context, self._to_grasp()
         if node is None:
             return np.ones(len(points), np.bool_)
-        yaw_rad = context.snapshot.transform(robot_frame(context.snapshot), node.id).yaw_rad
-        aside = target[:2] - points
-        poses = (
-            SE3.from_xyz_yaw(hypot(dx, dy), 0.0, float(target[2]), yaw_rad - atan2(dy, dx)) for dx, dy in aside.tolist()
+        frame = robot_frame(context.snapshot)
+        yaw_rad = context.snapshot.transform(frame, node.id).yaw_rad
+        barred = level_hand_barred(context.snapshot, node.id, frame, points)
+        grasps = (
+            can_grasp(
+                node.size_m,
+                SE3.from_xyz_yaw(hypot(dx, dy), 0.0, float(target[2]), yaw_rad - atan2(dy, dx)),
+                geometry=context.geometry,
+                limits=context.limits,
+                level_too=level_too,
+            )
+            for (dx, dy), level_too in zip((target[:2] - points).tolist(), (~barred).tolist(), strict=True)
         )
-        grasps = (self._can_grasp(node, pose) for pose in poses)
         return np.fromiter(grasps, np.bool_, len(points))
-
-    def _can_grasp(self, node: ObjectNode, pose: SE3) -> bool:
-        """Whether the hand takes hold of what is so before the base: from above, or level if nothing is in the way."""
-        geometry, limits = self.context.geometry, self.context.limits
-        if can_grasp(node.size_m, pose, geometry=geometry, limits=limits, level_too=False):
-            return True
-        if not can_grasp(node.size_m, pose, geometry=geometry, limits=limits):
-            return False
-        return not bars_level_hand(self.context.snapshot, node.id, pose)
 
     def _hanging_m(self, frame: str, points: Points) -> Points:
         """What it costs, (N,), that a tall thing can only be taken from above from (N, 2) places."""

@@ -488,11 +488,64 @@ def test_what_the_hand_has_put_there_is_not_the_missing_thing_that_turned_up():
 
 def test_where_such_things_come_in_numbers_one_that_was_hidden_so_far_is_not_the_missing_one():
     missing, hidden_so_far = thing(1, state=ObjectState.MISSING), thing(2, seen=(20.0, 21.0))
+    hidden_so_far.put_at("room_1", np.array((0.3, 0.0, 0.0)), 0.01)
+    beside = thing(3, seen=(0.0, 21.0))
+    beside.put_at("room_1", np.array((0.4, 0.0, 0.0)), 0.01)
     known = {"looked_before": {"room_1": 0.0}, "settings": IdentitySettings()}
     assert turned_up(missing, [hidden_so_far], **known) is hidden_so_far
-    assert turned_up(missing, [thing(3, seen=(0.0, 21.0)), hidden_so_far], **known) is None
+    assert turned_up(missing, [beside, hidden_so_far], **known) is None
     gone_too = thing(3, seen=(0.0, 5.0), state=ObjectState.MISSING)
     assert turned_up(missing, [gone_too, hidden_so_far], **known) is hidden_so_far
+
+
+@pytest.mark.parametrize(
+    ("look", "apart_m", "one"),
+    [({}, 0.02, True), ({}, 0.05, False), ({"label": "cup"}, 0.02, False), ({"size_m": (0.3, 0.3, 0.5)}, 0.02, False)],
+)
+def test_a_missing_thing_is_the_one_like_it_that_is_seen_in_its_very_place_since_when_ever(look, apart_m, one):
+    missing, seen = thing(1, state=ObjectState.MISSING), thing(2, seen=(5.0, 21.0), **look)
+    seen.put_at("room_1", np.array((apart_m, 0.0, 0.0)), 0.01)
+    elsewhere = thing(3, seen=(0.0, 5.0))
+    elsewhere.put_at("room_1", np.array((1.0, 0.0, 0.0)), 0.01)
+    known = {"looked_before": {}, "settings": IdentitySettings()}
+    assert (turned_up(missing, [elsewhere, seen], **known) is seen) is one
+    seen.carried = True
+    assert turned_up(missing, [elsewhere, seen], **known) is None
+
+
+def nothing_seen(room, snapshot):
+    """One frame that shows nothing, in ``room``."""
+    base = SE3.identity()
+    frame = rgbd_frame(render([], base), stamp_s=1.0, T_base_camera=base)
+    view = View.of(frame, room=room, T_room_base=base, pose_covariance=np.zeros((6, 6)))
+    return Sight(view=view, detections=[], surroundings=Surroundings(snapshot, room))
+
+
+@pytest.mark.parametrize("missing_number", [1, 2])
+def test_of_two_nodes_in_one_place_of_which_one_is_missed_the_older_name_stays(missing_number):
+    tracker = Tracker(settings=TrackerSettings(), random=np.random.default_rng(0))
+    tracker.tracks = [thing(1), thing(2)]
+    for track in tracker.tracks:
+        track.node_id = f"bottle_{track.number}"
+        track.state = ObjectState.MISSING if track.number == missing_number else ObjectState.PRESENT
+    tracker.update(nothing_seen("room_1", two_rooms()))
+    assert [(track.node_id, track.state) for track in tracker.tracks] == [("bottle_1", ObjectState.PRESENT)]
+    assert tracker.removed == {"bottle_2": tracker.tracks[0]}
+    assert tracker.united == {2: tracker.tracks[0]}
+
+
+@pytest.mark.parametrize(
+    ("label", "size_m", "present", "missing"),
+    [
+        ("book", (0.2, 0.1, 0.04), True, True),
+        ("book", (0.3, 0.3, 0.04), False, True),
+        ("sofa", (2.0, 0.9, 0.8), False, False),
+    ],
+)
+def test_what_is_missing_may_be_carried_if_things_of_that_name_are(label, size_m, present, missing):
+    for state, graspable in ((ObjectState.PRESENT, present), (ObjectState.MISSING, missing)):
+        track = thing(1, label, size_m=size_m, state=state)
+        assert node_of("thing_1", track, None, None).graspable is graspable
 
 
 @pytest.mark.parametrize(
@@ -721,10 +774,7 @@ def test_what_is_in_no_known_room_goes_along_with_the_robot_until_its_room_is_kn
     track.place = SurfaceBelief.of(Box(np.array((12.0, 0.5, 0.25)), (0.4, 0.4, 0.5), 0.0))
 
     def stand_in(room, snapshot):
-        base = SE3.identity()
-        frame = rgbd_frame(render([], base), stamp_s=1.0, T_base_camera=base)
-        view = View.of(frame, room=room, T_room_base=base, pose_covariance=np.zeros((6, 6)))
-        tracker.update(Sight(view=view, detections=[], surroundings=Surroundings(snapshot, room)))
+        tracker.update(nothing_seen(room, snapshot))
 
     stand_in("room_2", two_rooms())
     assert (track.room, track.homeless) == ("room_2", True)

@@ -30,6 +30,8 @@ _SAME_LOOK, _SAME_NAME, _SAME_BODY = 0.6, 0.1, 0.85
 """Of what slipped, or seems to be another thing in the same place: how well color and size agree with what is there,
 and how far the names may differ; from where on the name of what slipped does not matter.
 """
+_SAME_SPOT = 0.4
+"""Of the width of the narrower of two things: nearer to each other, their middles are those of one."""
 _BOX_MARGIN_M = 0.1
 _UNSEEN_S = 0.3
 _SAME_SPACE = 0.5
@@ -69,11 +71,13 @@ def known_as(
 def turned_up(
     missing: Track, known: Sequence[Track], *, looked_before: Mapping[str, float], settings: IdentitySettings
 ) -> Track | None:
-    """The younger thing that a missing one is: it was moved, and seen at its new place before it was missed at the old.
+    """The other thing that a missing one is: a look-alike in its very place, or what it was moved to become: seen at
+    its new place before it was missed at the old.
 
-    Only a look-alike that turned up after the missing one was last seen, where one had looked before and seen nothing,
-    and not what the hand itself has put there; and only if there is no second one like it, be it known for long: where
-    such things come in numbers, one that nobody had noticed, behind another, is likelier than one that was moved.
+    Elsewhere, only a look-alike that turned up after the missing one was last seen, where one had looked before and
+    seen nothing; and only if there is no second one like it, be it known for long: where such things come in numbers,
+    one that nobody had noticed, behind another, is likelier than one that was moved. Never what the hand itself has put
+    there.
     """
     alike = [
         track
@@ -82,8 +86,9 @@ def turned_up(
         and track.is_furniture is missing.is_furniture
         and _is_like(track, missing, settings)
     ]
-    if len(alike) != 1:
-        return None
+    in_its_spot = next((track for track in alike if _stands_in(track, missing) and not track.carried), None)
+    if in_its_spot is not None or len(alike) != 1:
+        return in_its_spot
     (only,) = alike
     later = only.first_seen_s > missing.last_seen_s and may_have_fallen_to(only, missing, settings)
     if not later or only.carried or not _looked_there_before(only, known, looked_before):
@@ -162,6 +167,13 @@ def _body_agreement(sighting: Track, track: Track) -> float:
 def _touch(one: Track, other: Track) -> bool:
     apart_m = np.abs(one.position - other.position)
     return bool(np.all(apart_m < (np.asarray(one.box.size_m) + np.asarray(other.box.size_m)) / 2))
+
+
+def _stands_in(one: Track, other: Track) -> bool:
+    """Whether two known things are said to be so much in one place that there can be only one."""
+    away_m = float(np.hypot(*(one.position - other.position)[:2]))
+    narrow_m = min(*one.box.size_m[:2], *other.box.size_m[:2])
+    return one.room == other.room and _touch(one, other) and away_m < _SAME_SPOT * narrow_m
 
 
 def _looked_there_before(sighting: Track, known: Sequence[Track], looked_before: Mapping[str, float]) -> bool:

@@ -18,7 +18,7 @@ from majordomo.perception.objects.track import Track
 from majordomo.perception.vocabulary import carries_things, category_of, is_graspable
 from majordomo.scene_graph.edges import EdgeKey, EdgeType, InEdge, RelationEdge, RtEdge
 from majordomo.scene_graph.edits import Edit, PutEdge, PutNode, RemoveEdge, RemoveNode
-from majordomo.scene_graph.nodes import ROBOT_ID, ObjectNode, ObjectState, PersonNode, RobotNode
+from majordomo.scene_graph.nodes import ROBOT_ID, ObjectNode, ObjectState, PersonNode, Point3, RobotNode
 from majordomo.scene_graph.se3 import SE3
 from majordomo.scene_graph.snapshot import Snapshot
 
@@ -56,7 +56,7 @@ def node_of(node_id: str, track: Track, before: ObjectNode | None, inspected_s: 
         last_seen_s=track.last_seen_s,
         state=track.state,
         existence=track.existence,
-        graspable=is_graspable(label, size_m),
+        graspable=_is_graspable(track, label, size_m),
         support=carries_things(label, size_m),
         inspected_s=inspected_s if inspected_s is not None or before is None else before.inspected_s,
         observations=track.hits,
@@ -64,6 +64,14 @@ def node_of(node_id: str, track: Track, before: ObjectNode | None, inspected_s: 
         back_rad=_back_rad(track),
         back_m=_back_m(track),
     )
+
+
+def _is_graspable(track: Track, label: str, size_m: Point3) -> bool:
+    """As it was measured; by its name alone while it is missing: what was thrown over, or had something beside it, may
+    have been measured wrongly just before, and is measured anew where it is found.
+    """
+    missed = track.state is ObjectState.MISSING and category_of(label, size_m).graspable
+    return missed or is_graspable(label, size_m)
 
 
 def object_edits(

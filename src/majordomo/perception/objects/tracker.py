@@ -312,14 +312,20 @@ class Tracker:
         self.drop(sighting)
 
     def _find_missing_again(self, sight: Sight) -> None:
-        """A thing that is missed at its place may have been seen at another already, under a name of its own."""
+        """A thing that is missed at its place may have been seen at another already, under a name of its own; or what
+        is seen there now is another that is said to be in the very same place, and both are one: the older name stays.
+        """
         named = [track for track in self.tracks if track.node_id is not None]
         for missing in [track for track in named if track.state is ObjectState.MISSING and not track.is_furniture]:
             moved = turned_up(missing, named, looked_before=sight.looked_before, settings=self._settings.identity)
             if moved is not None and moved in self.tracks and moved.node_id is not None:
-                self.united[moved.number] = missing
-                self.removed[moved.node_id] = missing
-                self._recognize(moved, missing)
+                older, newer = sorted((missing, moved), key=lambda track: track.number)
+                self.united[newer.number] = older
+                self.removed.update({newer.node_id: older} if newer.node_id is not None else {})
+                if older is missing:
+                    self._recognize(moved, missing)
+                else:
+                    self.drop(missing)
 
     def _unite(self) -> None:
         """Two nodes that turned out to be one piece of furniture become one; the older name stays."""

@@ -319,7 +319,7 @@ class Tracker:
         for missing in [track for track in named if track.state is ObjectState.MISSING and not track.is_furniture]:
             moved = turned_up(missing, named, looked_before=sight.looked_before, settings=self._settings.identity)
             if moved is not None and moved in self.tracks and moved.node_id is not None:
-                older, newer = sorted((missing, moved), key=lambda track: track.number)
+                older, newer = sorted((missing, moved), key=lambda track: (track.first_seen_s, track.number))
                 self.united[newer.number] = older
                 self.removed.update({newer.node_id: older} if newer.node_id is not None else {})
                 if older is missing:

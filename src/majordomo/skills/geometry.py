@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import atan2, cos, hypot, sin
+from math import atan2, ceil, cos, hypot, sin
 
 import numpy as np
 from numpy.typing import NDArray
@@ -83,6 +83,12 @@ class Box2:
         """Corners (4, 2), counter-clockwise."""
         x, y = self.size_x_m / 2, self.size_y_m / 2
         return self.pose.apply(np.array([[x, y], [-x, y], [-x, -y], [x, -y]]))
+
+    def outline(self, step_m: float) -> Points:
+        """Points (N, 2) along all four sides, at most ``step_m`` apart."""
+        corners = self.corners()
+        sides = zip(corners, np.roll(corners, -1, axis=0), strict=True)
+        return np.concatenate([np.linspace(a, b, ceil(float(np.hypot(*(b - a))) / step_m) + 1) for a, b in sides])
 
 
 def inside_polygon(polygon: Sequence[Point2], points: Points) -> NDArray[np.bool_]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from math import pi
 
+import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
@@ -189,6 +190,19 @@ async def test_a_blocked_door_is_tried_again_where_there_is_no_other(flat):
     context = await rehearsal.prepare()
     context.blocked_doors["door_1_1_0"] = context.stamp_s
     assert [a.door_id for a in journeys.travel(context, "room_2") if isinstance(a, CrossDoor)] == ["door_1_1_0"]
+
+
+@pytest.mark.parametrize(("x", "room"), [(2.62, "room_1"), (-1.65, "room_2")])
+async def test_what_is_known_to_lie_before_or_behind_a_door_is_passed_though_no_scan_shows_it_any_more(flat, x, room):
+    built = flat(width_m=1.2).thing("clock_1", (x, 0.2, 0.06), (0.12, 0.06, 0.12), room=room, graspable=True)
+    rehearsal = Rehearsal(memory=built.memory, world=wall(1.2), body=FakeBody(pose=Pose2(1.9, 0.0)))
+    context = await rehearsal.prepare()
+    clock = Box2(Pose2(x if room == "room_1" else x + 5.2, 0.2), 0.12, 0.06)
+    nearest_m = []
+    rehearsal.observe = lambda r: nearest_m.append(clock.distance_m(np.array([r.body.pose.point]))[0])
+    assert await rehearsal.run([CrossDoor(context, "door_1_1_0")]) is None
+    assert min(nearest_m) > 0.26
+    assert rehearsal.least_clearance_m > 0.25
 
 
 @pytest.mark.parametrize("side", [1, -1])

@@ -50,6 +50,15 @@ def test_what_lies_right_before_the_gap_is_passed_aslant(y_m):
         assert nearest_m > HALF_M - 0.01
 
 
+def test_a_way_that_only_one_slant_leaves_is_found():
+    things = np.vstack([wall(1.01), box(-0.37, 0.0, 0.1), box(-0.2, -0.4, 0.1), box(0.85, -0.6, 0.1)])
+    lane = clear_lane(things, half_m=0.265, width_m=1.01, base_x_m=-0.68)
+    assert lane is not None
+    assert lane.is_clear(things, 0.265, -FRONT_M)
+    closed = np.vstack([things, box(-0.2, 0.4, 0.1)])
+    assert clear_lane(closed, half_m=0.265, width_m=1.01, base_x_m=-0.68) is None
+
+
 def test_what_fills_the_gap_leaves_no_lane():
     assert lane_through(box(0.1, 0.0, 0.6)) is None
 

@@ -23,6 +23,8 @@ from majordomo.skills.failures import FailureCode
 from majordomo.skills.geometry import Points, Pose2, wrap_rad
 from majordomo.skills.navigation.driver import Driver, DriverConfig, Progress
 from majordomo.skills.navigation.goals import at_poses
+from majordomo.skills.navigation.grid import CELL_M
+from majordomo.skills.navigation.local_map import standing
 from majordomo.skills.navigation.plan import SQUEEZE_M, GoalSource
 from majordomo.skills.navigation.pose import footprint_radius_m, in_base, look_around, planar_pose, robot_frame
 from majordomo.skills.navigation.pursuit import turn_rate
@@ -238,8 +240,12 @@ class CrossDoor(Action):
         return Pose2(base.y_m + WALL_M, -base.x_m, wrap_rad(base.yaw_rad - pi / 2))
 
     def _points_base(self) -> Points:
-        context = self.context
-        return planar_pose(context, robot_frame(context.snapshot)).inverse_apply(context.surroundings.points())
+        """What was hit lately, and around what is known to lie on the floor of both rooms, which is soon overlooked."""
+        context, snapshot = self.context, self.context.snapshot
+        frame = robot_frame(snapshot)
+        rooms = {snapshot.door(door).rooms[0] for door in (self.door_id, *twins_of(snapshot, self.door_id))}
+        low = [box.outline(CELL_M) for box in standing(snapshot, frame, small_only=True, rooms=rooms)]
+        return planar_pose(context, frame).inverse_apply(np.concatenate([context.surroundings.points(), *low]))
 
     def _radius_m(self) -> float:
         return footprint_radius_m(self.context) - (SQUEEZE_M if self._squeezes else 0.0)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import chain
 from math import cos, sin, tan
 
 import numpy as np
@@ -17,8 +18,9 @@ from majordomo.skills.geometry import Points
 WALL_M = 0.2
 BEYOND_M = 0.9
 FRONT_M = 0.7
-LANE_STEP_M = 0.03
-BEARINGS_RAD = (0.0, 0.26, 0.52, 0.79)
+MOST_ASLANT_RAD = 0.79
+STEPS = ((0.03, 0.26), (0.015, 0.065))
+"""How far apart the lanes that are tried are, aside in meters and in bearing: close to each other only at last."""
 _SAME_M, _SAME_RAD = 0.02, 0.02
 
 
@@ -52,17 +54,17 @@ def clear_lane(points: Points, *, half_m: float, width_m: float, base_x_m: float
     """The lane nearest to the axis of a gap of ``width_m`` in which a body of half the width ``half_m`` touches none of
     ``points`` (N, 2): from where the base is on; one aslant from where it lines up. ``None`` where there is none.
     """
-    for lane in _lanes(width_m / 2 - half_m):
+    for lane in chain.from_iterable(_lanes(width_m / 2 - half_m, *steps) for steps in STEPS):
         from_m = -FRONT_M if lane.bearing_rad else min(base_x_m, -half_m)
         if lane.is_clear(points, half_m, from_m):
             return lane
     return None
 
 
-def _lanes(room_m: float) -> Iterator[Lane]:
+def _lanes(room_m: float, step_m: float, step_rad: float) -> Iterator[Lane]:
     """Straight ones before those aslant, small offsets first; jambs are among the points, so these need no care."""
-    steps = range(int(max(room_m, 0.0) / LANE_STEP_M) + 1)
-    for bearing_rad in BEARINGS_RAD:
+    steps = range(int(max(room_m, 0.0) / step_m) + 1)
+    for bearing_rad in np.arange(0.0, MOST_ASLANT_RAD, step_rad).tolist():
         for turn in (1, -1) if bearing_rad else (1,):
-            for offset_m in (sign * step * LANE_STEP_M for step in steps for sign in (1, -1)):
+            for offset_m in (sign * step * step_m for step in steps for sign in (1, -1)):
                 yield Lane(offset_m=offset_m, bearing_rad=turn * bearing_rad)

@@ -57,16 +57,23 @@ def draw_map(
     return canvas.finish()
 
 
-def standing(snapshot: Snapshot, frame: str, ignore: Collection[str] = (), *, small_only: bool = False) -> list[Box2]:
-    """Footprints in ``frame`` of what stands on the floor of this room, as the graph believes; ``small_only``: of what
-    a hand could pick up.
+def standing(
+    snapshot: Snapshot,
+    frame: str,
+    ignore: Collection[str] = (),
+    *,
+    small_only: bool = False,
+    rooms: Collection[str] = (),
+) -> list[Box2]:
+    """Footprints in ``frame`` of what stands on the floor of this room, or of ``rooms``, as the graph believes;
+    ``small_only``: of what a hand could pick up.
     """
     return [
         footprint(snapshot, node, frame)
         for node in snapshot.of_type(ObjectNode)
         if node.id not in ignore
         and (node.graspable or not small_only)
-        and snapshot.room_of(node.id) == frame
+        and snapshot.room_of(node.id) in (rooms or (frame,))
         and _stands_in_way(snapshot, node, frame)
     ]
 

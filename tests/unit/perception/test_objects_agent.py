@@ -646,6 +646,19 @@ def test_what_has_a_name_is_a_thing_on_a_thing_once_that_is_beyond_doubt_from_tw
     assert ("scissors" in [n.label for n in graph.of_type(ObjectNode)]) is found
 
 
+@pytest.mark.parametrize(("deep_m", "found"), [(0.012, False), (0.06, True)])
+def test_what_is_thin_and_upright_at_the_end_of_a_thing_is_its_side_whatever_it_is_called(deep_m, found):
+    book = Solid(label="book", center=(-0.1, 0.0, 0.768), size_m=(0.2, 0.09, 0.036), color=(200.0, 180.0, 30.0))
+    end = Solid(label="scissors", center=(-0.2 - deep_m / 2, 0.0, 0.768), size_m=(deep_m, 0.08, 0.036), confidence=0.95)
+    story = Story([TABLE, book], eye=(-1.3, 0.3))
+    story.run(8)
+    story.room.solids.append(end)
+    story.run(8)
+    story.room.eye = (-1.2, -0.5)
+    graph = story.run(8)
+    assert ("scissors" in [n.label for n in graph.of_type(ObjectNode)]) is found
+
+
 def test_what_stays_doubtful_from_one_place_is_a_node_once_it_was_seen_from_another():
     blob = Solid(label="apple", center=(0.1, 0.0, 0.8), size_m=(0.09, 0.09, 0.09), confidence=0.21)
     story = Story([TABLE, blob])

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +24,9 @@ _EDGE_M, _MOST = 0.02, 0.85
 """Such a share of the points of what is furniture is so near to it."""
 _PART_EDGE_M = 0.02
 """So near to a small thing lies the middle of what is a part of it: of its upper side, depth shows a little more."""
+_SIDE_M = 0.02
+"""Thinner than this, in one direction of the floor, is what is just a side of a thing; the rest is the noise of depth.
+"""
 _NAMED = 0.6
 """From such a share on, the name that the network gives a detection counts."""
 _BIT_SHARE = 0.6
@@ -115,6 +119,18 @@ def lies_within(track: Track, known: Sequence[Track]) -> bool:
         return False
     others = [t for t in known if t is not track and t.room == track.room and _is_known_by_name(t)]
     return any(bool(other.box.contains(track.position[None], _PART_EDGE_M)[0]) for other in others)
+
+
+def is_side(track: Track, known: Sequence[Track]) -> bool:
+    """Whether a small thing is no more than a side of another that is known, whatever it is called: upright, as good as
+    flat, and within the other or as good as: of the end of a book, networks make scissors.
+    """
+    if track.is_furniture or min(track.box.size_m[:2]) > _SIDE_M or track.box.size_m[2] <= min(track.box.size_m[:2]):
+        return False
+    others = [t for t in known if t is not track and t.room == track.room and _is_known_by_name(t)]
+    half = np.array(track.box.size_m) / 2.0
+    corners = track.box.place(half * np.array(tuple(product((-1.0, 1.0), repeat=3))))
+    return any(bool(other.box.contains(corners, _PART_EDGE_M).all()) for other in others)
 
 
 def _is_bit(detection: Detection, tracks: Sequence[Track], sight: Sight) -> bool:

@@ -41,6 +41,7 @@ from majordomo.perception.objects.pieces import (
     is_part,
     is_piece,
     is_under_arm,
+    is_side,
     lies_within,
     without_pieces,
 )
@@ -268,7 +269,7 @@ class Tracker:
         unnamed = [t for t in self._near(sight) if t.node_id is None and not t.homeless]
         for track in [t for t in unnamed if is_stable(t, probation)]:
             known = [t for t in self.tracks if t.node_id is not None]
-            if is_piece(track, sight, self.matches, known, self._settings.pieces):
+            if is_piece(track, sight, self.matches, known, self._settings.pieces) or is_side(track, known):
                 self.drop(track)
                 continue
             same = known_as(

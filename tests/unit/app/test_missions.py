@@ -10,12 +10,13 @@ from itertools import combinations
 import matplotlib.image
 import numpy as np
 import pytest
+from rich.console import Console
 
 from majordomo.app.evaluations.inventory import GraphContents, GraphThing
 from majordomo.app.evaluations.missions.attempts import Attempts
 from majordomo.app.evaluations.missions.crowding import boxes_over
 from majordomo.app.evaluations.missions.disturbances import DISTURBANCES, Moment
-from majordomo.app.evaluations.missions.evaluation import met, summarize
+from majordomo.app.evaluations.missions.evaluation import evaluate, met, summarize
 from majordomo.app.evaluations.missions.filmstrip import MOST, Still, draw_filmstrip
 from majordomo.app.evaluations.missions.inventing import invent
 from majordomo.app.evaluations.missions.mission import Mission
@@ -30,6 +31,7 @@ from majordomo.app.evaluations.missions.playing import (
 )
 from majordomo.app.evaluations.missions.resident import meant
 from majordomo.app.evaluations.missions.ways import Ways
+from majordomo.perception.network.shipped import SHIPPED
 from majordomo.planner.tasks import PlanReport, StepReport, StepStatus, Task, TaskStatus, TaskTimes
 from majordomo.simulation.blocks import Block, overlapping
 from majordomo.simulation.catalog import category_named
@@ -184,6 +186,19 @@ def test_invented_requests_are_the_same_for_a_seed_and_ask_for_every_thing_once(
     assert len(asked) == len(set(asked)) >= 4
     for mission in missions:
         assert not any(outcome.met(scene(*FLAT_THINGS), task()) for outcome in mission.outcomes if outcome.things)
+
+
+def test_a_house_in_which_words_fit_nothing_alone_is_named_as_left_out(tmp_path):
+    things = FLAT.model_copy(update={"rooms": tuple(r.model_copy(update={"label": "hall"}) for r in FLAT.rooms)})
+    assert invent("halls", things, count=5, seed=0) == []
+    (tmp_path / "halls.json").write_text(things.model_dump_json(by_alias=True))
+    console = Console(file=io.StringIO(), width=200)
+    all_met = evaluate(
+        houses=[str(tmp_path / "halls.json")], commands=None, requests=5, disturb=(), seeds=(0,), model=SHIPPED, jobs=1,
+        json_file=None, console=console,
+    )  # fmt: skip
+    assert not all_met
+    assert "halls.json: left out" in console.file.getvalue()
 
 
 def contents(rooms=None, **at):

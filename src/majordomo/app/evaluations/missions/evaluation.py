@@ -67,6 +67,9 @@ def evaluate(
     missions = load_missions(commands) if commands is not None else _invented(houses, requests, disturb)
     names = list(dict.fromkeys(mission.house for mission in missions))
     check(names, model)
+    for house in houses if commands is None else ():
+        if house not in names:
+            console.print(f"{house}: left out, as words fit no room and no thing there that do not fit another as well")
     played = [
         (name, [mission for mission in missions if mission.house == name], seed, model, pictures)
         for name in names

@@ -40,8 +40,8 @@ from majordomo.perception.objects.pieces import (
     is_of_somebody,
     is_part,
     is_piece,
-    is_under_arm,
     is_side,
+    is_under_arm,
     lies_within,
     without_pieces,
 )

@@ -35,7 +35,7 @@ from majordomo.perception.network.shipped import SHIPPED
 from majordomo.planner.tasks import PlanReport, StepReport, StepStatus, Task, TaskStatus, TaskTimes
 from majordomo.simulation.blocks import Block, overlapping
 from majordomo.simulation.catalog import category_named
-from majordomo.simulation.house import Door, Object, Room, load_house, parse_disturbance
+from majordomo.simulation.house import Door, Furniture, Object, Room, load_house, parse_disturbance
 from majordomo.skills.failures import Evidence, Failure, FailureCode
 
 FLAT = load_house("flat")
@@ -199,6 +199,17 @@ def test_a_house_in_which_words_fit_nothing_alone_is_named_as_left_out(tmp_path)
     )  # fmt: skip
     assert not all_met
     assert "halls.json: left out" in console.file.getvalue()
+
+
+@pytest.mark.parametrize(("x_m", "asked"), [(0.0, True), (0.85, False)])
+def test_what_was_put_into_the_arm_of_a_sofa_is_not_asked_for_as_it_slips_off(x_m, asked):
+    room = next(room for room in FLAT.rooms if room.label == "office")
+    x, y = np.array(room.polygon).mean(axis=0).tolist()
+    sofa = Furniture(id="sofa_9", category="sofa", size=(1.84, 0.87, 0.85), pose=(x, y, 0.0))
+    bottle = Object(id="bottle_9", category="bottle", on="sofa_9", offset=(x_m, -0.1))
+    house = FLAT.model_copy(update={"furniture": (sofa,), "objects": (bottle,), "people": ()})
+    missions = [mission for seed in range(6) for mission in invent("flat", house, count=9, seed=seed)]
+    assert any("bottle" in mission.request for mission in missions) is asked
 
 
 def contents(rooms=None, **at):

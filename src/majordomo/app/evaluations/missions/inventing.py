@@ -6,6 +6,7 @@ For scoring only; the robot is given the words alone.
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -17,6 +18,7 @@ from majordomo.app.evaluations.missions.mission import Mission
 from majordomo.app.evaluations.missions.outcome import HAND, Outcome, Placed, RobotIn
 from majordomo.simulation.catalog import GRIPPER_M, category_named
 from majordomo.simulation.house import Furniture, House, Object, Room, room_at
+from majordomo.simulation.shapes import BUILDERS, plain_box
 from majordomo.skills.grasping import HOVER_M
 from majordomo.skills.ports import ArmGeometry, BodyLimits
 
@@ -24,6 +26,8 @@ LOWEST_M, HIGHEST_M = 0.15, 1.05
 """Tops within these heights are where things are asked for to be put."""
 PLAIN_COLORS = ("red", "orange", "yellow", "green", "blue", "purple", "pink", "brown", "black", "gray", "white")
 """Colors that people and the robot call by the same word."""
+_LEVEL_M = 0.005
+"""A part that rises no more than this above where things are put does not push them off."""
 _PAIRS = ("keys", "scissors")
 _ABSENT = ("piano", "violin", "bicycle", "ladder")
 
@@ -289,8 +293,25 @@ def _items(house: House, spots: Sequence[_Spot]) -> list[_Item]:
         size = entry.size or category_named(entry.category, entry.size).size_m
         words = _words(item, everything, spots)
         if item.on in tops_m and _can_be_taken(size, tops_m[item.on]) and words is not None:
-            found.append(replace(item, words=words))
+            carrier = next(piece for piece in house.furniture if piece.id == item.on)
+            if _stands_free(entry, size, carrier):
+                found.append(replace(item, words=words))
     return found
+
+
+def _stands_free(entry: Object, size_m: tuple[float, float, float], carrier: Furniture) -> bool:
+    """Whether it stays where the house says it is: what was put where the arm of a sofa is slips off."""
+    if entry.offset is None:
+        return True
+    kind, top_m = category_named(carrier.category, carrier.size, static=True), _top_m(carrier)
+    for part in BUILDERS.get(carrier.category, plain_box)(carrier.size or kind.size_m, (0.0, 0.0, 0.0)):
+        low_m, high_m = (part.center_m[2] + sign * part.size_m[2] / 2 for sign in (-1, 1))
+        aside_m = (abs(entry.offset[k] - part.center_m[k]) - part.size_m[k] / 2 for k in (0, 1))
+        away_m = math.hypot(*(max(aside, 0.0) for aside in aside_m))
+        above = high_m > top_m + _LEVEL_M and low_m < top_m + size_m[2]
+        if part.solid and above and away_m < min(size_m[:2]) / 2:
+            return False
+    return True
 
 
 def _words(item: _Item, everything: Sequence[_Item], spots: Sequence[_Spot]) -> str | None:

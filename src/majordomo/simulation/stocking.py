@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -23,6 +23,8 @@ _USUAL_COLOR = 0.5
 _KEPT_COLOR = ("apple", "orange", "banana", "plant")
 _MARGIN_M = 0.02
 _FREE_M = 0.35
+_ROBOT_M, _PERSON_M = 0.4, 0.6
+"""So far around the middle of the robot, as it starts, nothing lies, and nobody stands."""
 
 
 def stocked_house(*, seed: int) -> House:
@@ -32,8 +34,10 @@ def stocked_house(*, seed: int) -> House:
     house = generate_house(rooms=rooms, seed=seed, rectilinear=bool(rng.random() < 0.3))
     furniture = tuple(_another(piece, rng) for piece in house.furniture)
     things = [thing for piece in furniture for thing in _load(piece, rng)]
-    things += [thing for room in house.rooms for thing in _strewn(room, furniture, rng)]
-    people = [person for room in house.rooms for person in _visitor(room, furniture, rng)]
+    strewn = [thing for room in house.rooms for thing in _strewn(room, furniture, rng)]
+    things += [thing for thing in strewn if not _is_at_robot(house, thing.pose, _ROBOT_M)]
+    visitors = [person for room in house.rooms for person in _visitor(room, furniture, rng)]
+    people = [person for person in visitors if not _is_at_robot(house, person.pose, _PERSON_M)]
     doors = tuple(door.model_copy(update={"state": "closed"}) if rng.random() < 0.2 else door for door in house.doors)
     objects = tuple(thing.model_copy(update={"id": f"thing_{number}"}) for number, thing in enumerate(things))
     return house.model_copy(
@@ -77,6 +81,10 @@ def _strewn(room: Room, furniture: tuple[Furniture, ...], rng: np.random.Generat
         spot = _free_spot(room, furniture, 0.2, rng)
         if spot is not None:
             yield _small(rng).model_copy(update={"pose": (*spot, 0.0, float(rng.uniform(-math.pi, math.pi)))})
+
+
+def _is_at_robot(house: House, pose: Sequence[float] | None, away_m: float) -> bool:
+    return pose is not None and math.dist(pose[:2], house.robot.pose[:2]) < away_m
 
 
 def _visitor(room: Room, furniture: tuple[Furniture, ...], rng: np.random.Generator) -> Iterator[Person]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import pytest
 
@@ -22,6 +24,14 @@ def pictures():
 def test_a_stocked_house_carries_many_kinds_of_things_and_is_the_same_for_the_same_seed():
     assert stocked_house(seed=4) == HOUSE
     assert stocked_house(seed=5) != HOUSE
+
+
+@pytest.mark.parametrize("seed", [51, 55, 66])
+def test_nothing_lies_and_nobody_stands_where_the_robot_starts_in_a_stocked_house(seed):
+    house = stocked_house(seed=seed)
+    things = [thing.pose for thing in house.objects if thing.pose is not None]
+    assert all(math.dist(pose[:2], house.robot.pose[:2]) >= 0.4 for pose in things)
+    assert all(math.dist(person.pose[:2], house.robot.pose[:2]) >= 0.6 for person in house.people)
     assert len({thing.category for thing in HOUSE.objects}) >= 5
     assert any(thing.on for thing in HOUSE.objects)
 

@@ -35,7 +35,7 @@ from majordomo.perception.network.shipped import SHIPPED
 from majordomo.planner.tasks import PlanReport, StepReport, StepStatus, Task, TaskStatus, TaskTimes
 from majordomo.simulation.blocks import Block, overlapping
 from majordomo.simulation.catalog import category_named
-from majordomo.simulation.house import Door, Furniture, Object, Room, load_house, parse_disturbance
+from majordomo.simulation.house import Door, Furniture, Object, Person, Room, load_house, parse_disturbance
 from majordomo.skills.failures import Evidence, Failure, FailureCode
 
 FLAT = load_house("flat")
@@ -174,6 +174,11 @@ def test_nobody_reaches_through_a_wall():
     in_the_door = Scene(house=house, truth={**truth, "objects": [box]})
     assert Ways(in_the_door).length_m(west, by_the_wall) == math.inf
     assert Ways(in_the_door, spared=["box_1"]).length_m(west, by_the_wall) < math.inf
+    people = [{"id": "person_1", "position_m": (4.1, 2.0, 0.9)}]
+    stays = house.model_copy(update={"people": (Person(id="person_1", pose=(4.1, 2.0, 0.0)),)})
+    leaves = stays.model_copy(update={"people": (Person(id="person_1", pose=(1.0, 2.0, 0.0)),)})
+    assert Ways(Scene(house=stays, truth={**truth, "people": people})).length_m(west, by_the_wall) == math.inf
+    assert Ways(Scene(house=leaves, truth={**truth, "people": people})).length_m(west, by_the_wall) < math.inf
     on_the_bed = Scene(house=house, truth={**truth, "objects": [{**box, "on": "bed_1"}]})
     assert Ways(on_the_bed).length_m(west, by_the_wall) < math.inf
 

@@ -30,7 +30,9 @@ from majordomo.skills.failures import FailureCode
 
 LIMIT_S = 900.0
 """Simulated seconds after which a request is given up."""
-OUT_OF_REACH = frozenset({FailureCode.UNREACHABLE, FailureCode.WAY_BLOCKED, FailureCode.DOOR_CLOSED})
+OUT_OF_REACH = frozenset(
+    {FailureCode.UNREACHABLE, FailureCode.WAY_BLOCKED, FailureCode.DOOR_CLOSED, FailureCode.PERSON_IN_WAY}
+)
 """What the robot may rightly say of a thing or place that no free floor leads near enough to."""
 _LOOK_S = 0.4
 _SETTLE_S = 1.5

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from typing import Any
 
 import numpy as np
@@ -25,13 +25,15 @@ PASSABLE_M = 0.32
 """What a body of that radius can be asked to pass, given how well it sees: 7 cm to each side."""
 REACH_M = 0.85
 """How near the robot's middle has to come to a thing: so far the hand is brought from above."""
+PERSON_RADIUS_M = 0.25
+_STAYS_M = 0.1
 Point = tuple[float, float]
 
 
 class Ways:
     """Free floor of the house as it is, on a grid; furniture stands where the house says, doors are as the truth says,
-    but for those that are ``shut``, and what lies on the floor is in the way, but for the ``spared``. ``radius_m``: how
-    far the robot's middle keeps off all of it.
+    but for those that are ``shut``, and what lies on the floor is in the way, but for the ``spared``, and so is who
+    stands where the house puts them and never walks. ``radius_m``: how far the robot's middle keeps off all of it.
 
     Attributes:
         clearance_m: (H, W) distance of each cell from walls and furniture.
@@ -65,6 +67,8 @@ class Ways:
         for record in scene.truth["objects"]:
             if record["id"] not in spared and record["id"] != scene.holding and not (record["on"] or record["in"]):
                 free &= ~self._covered(record)
+        for spot in _who_stays(scene):
+            free &= np.linalg.norm(self._places - np.array(spot), axis=-1) >= PERSON_RADIUS_M
         self.clearance_m: NDArray[np.float64] = np.maximum(distance_transform_edt(free) - HALF, 0.0) * CELL_M
         self._number, self._graph = _grid_graph(self.clearance_m > radius_m)
 
@@ -206,3 +210,14 @@ def _direction_at(polygon: NDArray[np.float64], point: NDArray[np.float64]) -> N
     nearest = int(np.argmin(np.linalg.norm(begin + along[:, None] * side - point, axis=1)))
     direction: NDArray[np.float64] = side[nearest] / max(float(length[nearest]), 1e-9)
     return direction
+
+
+def _who_stays(scene: Scene) -> Iterator[Point]:
+    """Where somebody stands for good: nothing that happens in the house by itself makes them walk, and nobody led them
+    away.
+    """
+    now = {entry["id"]: entry["position_m"] for entry in scene.truth.get("people", ())}
+    walking = {event.id for event in scene.house.events}
+    for person in scene.house.people:
+        if person.id in now and person.id not in walking and math.dist(now[person.id][:2], person.pose[:2]) < _STAYS_M:
+            yield person.pose[0], person.pose[1]

@@ -127,10 +127,17 @@ def _with_company(node_id: str, text: str, snapshot: Snapshot) -> str:
 
 
 def alternatives(phrase: NounPhrase, same: Sequence[str], snapshot: Snapshot) -> str:
-    """Why a phrase names nothing, and what there is instead."""
-    return _alternatives(phrase, same, snapshot) + (
-        " I have not seen the whole building yet." if parts_unseen(snapshot) else ""
-    )
+    """Why a phrase names nothing, what there is instead, and what was not seen of the building."""
+    unseen = " I have not seen the whole building yet." if parts_unseen(snapshot) else _not_gone_through(snapshot)
+    return _alternatives(phrase, same, snapshot) + unseen
+
+
+def _not_gone_through(snapshot: Snapshot) -> str:
+    """In which rooms there are doors that the robot has given up, such as one before which somebody stands."""
+    left = [d for d in snapshot.of_type(DoorNode) if d.rooms[1] is None and d.crossing is CrossingStatus.GIVEN_UP]
+    rooms = list(dict.fromkeys(name_of(door.rooms[0], snapshot) for door in left if door.rooms[0] in snapshot))
+    what = "There is a door" if len(left) == 1 else "There are doors"
+    return f" {what} in {listed(rooms)} that I have not been through." if rooms else ""
 
 
 def parts_unseen(snapshot: Snapshot) -> bool:

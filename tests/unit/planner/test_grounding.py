@@ -8,13 +8,14 @@ import pytest
 
 from majordomo.planner.grammar.parser import CommandGrammar
 from majordomo.planner.interpreter import Interpreter
+from majordomo.planner.naming import name_of
 from majordomo.planner.plan import Dialogue, Kind
 from majordomo.planner.sketch import Sketch, flat
 from majordomo.planner.taken_for import TakenFor
 from majordomo.planner.task_planner import TaskPlanner
 from majordomo.planner.verifier import Verifier
 from majordomo.scene_graph.edges import HasIntentionEdge, IntentionAction, IntentionStatus, Priority, RtEdge
-from majordomo.scene_graph.nodes import DoorNode, DoorState, ObjectState, RoomStatus
+from majordomo.scene_graph.nodes import CrossingStatus, DoorNode, DoorState, ObjectState, RoomStatus
 from majordomo.scene_graph.se3 import SE3
 from majordomo.skills.registry import load_registry
 
@@ -67,6 +68,17 @@ def test_while_doors_are_left_to_go_through_what_is_unknown_may_still_be_found()
     reply = read("bring me the green bottle", memory.snapshot()).reply
     assert reply.startswith("I know of no green bottle.")
     assert reply.endswith("I have not seen the whole building yet.")
+
+
+def test_a_door_that_was_given_up_is_told_with_what_is_unknown():
+    memory = flat().memory(robot_in="room_2", at=(4.2, 0.0))
+    with memory.edit("test", 100.0) as tx:
+        given_up = {"width_m": 0.9, "provisional": False, "crossing": CrossingStatus.GIVEN_UP}
+        tx.put(DoorNode(id="door_2_1_0", rooms=("room_2", None), crossing_reason="blocked", **given_up))
+        tx.put(RtEdge(source="room_2", target="door_2_1_0", T_source_target=SE3.from_xyz_yaw(0.0, 2.0, 0.0, 0.0)))
+    room = name_of("room_2", memory.snapshot())
+    reply = read("bring me the green bottle", memory.snapshot()).reply
+    assert reply.endswith(f"There is a door in {room} that I have not been through.")
 
 
 @pytest.mark.parametrize(

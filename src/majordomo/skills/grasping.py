@@ -243,6 +243,14 @@ def pads_from_above_m(size_m: Size3, center_z_m: float) -> float:
     return max(bottom_m + TIP_M, top_m - min(PAD_DEPTH_M, size_m[2] / 2))
 
 
+def highest_underside_from_above_m(size_m: Size3, geometry: ArmGeometry, limits: BodyLimits) -> float:
+    """How high over the floor the lift brings the lowest part of a hand that points down and of a thing that it took
+    so.
+    """
+    hangs_m = pads_from_above_m(size_m, 0.0) + size_m[2] / 2
+    return limits.lift_m[1] - geometry.hand_length_m - max(hangs_m, TIP_M)
+
+
 def _is_low(size_m: Size3) -> bool:
     """Whether the fingers of a level hand, as low as it goes, are above the middle of a thing."""
     return LEVEL_CLEARANCE_M - size_m[2] / 2 > FINGER_HALF_HEIGHT_M

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from itertools import pairwise
-from math import cos, inf, pi, sin
+from math import atan2, cos, inf, pi, sin
 
 import numpy as np
 import pytest
@@ -155,6 +155,21 @@ async def test_to_what_only_a_hand_from_above_gets_the_robot_comes_near_enough_f
     routes = routes_around(context, (0.0, 0.0), [(1.0, 1.0)])
     away_m = [np.hypot(goal.point[0] - 1.0, goal.point[1] - 1.0) for goal in action._goals_around(routes)]
     assert bool(max(away_m) > 0.95) is not crowded
+
+
+@pytest.mark.parametrize("high_m", [0.12, 0.24])
+async def test_what_the_lift_does_not_bring_over_a_bottle_is_not_taken_across_it(flat, high_m):
+    built = flat().thing("counter_1", (1.0, 1.2, 0.43), (1.2, 0.8, 0.86), support=True)
+    built.thing("ball_1", (1.0, 1.1, 0.9), (0.08, 0.08, 0.08), on="counter_1", graspable=True)
+    built.thing("bottle_1", (1.0, 0.9, 0.86 + high_m / 2), (0.07, 0.07, high_m), on="counter_1", graspable=True)
+    rehearsal = Rehearsal(memory=built.memory, body=FakeBody(pose=Pose2(1.0, 0.35, pi / 2)))
+    context = await rehearsal.prepare()
+    action = ApproachForReach(context, "ball_1", Anchor("ball_1"))
+    assert action._reaches_from_here(BARRED_COST_M) is (high_m < 0.2)
+    goals = action._goals_around(routes_around(context, (1.0, 0.35), [(1.0, 1.1)]))
+    sides_rad = [abs(atan2(goal.point[0] - 1.0, 1.1 - goal.point[1])) for goal in goals]
+    assert bool(min(sides_rad) < 0.1) is (high_m < 0.2)
+    assert min(sides_rad) < pi / 4
 
 
 @pytest.mark.parametrize("bearing_rad", [pi, 5 * pi / 4, 3 * pi / 2])

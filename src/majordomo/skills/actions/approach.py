@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Sequence
-from math import atan2, cos, hypot, pi
+from math import atan2, cos, hypot, inf, pi
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +18,7 @@ from majordomo.skills.actions.arm_way import (
     nearest_to,
     passing_over,
     people_here,
+    pushes_aside,
     routes_around,
     spared_nodes,
     underside_of_held_m,
@@ -31,14 +32,17 @@ from majordomo.skills.grasping import (
     DOWN_RAD,
     can_grasp,
     can_grasp_level,
+    highest_underside_from_above_m,
     is_tall,
     level_hand_barred,
+    roof_over_m,
     underside_m,
 )
 from majordomo.skills.navigation.driver import DriverConfig
 from majordomo.skills.navigation.plan import Goal
 from majordomo.skills.navigation.pose import planar_pose, robot_frame
 from majordomo.skills.navigation.route import Routes
+from majordomo.skills.outline import disc
 
 NEAREST_M = 0.40
 RADIUS_STEP_M = 0.05
@@ -55,6 +59,8 @@ CLEARANCE_WEIGHT = 1.0
 STOPPED_COST_M, STOPPED_RAD, STOPPED_S = 5.0, 0.35, 120.0
 """Sides as near as this to one from which the arm was stopped lately are tried again where no other is free."""
 TRIES = 3
+LIFTED_FROM_M = 0.04
+"""What stands beside a thing, no nearer to the base than this, is not swept when the thing has been lifted."""
 
 
 Price = Callable[[Points], Points]
@@ -144,6 +150,7 @@ class ApproachForReach(DriveTo):
         fits = self._fits(points, target)
         costs += np.where(fits | ~fits.any(), 0.0, np.inf)
         costs += self._price_m(points) + self._hanging_m(frame, points)
+        costs += np.where(self._brings_back(frame, points), 0.0, np.inf)
         costs += np.where(self._faces_board(frame, points), 0.0, BARRED_COST_M)
         for failed in self._failed:
             costs += np.where(np.hypot(*(points - failed).T) < 0.25, np.inf, 0.0)
@@ -164,7 +171,7 @@ class ApproachForReach(DriveTo):
         frame = robot_frame(self.context.snapshot)
         here = np.array([planar_pose(self.context, frame).point])
         target = anchor.position(self.context.snapshot, frame)
-        fits = self._fits(here, target)[0]
+        fits = self._fits(here, target)[0] and self._brings_back(frame, here)[0]
         stopped = self._stopped_lately(np.arctan2(here[:, 1] - target[1], here[:, 0] - target[0]))[0]
         low_m = self._underside_m(float(target[2]))
         over_m = passing_over(
@@ -227,6 +234,26 @@ class ApproachForReach(DriveTo):
             return np.zeros(len(points))
         barred = level_hand_barred(context.snapshot, node.id, frame, points)
         return np.where(barred, FROM_ABOVE_COST_M, 0.0)
+
+    def _brings_back(self, frame: str, points: Points) -> NDArray[np.bool_]:
+        """From which of (N, 2) places what is taken from above is brought back over all that stands on the way, however
+        low the lift ends.
+        """
+        context, node = self.context, self._to_grasp()
+        if node is None or roof_over_m(context.snapshot, node.id) < inf:
+            return np.ones(len(points), np.bool_)
+        snapshot = context.snapshot
+        meets = pushes_aside(
+            snapshot,
+            frame,
+            snapshot.position(node.id, frame),
+            points,
+            self._spared(),
+            low_m=highest_underside_from_above_m(node.size_m, context.geometry, context.limits),
+            wide_m=disc(node.size_m).radius_m,
+            short_m=LIFTED_FROM_M,
+        )
+        return ~meets | (is_tall(node.size_m) & ~level_hand_barred(snapshot, node.id, frame, points))
 
     def _faces_board(self, frame: str, places: Points) -> NDArray[np.bool_]:
         """From which of (N, 2) places the hand gets straight to a thing that stands below a board; else from all."""

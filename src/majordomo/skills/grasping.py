@@ -50,6 +50,10 @@ TIP_M = 0.028
 """From the pads' center to the finger tips, and a little air: the pads stay this high above what the object stands
 on.
 """
+FINGER_TIP_M, FLAT_SHARE = 0.02, 0.25
+"""From the pads' center to the finger tips alone, and how much of a flat thing's height they may leave below them: held
+by no more than its upper half it slips.
+"""
 PAD_DEPTH_M = 0.045
 """How far below an object's top the pads' center goes, at most: what the fingers can hold without the palm touching."""
 FINGER_M = 0.012
@@ -240,7 +244,8 @@ def _level_pads_m(size_m: Size3, center_z_m: float) -> float:
 def pads_from_above_m(size_m: Size3, center_z_m: float) -> float:
     """Height of the pads' center when a hand from above closes on a thing."""
     bottom_m, top_m = center_z_m - size_m[2] / 2, center_z_m + size_m[2] / 2
-    return max(bottom_m + TIP_M, top_m - min(PAD_DEPTH_M, size_m[2] / 2))
+    lowest_m = min(TIP_M, FINGER_TIP_M + FLAT_SHARE * size_m[2])
+    return max(bottom_m + lowest_m, top_m - min(PAD_DEPTH_M, size_m[2] / 2))
 
 
 def highest_underside_from_above_m(size_m: Size3, geometry: ArmGeometry, limits: BodyLimits) -> float:

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from majordomo.scene_graph.se3 import SE3
 from majordomo.skills.errors import Unreachable
 from majordomo.skills.grasping import (
+    FINGER_TIP_M,
     MAX_WIDTH_M,
     TIP_M,
     bars_level_hand,
@@ -20,6 +21,7 @@ from majordomo.skills.grasping import (
     grasp_options,
     level_hand_barred,
     meets_seat_level,
+    pads_from_above_m,
     prefers_level,
 )
 from majordomo.skills.kinematics import arm_target, gripper_pose, reach_band_m
@@ -61,6 +63,13 @@ def test_hand_points_along_the_pitch_and_its_frame_is_a_rotation(target):
 def test_level_unrolled_hand_closes_sideways():
     rotation = gripper_pose(ArmTarget(lift_m=0.5, extension_m=0.2), GEOMETRY).rotation()
     np.testing.assert_allclose(rotation[:, 1], [0.0, 1.0, 0.0], atol=1e-12)
+
+
+@given(st.floats(0.012, 0.1))
+def test_the_finger_tips_are_below_the_middle_of_a_thing_and_over_what_it_lies_on(height_m):
+    """By no more than its upper edge a phone was not held: the fingers slid up over it."""
+    tips_m = pads_from_above_m((0.07, 0.15, height_m), 0.5 + height_m / 2) - FINGER_TIP_M
+    assert 0.5 + 0.002 < tips_m < 0.5 + 0.4 * height_m
 
 
 @given(st.floats(0.0, 1.5), st.floats(-0.5, 2.0), st.floats(-pi / 2, 0.5))

@@ -16,11 +16,15 @@ from majordomo.skills.ports import ArmGeometry, ArmTarget, BodyLimits
 
 ARM_SPEEDS = {"lift": 0.25, "extension": 0.25, "wrist_pitch": 1.5, "wrist_roll": 1.5, "pan": 2.0, "tilt": 2.0}
 ARM_FORCES = {"lift": 300.0, "extension": 120.0, "wrist_pitch": 25.0, "wrist_roll": 15.0, "pan": 5.0, "tilt": 5.0}
+HAND_TURNS = ("base_yaw", "wrist_pitch", "wrist_roll")
+"""Joints that turn the hand."""
 FRESH_RAD = 0.05
 """How far the hand turns before what its fingers hold is met anew. The solver keeps a contact with the normal, in the
 world, that it had when it began: after half a turn of the base, fingers would press a bottle aside and tilt it, and an
 open finger would go on holding it.
 """
+FRESH_M = 0.004
+"""How far the fingers open before that: a finger that has left what it held would go on carrying it."""
 FINGER_SPEED_MPS = 0.08
 BASE_FORCE_N, BASE_TORQUE_NM = 400.0, 150.0
 STOW = ArmTarget(lift_m=0.75, extension_m=0.0, wrist_pitch_rad=-math.pi / 2)
@@ -62,6 +66,7 @@ class RobotBody:
         self._drive_age_s = math.inf
         self._opening_m, self._effort_n = self.limits.gripper_opening_m[1], 15.0
         self._met_at: tuple[float, ...] = (0.0, 0.0, 0.0)
+        self._met_opening_m = 0.0
         self._targets: dict[str, float] = {}
         self.set_pose(pose)
         self._reset_arm()
@@ -257,12 +262,16 @@ class RobotBody:
         self._couple_fingers()
 
     def _meet_anew(self) -> None:
-        """Forget the contacts of the fingers once the hand has turned; the next step finds them again."""
-        joints = [self._joint[name] for name in ("base_yaw", "wrist_pitch", "wrist_roll")]
-        turned = tuple(state[0] for state in p.getJointStates(self.body_id, joints, physicsClientId=self._client))
-        if max(abs(now - before) for now, before in zip(turned, self._met_at, strict=True)) < FRESH_RAD:
+        """Forget the contacts of the fingers once the hand has turned or they have opened; the next step finds them."""
+        joints = [self._joint[name] for name in (*HAND_TURNS, "finger_left", "finger_right")]
+        *turned, left_m, right_m = (
+            state[0] for state in p.getJointStates(self.body_id, joints, physicsClientId=self._client)
+        )
+        self._met_opening_m = min(self._met_opening_m, left_m + right_m)
+        has_turned = max(abs(now - before) for now, before in zip(turned, self._met_at, strict=True)) >= FRESH_RAD
+        if not has_turned and left_m + right_m < self._met_opening_m + FRESH_M:
             return
-        self._met_at = turned
+        self._met_at, self._met_opening_m = tuple(turned), left_m + right_m
         for name in ("finger_left", "finger_right"):
             for body, enabled in product(sorted(self._touching(name)), (0, 1)):
                 p.setCollisionFilterPair(

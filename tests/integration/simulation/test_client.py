@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+import math
 import os
 import signal
 import time
@@ -11,6 +13,7 @@ import pytest
 
 from majordomo.simulation.client import SimulatedRobot
 from majordomo.simulation.errors import DisturbError, HouseError, SimulatorDied
+from majordomo.skills.kinematics import arm_target
 from majordomo.skills.ports import ArmTarget
 
 pytestmark = pytest.mark.anyio
@@ -125,3 +128,39 @@ async def test_depth_and_pose_of_the_camera_agree_with_where_the_furniture_stand
     top = ahead[np.abs(ahead[:, 2] - 0.75) < 0.05]
     assert len(top) > 500, "the table's top, 0.75 m high and 1.07 to 1.77 m ahead"
     assert np.median(top[:, 2]) == pytest.approx(0.75, abs=0.01)
+
+
+@pytest.mark.parametrize(("aside_m", "turned_rad"), [(-0.0112, -0.147), (-0.0135, -0.176)])
+async def test_what_was_let_go_does_not_cling_to_a_finger(tmp_path, aside_m, turned_rad):
+    """A banana that was taken where it bends was carried away by an open finger."""
+    room = {"id": "a", "label": "bathroom", "polygon": [[-2, -2], [2, -2], [2, 2], [-2, 2]]}
+    machine = {"id": "washer", "category": "washing_machine", "pose": [0.9, 0.0, 0.0], "size": [0.57, 0.64, 0.91]}
+    banana = {"id": "banana", "category": "banana", "size": [0.18, 0.04, 0.04], "on": "washer"}
+    banana["offset"] = [-0.2 + aside_m, 0.003 if aside_m > -0.0125 else -0.0033]
+    house = {"name": "t", "rooms": [room], "doors": [], "furniture": [machine], "objects": [banana], "people": []}
+    path = tmp_path / "house.json"
+    path.write_text(json.dumps(house | {"robot": {"pose": [0.0, 0.0, 0.0]}}))
+    robot = await SimulatedRobot.start(str(path), seed=0)
+
+    async def reach(x_m, z_m, seconds):
+        target = arm_target(x_m, z_m, -math.pi / 2, turned_rad, robot.geometry, robot.limits)
+        for _ in range(round(seconds / 0.1)):
+            await robot.move_arm(target)
+            await robot.advance(0.1)
+
+    try:
+        await robot.grip(0.09)
+        for x_m, z_m, seconds in ((0.2, 1.05, 4.0), (0.7, 1.05, 4.0), (0.7, 0.935, 2.0)):
+            await reach(x_m, z_m, seconds)
+        await robot.grip(0.0)
+        await robot.advance(1.0)
+        for x_m, z_m, seconds in ((0.7, 1.06, 2.0), (0.35, 1.06, 4.0), (0.7, 1.06, 4.0)):
+            await reach(x_m, z_m, seconds)
+        for k in range(8):
+            await reach(0.7, 0.955 - 0.002 * k, 0.5)
+        await robot.grip((await robot.state()).gripper_opening_m + 0.06)
+        await robot.advance(3.0)
+        await reach(0.7, 1.05, 2.0)
+        assert (await robot.state()).finger_contacts == (False, False)
+    finally:
+        await robot.close()

@@ -131,6 +131,7 @@ def choose_grasp(
         Unreachable: none can be; the error is that of the preferred grasp.
     """
     first: Unreachable | None = None
+    roof_m = min(roof_m, highest_pads_m(geometry, limits) - float(T_base_object.z_m))
     options = grasp_options(size_m, T_base_object, level_first=level_first, limits=limits, met=met, roof_m=roof_m)
     for grasp in options:
         if grasp.is_level and not level_too:
@@ -253,7 +254,12 @@ def highest_underside_from_above_m(size_m: Size3, geometry: ArmGeometry, limits:
     so.
     """
     hangs_m = pads_from_above_m(size_m, 0.0) + size_m[2] / 2
-    return limits.lift_m[1] - geometry.hand_length_m - max(hangs_m, TIP_M)
+    return highest_pads_m(geometry, limits) - max(hangs_m, TIP_M)
+
+
+def highest_pads_m(geometry: ArmGeometry, limits: BodyLimits) -> float:
+    """How high over the floor the lift brings the pads of a hand that points down."""
+    return limits.lift_m[1] - geometry.hand_length_m
 
 
 def _is_low(size_m: Size3) -> bool:

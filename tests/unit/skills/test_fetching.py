@@ -275,6 +275,37 @@ async def test_an_object_that_perception_misses_is_gone(kitchen, onlooker):
     assert failure.code is FailureCode.OBJECT_GONE
 
 
+async def test_the_fingers_do_not_close_on_what_stands_beside_a_thing_that_went_while_they_came(kitchen, onlooker):
+    rehearsal = kitchen()
+    opening_m = rehearsal.body.opening_m
+
+    def taken(r):
+        onlooker(r)
+        node = r.memory.snapshot().object("bottle_1")
+        if r.body.arm.extension_m > 0.15 and node.state is ObjectState.PRESENT:
+            with r.memory.edit("objects", r.body.stamp_s) as tx:
+                tx.put(replace(node, state=ObjectState.MISSING))
+
+    rehearsal.observe = taken
+    failure = await carry_out(rehearsal, ("PICK", "bottle_1"))
+    assert failure.code is FailureCode.OBJECT_GONE
+    assert "while I reached for it" in failure.message
+    assert rehearsal.body.opening_m > 0.8 * opening_m
+    assert rehearsal.body.arm.extension_m < 0.25
+
+
+async def test_what_the_lift_only_brings_level_to_a_thing_that_others_bar_is_left(flat):
+    """A tall bottle on a high counter, with others all around it, was pushed at."""
+    built = flat().thing("counter_1", (1.0, 1.2, 0.485), (1.2, 0.8, 0.97), support=True)
+    built.thing("bottle_1", (1.0, 1.1, 1.09), (0.07, 0.07, 0.24), on="counter_1", graspable=True)
+    for k in range(6):
+        x_m, y_m = 1.0 + 0.16 * cos(k * pi / 3), 1.1 + 0.16 * sin(k * pi / 3)
+        built.thing(f"can_{k}", (x_m, y_m, 1.035), (0.07, 0.07, 0.13), on="counter_1", graspable=True)
+    context = await Rehearsal(memory=built.memory, body=FakeBody(pose=Pose2(1.0, 0.35, pi / 2))).prepare()
+    action = ApproachForReach(context, "bottle_1", Anchor("bottle_1"))
+    assert action._goals_around(routes_around(context, (1.0, 0.35), [(1.0, 1.1)])) == []
+
+
 async def test_an_object_that_is_not_seen_again_is_gone_and_looked_at_from_another_side_next_time(kitchen, onlooker):
     onlooker.blind_to.add("bottle_1")
     rehearsal = kitchen()

@@ -65,6 +65,16 @@ def test_level_unrolled_hand_closes_sideways():
     np.testing.assert_allclose(rotation[:, 1], [0.0, 1.0, 0.0], atol=1e-12)
 
 
+@pytest.mark.parametrize(("top_m", "level"), [(0.6, False), (1.05, False), (1.075, False), (1.1, True)])
+def test_what_stands_high_is_taken_from_above_as_long_as_the_finger_tips_get_over_it(top_m, level):
+    """A ball on a high cabinet was reached for level, through an apple, as the lift did not bring the hand so high over
+    it as it usually comes.
+    """
+    pose = SE3.from_xyz_yaw(0.6, 0.0, top_m - 0.05, 0.0)
+    grasp = choose_grasp((0.08, 0.08, 0.1), pose, level_first=False, geometry=GEOMETRY, limits=LIMITS)
+    assert grasp.is_level is level
+
+
 @given(st.floats(0.012, 0.1))
 def test_the_finger_tips_are_below_the_middle_of_a_thing_and_over_what_it_lies_on(height_m):
     """By no more than its upper edge a phone was not held: the fingers slid up over it."""

@@ -148,7 +148,7 @@ class ApproachForReach(DriveTo):
         bearings = np.arctan2(points[:, 1] - target[1], points[:, 0] - target[0])
         costs += np.where(self._stopped_lately(bearings), STOPPED_COST_M, 0.0)
         fits = self._fits(points, target)
-        costs += np.where(fits | ~fits.any(), 0.0, np.inf)
+        costs += np.where(fits if fits.any() or self._fits_anywhere(target) else True, 0.0, np.inf)
         costs += self._price_m(points) + self._hanging_m(frame, points)
         costs += np.where(self._brings_back(frame, points), 0.0, np.inf)
         costs += np.where(self._faces_board(frame, points), 0.0, BARRED_COST_M)
@@ -224,6 +224,14 @@ class ApproachForReach(DriveTo):
         )
         return np.fromiter(grasps, np.bool_, len(points))
 
+    def _fits_anywhere(self, target: Points, *, level_too: bool = True) -> bool:
+        """Whether the hand could take hold of what stands so high, if nothing were in its way."""
+        context, node = self.context, self._to_grasp()
+        pose = SE3.from_xyz_yaw(BEST_RADIUS_M, 0.0, float(target[2]), 0.0)
+        return node is None or can_grasp(
+            node.size_m, pose, geometry=context.geometry, limits=context.limits, level_too=level_too
+        )
+
     def _hanging_m(self, frame: str, points: Points) -> Points:
         """What it costs, (N,), that a tall thing can only be taken from above from (N, 2) places."""
         context, node = self.context, self._to_grasp()
@@ -243,6 +251,8 @@ class ApproachForReach(DriveTo):
         if node is None or roof_over_m(context.snapshot, node.id) < inf:
             return np.ones(len(points), np.bool_)
         snapshot = context.snapshot
+        if not self._fits_anywhere(snapshot.position(node.id, frame), level_too=False):
+            return np.ones(len(points), np.bool_)
         meets = pushes_aside(
             snapshot,
             frame,

@@ -8,6 +8,7 @@ from math import hypot
 import numpy as np
 from py_trees.common import Status
 
+from majordomo.scene_graph.nodes import ObjectState
 from majordomo.scene_graph.se3 import SE3
 from majordomo.skills.action import Action, Grip, RobotContext
 from majordomo.skills.actions.arm import EMPTY_OPENING_M, ArmAction, ArmProgress, avoid_side, is_firm
@@ -67,6 +68,10 @@ class Reach(ArmAction):
         """Move through the targets and check that the hand is where it should be."""
         if self.object_id not in self.context.snapshot:
             return self.fail(FailureCode.OBJECT_GONE, f"{self.object_id} is no longer on my map.")
+        if self.context.snapshot.object(self.object_id).state is ObjectState.MISSING:
+            self.context.commands.arm = self.context.body.arm
+            message = f"{self.object_id} went while I reached for it."
+            return self.fail(FailureCode.OBJECT_GONE, message, (self.object_id,))
         if self._grasp is None or self._why:
             return self.fail(FailureCode.UNREACHABLE, f"{self.object_id}: {self._why}.", (self.object_id,))
         if (person := self.meets_person()) is not None:

@@ -16,7 +16,7 @@ from majordomo.perception.memory.long_term_memory import LongTermMemory
 from majordomo.perception.rooms.room_concept import RoomConcept
 from majordomo.perception.sensing import SensorBuffer
 from majordomo.scene_graph.memory import WorkingMemory
-from majordomo.scene_graph.nodes import ROBOT_ID, DoorNode, RoomNode
+from majordomo.scene_graph.nodes import ROBOT_ID, DoorNode, RoomNode, RoomStatus
 from unit.perception.exploring_robot import Agent, Exploration
 from unit.perception.known_house import frame_of, known_house, put_robot, room_ids
 from unit.perception.lidar_house import Box, Door, House, rectangle
@@ -126,6 +126,20 @@ def test_carried_into_a_room_that_is_not_known_the_robot_says_that_it_does_not_k
     kidnapping = carried("wide", IN_WIDE, pose, but=(name,))
     assert not kidnapping.localized
     assert len(kidnapping.memory.snapshot().of_type(RoomNode)) == len(offices().rooms) - 1
+
+
+def test_lost_behind_a_door_a_robot_that_nobody_carried_goes_on_from_where_its_wheels_say() -> None:
+    """It stood for ever in a room that it did not know: it had been about to enter it."""
+    kidnapping = Kidnapping(offices(), "wide", IN_WIDE, but=("L",))
+    memory, (agent,) = kidnapping.memory, [one for one in kidnapping.run.agents if isinstance(one, Relocalization)]
+    kidnapping.run.port.pose, agent._view = IN_L, type(agent._view)()
+    put_robot(memory, kidnapping.house, "wide", IN_L)
+    agent._lose(room_ids(kidnapping.house)["wide"], kidnapping.run.port.stamp_s, carried=False)
+    kidnapping.run.run(15.0, until=lambda run: kidnapping.localized)
+    assert not kidnapping.localized
+    kidnapping.run.run(30.0, until=lambda run: kidnapping.localized)
+    assert kidnapping.error_m("wide") < 0.3
+    assert memory.snapshot().room(room_ids(kidnapping.house)["wide"]).status is RoomStatus.PERMANENT
 
 
 def test_from_a_room_that_is_not_known_it_is_found_again_when_carried_back() -> None:

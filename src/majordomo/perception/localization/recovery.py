@@ -45,10 +45,11 @@ class RecoverySettings:
     """Pace of the search.
 
     ``search_every_s``: between searches. ``settle_s``: after this long without a decision the robot looks around, at
-    most ``looks`` times. ``step_m``: between views that are kept, ``sights`` of them at most. ``continuous``: share of
-    a view that the one before must have shown, ``soon_s`` before it at most; ``breaks`` views in a row that do not
-    agree with the last good one mean that the robot was carried. ``blame_s``: after this long without any place that
-    fits, a robot that was not carried doubts the room.
+    most ``looks`` times; one that was not carried doubts the room first, as from elsewhere it could not. ``step_m``:
+    between views that are kept, ``sights`` of them at most. ``continuous``: share of a view that the one before must
+    have shown, ``soon_s`` before it at most; ``breaks`` views in a row that do not agree with the last good one mean
+    that the robot was carried. ``blame_s``: after this long without any place that fits, a robot that was not carried
+    doubts the room; after ``trust_s`` it goes on from where its wheels say.
     """
 
     search_every_s: float = 0.5
@@ -60,6 +61,7 @@ class RecoverySettings:
     soon_s: float = 0.6
     breaks: int = 2
     blame_s: float = 6.0
+    trust_s: float = 30.0
 
 
 class Relocalization:
@@ -155,7 +157,8 @@ class Relocalization:
     def _blames_room(self, snapshot: Snapshot, sight: Sight, stamp_s: float) -> bool:
         """After a while without a decision, let a robot that was not carried stay where it was.
 
-        If what it sees does not even fit there, the room is taken back; once for each room.
+        If what it sees does not even fit there, the room is taken back; once for each room. A robot that has left the
+        room meanwhile, through a door, would else wait for ever in one that it does not know.
         """
         search = self._search
         if self._view.changed(sight, self._settings):
@@ -168,19 +171,23 @@ class Relocalization:
         fits = any(one.same_as(replace(one, room_id=room.id, T_room_base=T_room_base)) for one in self.found)
         model = room_model(snapshot, room.id)
         inside = model is not None and model.depth_m(T_room_base.position_m) > _SURELY_INSIDE_M
-        if not fits and (self.found or not inside or room.id in self._blamed):
+        blames = not fits and inside and room.id not in self._blamed
+        trusts = search.since_s is not None and stamp_s >= search.since_s + self._settings.trust_s
+        if not fits and (self.found or not (blames or trusts)):
             return False
         with self._memory.edit(self.name, stamp_s) as tx:
             find_robot(tx, room.id, T_room_base, sight.scan.stamp_s)
-            if not fits:
+            if blames:
                 take_back(tx, room.id)
             if _LOOK in snapshot.edges:
                 tx.remove(_LOOK)
         self._monitor.forget_doubt()
         self._search = _Search()
-        if not fits:
+        if blames:
             self._blamed.add(room.id)
             logger.info("nobody carried me: %s is not as I took it to be", room.id, extra={"room": room.id})
+        elif not fits:
+            logger.info("nobody carried me: I go on from where my wheels say", extra={"room": room.id})
         return True
 
     async def _find_out(self, sight: Sight, stamp_s: float) -> None:
@@ -212,7 +219,8 @@ class Relocalization:
         if names != search.named:
             search.named = names
             logger.info("this could be %s", " or ".join(names) if names else "no room that I know")
-        if search.since_s is not None and stamp_s >= search.since_s + settings.settle_s:
+        patience_s = settings.settle_s + (settings.blame_s if search.doubted is not None else 0.0)
+        if search.since_s is not None and stamp_s >= search.since_s + patience_s:
             self._look_around(stamp_s)
 
     def _look_around(self, stamp_s: float) -> None:

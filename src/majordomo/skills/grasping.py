@@ -47,8 +47,8 @@ side, nobody sees how deep a thing is.
 OPENING_MARGIN_M, NARROW_MARGIN_M = 0.05, 0.03
 """How much wider than a thing the fingers open, and how much where neighbors stand close."""
 TIP_M = 0.028
-"""From the pads' center to the finger tips, and a little air: the pads stay this high above what the object stands
-on.
+"""From the pads' center to the finger tips, and a little air: the pads stay this high above what the object stands on,
+unless that is flat.
 """
 FINGER_TIP_M, FLAT_SHARE = 0.02, 0.25
 """From the pads' center to the finger tips alone, and how much of a flat thing's height they may leave below them: held

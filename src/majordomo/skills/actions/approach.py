@@ -250,13 +250,13 @@ class ApproachForReach(DriveTo):
         context, node = self.context, self._to_grasp()
         if node is None or roof_over_m(context.snapshot, node.id) < inf:
             return np.ones(len(points), np.bool_)
-        snapshot = context.snapshot
-        if not self._fits_anywhere(snapshot.position(node.id, frame), level_too=False):
+        snapshot, target = context.snapshot, context.snapshot.position(node.id, frame)
+        if not self._fits_anywhere(target, level_too=False):
             return np.ones(len(points), np.bool_)
         meets = pushes_aside(
             snapshot,
             frame,
-            snapshot.position(node.id, frame),
+            target,
             points,
             self._spared(),
             low_m=highest_underside_from_above_m(node.size_m, context.geometry, context.limits),

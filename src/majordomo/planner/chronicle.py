@@ -9,6 +9,7 @@ from majordomo.planner.explainer import explain, failure_sentence, success_sente
 from majordomo.planner.ledger import Ledger
 from majordomo.planner.naming import name_of, whereabouts
 from majordomo.planner.plan import Step
+from majordomo.planner.replanner import Hunt
 from majordomo.planner.tasks import TaskStatus
 from majordomo.scene_graph.nodes import ROBOT_ID, ObjectNode
 from majordomo.scene_graph.snapshot import Snapshot
@@ -36,9 +37,9 @@ class Chronicle:
         """A step begins."""
         self._crew.emit(stamp_s, "step", task=self._task_id, step=str(step))
 
-    def observed(self, step: Step, snapshot: Snapshot, stamp_s: float, *, searching: bool) -> None:
-        """What was seen says that a step is done; ``searching``: that a place was looked at in vain."""
-        seen = "looked there, and did not find it" if searching else observation(step, snapshot, stamp_s)
+    def observed(self, step: Step, snapshot: Snapshot, stamp_s: float, *, hunt: Hunt | None) -> None:
+        """What was seen says that a step is done; with a ``hunt``: that a place was looked at in vain."""
+        seen = hunt.seen_there if hunt is not None else observation(step, snapshot, stamp_s)
         fields = {"step": str(step), "seen": seen, "nodes": list(step.args), "revision": snapshot.revision}
         self._crew.emit(stamp_s, "observed", task=self._task_id, **fields)
 

@@ -192,7 +192,7 @@ class Errand:
     def _step_done(self, step: Step, snapshot: Snapshot) -> None:
         self._ledger.note(snapshot)
         self._progress.follow(self._job)
-        self._chronicle.observed(step, snapshot, self._stamp_s, searching=self._hunt is not None)
+        self._chronicle.observed(step, snapshot, self._stamp_s, hunt=self._hunt)
         self._progress.succeed(snapshot)
         self._chronicle.step_done(step, snapshot, self._stamp_s)
         self._enter(Phase.READY)

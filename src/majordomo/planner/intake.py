@@ -17,6 +17,7 @@ from majordomo.planner.plan import Dialogue, Exchange, Impossible, Interpretatio
 from majordomo.planner.queue import TaskQueue
 from majordomo.planner.replanner import PlanMaker, Replanner, Verifier
 from majordomo.planner.scouting import Scout, kinds_called
+from majordomo.planner.second_look import SecondLook, perhaps_cleared
 from majordomo.planner.tasks import PlanReport, Task, TaskStatus
 from majordomo.scene_graph.memory import WorkingMemory
 from majordomo.scene_graph.snapshot import Snapshot
@@ -83,6 +84,7 @@ class Intake:
         self._recognizable = recognizable
         self._scouts: dict[str, Scout] = {}
         self._looking: str | None = None
+        self._looked_again: frozenset[tuple[str, str]] = frozenset()
         self._displaced: dict[str, frozenset[str]] = {}
         self._mentioned: tuple[str, ...] = ()
         self._last: tuple[str, ...] = ()
@@ -184,11 +186,14 @@ class Intake:
             self._scouts.pop(task.id, None)
             self.end(task, TaskStatus.REFUSED, reply, stamp_s, kind=meaning.kind.value, reply=reply)
             return None
-        intent = plan_sentence(plan, snapshot)
+        return self._looks_first(task, plan, scout, plan_sentence(plan, snapshot), stamp_s)
+
+    def _looks_first(self, task: Task, plan: Plan, planner: PlanMaker, intent: str, stamp_s: float) -> Ready:
+        """A tour, after which the request is understood anew."""
         times = replace(task.times, planned_s=stamp_s)
         task = self._queue.amend(task.id, kind=Kind.PLAN.value, reply=intent, plan=PlanReport.of(plan, ()), times=times)
         self._emit(stamp_s, "planned", task=task.id, plan=str(plan), revision=plan.revision)
-        return Ready(task=task, goals=(), plan=plan, replanner=scout, intent=intent)
+        return Ready(task=task, goals=(), plan=plan, replanner=planner, intent=intent)
 
     def _scout(self, task: Task, kind: str, stamp_s: float) -> Scout | None:
         """Who looks for a kind of thing for a task. Nobody does where a person is to see every plan before."""
@@ -209,6 +214,8 @@ class Intake:
         replanner = Replanner(self._verifier, source)
         plan = replanner.first_plan(goals, snapshot, stamp_s)
         if isinstance(plan, Impossible):
+            if (ready := self._looked_over(task, plan, goals, stamp_s)) is not None:
+                return ready
             self.end(task, TaskStatus.REFUSED, plan.reason, stamp_s, reply=plan.reason)
             return None
         report = PlanReport.of(plan, goals)
@@ -226,6 +233,21 @@ class Intake:
             sought = task.id in self._scouts
             return Ready(task=task, goals=goals, plan=plan, replanner=replanner, intent=intent, sought=sought)
         return None
+
+    def _looked_over(self, task: Task, why: Impossible, goals: tuple[Goal, ...], stamp_s: float) -> Ready | None:
+        """Look once more, once a task, at what was full a while ago, where only that speaks against a request."""
+        if not self._moves_unasked(task):
+            return None
+        snapshot = self._memory.building()
+        support = perhaps_cleared(why, goals, self._verifier, snapshot, stamp_s)
+        if support is None or (task.id, support) in self._looked_again:
+            return None
+        self._looked_again = frozenset(
+            {(task.id, support)} | {each for each in self._looked_again if each[0] == task.id}
+        )
+        second = SecondLook(support, self._verifier, stamp_s)
+        plan = second.look(snapshot)
+        return self._looks_first(task, plan, second, second.told(snapshot), stamp_s) if plan is not None else None
 
     def _earlier(self, task: Task) -> tuple[Exchange, ...]:
         """What was asked before ``task``, the newest first."""

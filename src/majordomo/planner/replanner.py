@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-from typing import Protocol
+from typing import ClassVar, Protocol
 
 from majordomo.planner.explainer import exhausted_reason
 from majordomo.planner.goals import Goal
@@ -43,9 +43,10 @@ class Hunt:
     """The search for one object: since when, where the robot has looked, and where it could not get to.
 
     ``asked_s``: when the task was planned; ``by_looks``: what looks like it and turned up since then may be it, under
-    another identifier.
+    another identifier. ``seen_there``: what is told of a place that was looked at.
     """
 
+    seen_there: ClassVar[str] = "looked there, and did not find it"
     object_id: str
     since_s: float
     asked_s: float = 0.0

@@ -35,6 +35,10 @@ SAME = [
     ("take to the kitchen", "take it to the kitchen"),
     ("the cup is to go on the table", "the cup should be on the table"),
     ("the cup belongs in the hall, bring it there please", "put the cup in the hall"),
+    (
+        "the cup from the tv stand in the den belongs in the hall, bring it there please",
+        "put the cup from the tv stand in the den in the hall",
+    ),
     ("the cup should be put on the desk", "the cup should go on the desk"),
     ("the box should stand in the office", "the box should go to the office"),
     ("the cup wants to be on the table", "the cup should be on the table"),

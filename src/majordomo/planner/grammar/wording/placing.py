@@ -20,6 +20,8 @@ _MISPLACED = (
     r"is not supposed to (?:be|lie|stand)|is out of place|is in the wrong place|is wrong|is not right|has no place|"
     r"can not (?:stay|remain|lie|stand|be)|must not (?:be|lie|stand|stay))"
 )
+_STAND = r"(?<!\btv )(?<!\bplant )(?<!\bnight )(?<!\bcoat )(?<!\bhat )(?<!\bumbrella )stand"
+"""What things do; a TV stand is furniture."""
 
 PLACING: tuple[tuple[str, str], ...] = (
     (
@@ -91,7 +93,7 @@ PLACING: tuple[tuple[str, str], ...] = (
     (
         (
             rf"(?:^|(?<=[.;!] )){_WHAT} (?:(?:can|may|should|could|must) (?:live|belong|go|stay|stand|be)|lives?|"
-            rf"belongs?|goe?s?|is kept|are kept|is at home|stay|stand|be|"
+            rf"belongs?|goe?s?|is kept|are kept|is at home|stay|{_STAND}|be|"
             rf"has its place|is supposed to be|"
             rf"should be) ((?:in|on|at|inside|next to|with) [^,.;!]+?)(?: from now on| from today)?(?:,|;|\.)? (?:and "
             rf"|so |then |please |could you |can "

@@ -255,6 +255,17 @@ def test_a_thing_is_called_by_its_kind_or_a_plain_color_or_its_place_never_by_wo
         assert words not in said
 
 
+def test_where_a_thing_of_its_kind_is_asked_for_by_its_place_no_other_is_brought_before():
+    furniture = {item.id for item in FLAT.furniture if item.id in ("desk_1", "table_1", "table_2", "shelf_1")}
+    cups = [Object(id=f"cup_{k}", category="cup", on=on) for k, on in enumerate(sorted(furniture))]
+    house = FLAT.model_copy(update={"objects": tuple(cups)})
+    stands_on = {cup.id: cup.on for cup in cups}
+    asked = [mission for seed in range(8) for mission in invent("flat", house, count=20, seed=seed) if mission.things]
+    assert any(" from " in mission.request for mission in asked)
+    for mission in asked:
+        assert not {*mission.places} & {*stands_on.values()}, mission.request
+
+
 FLAT_THINGS = [{**CUP_ON_TABLE, "id": thing.id, "on": thing.on} for thing in FLAT.objects]
 
 

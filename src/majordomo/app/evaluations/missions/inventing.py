@@ -106,8 +106,11 @@ class _Inventor:
         return found
 
     def spot(self, *, beside: Sequence[_Item] = ()) -> _Spot | None:
-        """Furniture to put something on, none of what carries it now."""
-        taken = {item.on for item in beside}
+        """Furniture to put something on, none of what carries it, or another of its kind, now: what is asked for later
+        as *the mug from the desk* is still the only one there.
+        """
+        kinds = {item.category for item in beside}
+        taken = {item.on for item in (*beside, *_all_objects(self._house)) if item.category in kinds}
         possible = [spot for spot in self._spots if spot.id not in taken]
         return possible[int(self._rng.integers(len(possible)))] if possible else None
 

@@ -50,6 +50,7 @@ class Engine:
         self._lidar_rng, self._depth_rng = lidar, depth
         self._steps = 0
         self._collisions = 0
+        self._met: set[tuple[int, int]] = set()
         self._colliding: frozenset[int] = frozenset()
         self._touched: deque[str] = deque(maxlen=TOUCHED_KEPT)
 
@@ -65,6 +66,7 @@ class Engine:
             self._world.advance(STEP_S, self.now_s)
             p.stepSimulation(physicsClientId=self._client)
             self._steps += 1
+            self._met |= set(self._robot.bodies_touched())
             if self._steps % 12 == 0:
                 self._odometry.advance(self._robot.pose)
                 self._count_collisions()
@@ -200,7 +202,7 @@ class Engine:
     def _count_collisions(self) -> None:
         """Count each new contact of the robot with anything but the floor and what its fingers touch."""
         touching = set()
-        for body, link in self._robot.bodies_touched():
+        for body, link in self._met:
             carried = body in self._gripped()
             if carried or self._robot.is_finger(link) or self._world.category_of(body) in HARMLESS:
                 continue
@@ -209,3 +211,4 @@ class Engine:
         self._collisions += len(fresh)
         self._touched += [self._world.id_of(body) or self._world.category_of(body) or "" for body in fresh]
         self._colliding = frozenset(touching)
+        self._met.clear()

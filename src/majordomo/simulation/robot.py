@@ -7,6 +7,7 @@ import tempfile
 from dataclasses import dataclass
 from itertools import product
 from pathlib import Path
+from typing import Any
 
 import pybullet as p
 
@@ -26,6 +27,8 @@ open finger would go on holding it.
 FRESH_M = 0.004
 """How far the fingers open before that: a finger that has left what it held would go on carrying it."""
 FINGER_SPEED_MPS = 0.08
+TOUCHING_M = 0.001
+"""What is nearer than this to a part of the body touches it, so exactly are shapes met; and what is pressed upon."""
 BASE_FORCE_N, BASE_TORQUE_NM = 400.0, 150.0
 STOW = ArmTarget(lift_m=0.75, extension_m=0.0, wrist_pitch_rad=-math.pi / 2)
 
@@ -156,9 +159,10 @@ class RobotBody:
         return self._touching("finger_left"), self._touching("finger_right")
 
     def bodies_touched(self) -> list[tuple[int, int]]:
-        """(body, own link) of all contacts with other bodies."""
+        """(body, own link) of all contacts with other bodies. The physics also reports what is merely near."""
         contacts = p.getContactPoints(bodyA=self.body_id, physicsClientId=self._client) or ()
-        return [(int(contact[2]), int(contact[3])) for contact in contacts if contact[2] != self.body_id]
+        touching = (contact for contact in contacts if contact[2] != self.body_id and _is_touch(contact))
+        return [(int(contact[2]), int(contact[3])) for contact in touching]
 
     def is_finger(self, link: int) -> bool:
         """Whether a link of the robot is a finger."""
@@ -320,3 +324,8 @@ def _clip(value: float, limits: tuple[float, float]) -> float:
 
 def _ramp(value: float, target: float, step: float) -> float:
     return value + _clip(target - value, (-step, step))
+
+
+def _is_touch(contact: tuple[Any, ...]) -> bool:
+    distance_m, force_n = contact[8], contact[9]
+    return bool(distance_m < TOUCHING_M or force_n > 0.0)

@@ -10,6 +10,7 @@ import pytest
 
 from majordomo.simulation.child import STEP_S
 from majordomo.simulation.robot import RobotBody, T_base_gripper
+from majordomo.simulation.robot_urdf import BASE_RADIUS_M
 from majordomo.skills.ports import ArmTarget
 
 TABLE_M = 0.75
@@ -150,3 +151,22 @@ def test_the_base_does_not_go_through_what_stands_in_its_way(client):
     robot = RobotBody(client, (-0.2, 0.0, 0.0))
     run(robot, client, 3.0, (0.6, 0.0))
     assert robot.pose[0] < 0.55 - 0.25 + 0.02
+
+
+def test_what_the_robot_comes_close_to_is_not_touched_before_it_is(client):
+    along = np.array([math.cos(2.1), math.sin(2.1)])
+    left = np.array([-along[1], along[0]])
+    shape = p.createCollisionShape(p.GEOM_BOX, halfExtents=[0.8, 0.17, 1.37], physicsClientId=client)
+    turn = p.getQuaternionFromEuler([0.0, 0.0, 2.1])
+    wall = p.createMultiBody(0, shape, -1, [*(1.4 * along + 0.17 * left), 1.37], turn, physicsClientId=client)
+    robot = RobotBody(client, (*(0.01 - BASE_RADIUS_M) * left, 2.1))
+    told_m, gap_m = 0.0, 1.0
+    while wall not in {body for body, _ in robot.bodies_touched()}:
+        if p.getContactPoints(robot.body_id, wall, physicsClientId=client):
+            told_m = max(told_m, gap_m)
+        run(robot, client, STEP_S, (0.1, 0.0))
+        ahead_m, beside_m = 0.6 - np.dot(robot.pose[:2], along), -np.dot(robot.pose[:2], left)
+        gap_m = math.hypot(ahead_m, beside_m) - BASE_RADIUS_M
+        assert gap_m > -0.01
+    assert gap_m < 0.002
+    assert told_m > 0.02, "the physics no longer tells of what is merely near"

@@ -646,6 +646,35 @@ def test_what_has_a_name_is_a_thing_on_a_thing_once_that_is_beyond_doubt_from_tw
     assert ("scissors" in [n.label for n in graph.of_type(ObjectNode)]) is found
 
 
+YELLOW_BOOK = Solid(label="book", center=(-0.14, 0.0, 0.78), size_m=(0.3, 0.16, 0.06), color=(200.0, 180.0, 30.0))
+BOOK_END = Solid(label="banana", center=(-0.14, 0.0, 0.82), size_m=(0.14, 0.05, 0.03), confidence=0.95)
+
+
+def test_what_was_seen_where_a_thing_was_is_not_there_when_that_is_gone():
+    story = Story([TABLE, YELLOW_BOOK])
+    story.run(8)
+    story.room.solids = [TABLE, YELLOW_BOOK, BOOK_END]
+    story.run(10)
+    story.room.solids = [TABLE]
+    graph = story.run(20)
+    assert graph.object("book_1").state is ObjectState.MISSING
+    assert {node.label for node in graph.of_type(ObjectNode)} == {"book", "table"}
+
+
+@pytest.mark.parametrize(("places", "state"), [(1, ObjectState.MISSING), (2, ObjectState.PRESENT)])
+def test_what_is_missed_is_not_seen_again_in_another_thing_unless_that_is_beyond_doubt(places, state):
+    story = Story([TABLE, YELLOW_BOOK, replace(BOOK_END, center=(0.3, 0.0, 0.765))])
+    story.run(10)
+    story.room.solids = [TABLE, YELLOW_BOOK]
+    assert story.run(20).object("banana_1").state is ObjectState.MISSING
+    story.room.solids = [TABLE, YELLOW_BOOK, BOOK_END]
+    graph = story.run(8)
+    if places > 1:
+        story.room.eye = (0.0, -1.3)
+        graph = story.run(8)
+    assert graph.object("banana_1").state is state
+
+
 @pytest.mark.parametrize(("deep_m", "found"), [(0.012, False), (0.06, True)])
 def test_what_is_thin_and_upright_at_the_end_of_a_thing_is_its_side_whatever_it_is_called(deep_m, found):
     book = Solid(label="book", center=(-0.1, 0.0, 0.768), size_m=(0.2, 0.09, 0.036), color=(200.0, 180.0, 30.0))

@@ -279,7 +279,9 @@ class Tracker:
                 looked_before=sight.looked_before,
                 settings=identity,
             )
-            if same is None and lies_within(track, known) and not is_beyond_doubt(track, probation):
+            unseen = same is None or same.state is ObjectState.MISSING
+            if unseen and lies_within(track, known) and not is_beyond_doubt(track, probation):
+                track.hits = 0  # were it a piece of that, it would be gone with it: it must be seen anew then
                 continue
             doubtful = undecided(track, known, identity) if same is None else may_prove_built_in(track, same)
             if doubtful and track.hits < self._settings.patience_hits:

@@ -146,3 +146,12 @@ def test_running_out_is_asked_the_other_way_round():
 )
 def test_what_comes_in_pairs_has_no_article(thing, told):
     assert article(thing) == told
+
+
+@pytest.mark.parametrize(("count", "words"), [(0, "0 objects."), (1, "1 object."), (2, "2 objects.")])
+def test_what_is_known_is_counted_where_nothing_is_in_view(count, words):
+    sketch = Sketch().room("room_1", "kitchen", at=(0.0, 0.0))
+    for k in range(count):
+        sketch.furniture(f"table_{k + 1}", "table", "room_1", at=(k - 1.0, 1.2))
+    snapshot = sketch.snapshot(robot_in="room_1", at=(0.0, -1.0), stamp_s=1000.0)
+    assert ask("what do you see", snapshot).reply.endswith(words)

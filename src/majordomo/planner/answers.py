@@ -317,10 +317,8 @@ class Answers:
         fresh = tuple(node.id for node in objects if node.last_seen_s >= now and node.state is not ObjectState.MISSING)
         if fresh:
             return f"I see {self._inventory(fresh)}.", fresh
-        return (
-            f"I see no object right now. In all I know of {len(objects)} object{'s' if len(objects) != 1 else ''}.",
-            (),
-        )
+        number = f"{len(objects)} object{'s' if len(objects) != 1 else ''}"
+        return f"I see no object right now. In all I know of {number}.", ()
 
     def _holding(self) -> tuple[str, tuple[str, ...]]:
         held = self._state.holding

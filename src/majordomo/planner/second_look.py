@@ -41,9 +41,13 @@ class SecondLook:
 
     def look(self, snapshot: Snapshot) -> Plan | None:
         """The way to the support, if there is one."""
-        steps = (Step(skill="GOTO", args=(self._support,)),)
-        seeking = self._support
-        plan = Plan(source=Source.SEARCH, revision=snapshot.revision, goals=(), steps=steps, seeking=seeking)
+        plan = Plan(
+            source=Source.SEARCH,
+            revision=snapshot.revision,
+            goals=(),
+            steps=(Step(skill="GOTO", args=(self._support,)),),
+            seeking=self._support,
+        )
         return None if self._verifier.check_plan(plan, snapshot) else plan
 
     def told(self, snapshot: Snapshot) -> str:

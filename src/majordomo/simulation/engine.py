@@ -50,7 +50,7 @@ class Engine:
         self._lidar_rng, self._depth_rng = lidar, depth
         self._steps = 0
         self._collisions = 0
-        self._met: set[tuple[int, int]] = set()
+        self._met: set[int] = set()
         self._colliding: frozenset[int] = frozenset()
         self._touched: deque[str] = deque(maxlen=TOUCHED_KEPT)
 
@@ -66,7 +66,7 @@ class Engine:
             self._world.advance(STEP_S, self.now_s)
             p.stepSimulation(physicsClientId=self._client)
             self._steps += 1
-            self._met |= set(self._robot.bodies_touched())
+            self._met |= self._collided_with()
             if self._steps % 12 == 0:
                 self._odometry.advance(self._robot.pose)
                 self._count_collisions()
@@ -199,16 +199,16 @@ class Engine:
         left, right = self._robot.finger_bodies()
         return left & right
 
+    def _collided_with(self) -> set[int]:
+        """Bodies that the robot touches, but the floor and what its fingers touch."""
+        met = {body for body, link in self._robot.bodies_touched() if not self._robot.is_finger(link)}
+        met = {body for body in met if self._world.category_of(body) not in HARMLESS}
+        return met - self._gripped() if met else met
+
     def _count_collisions(self) -> None:
-        """Count each new contact of the robot with anything but the floor and what its fingers touch."""
-        touching = set()
-        for body, link in self._met:
-            carried = body in self._gripped()
-            if carried or self._robot.is_finger(link) or self._world.category_of(body) in HARMLESS:
-                continue
-            touching.add(body)
-        fresh = sorted(touching - self._colliding)
+        """Count each new contact since the last time."""
+        fresh = sorted(self._met - self._colliding)
         self._collisions += len(fresh)
         self._touched += [self._world.id_of(body) or self._world.category_of(body) or "" for body in fresh]
-        self._colliding = frozenset(touching)
+        self._colliding = frozenset(self._met)
         self._met.clear()

@@ -31,8 +31,8 @@ benchmark: $(STAMP)  ## measurements of speed, for a machine that does nothing e
 	$(BIN)/python -m pytest -m benchmark -s tests/benchmarks tests/unit/planner $(ARGS)
 
 check: $(STAMP)  ## lint, format, types, import contracts
-	$(BIN)/ruff check src tests scripts training examples
-	$(BIN)/ruff format --check src tests scripts training examples
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 	$(BIN)/lint-imports
 

@@ -7,8 +7,8 @@ import sys
 import tempfile
 from pathlib import Path
 
-from majordomo.app.runtime import Runtime
-from majordomo.app.settings import ClockMode, Settings
+from app.runtime import Runtime
+from app.settings import ClockMode, Settings
 
 
 async def explore(log: Path, seconds: float, seed: int) -> None:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from majordomo.planner.sketch import flat
-from majordomo.scene_graph.nodes import DoorState
+from planner.doubles.sketch import flat
+from scene_graph.nodes import DoorState
 
 
 def home():

@@ -26,7 +26,8 @@ from pathlib import Path
 import httpx
 from markdown_it import MarkdownIt
 
-ROOT = Path(__file__).parents[1]
+from paths import ROOT
+
 DATA_LANGUAGES = frozenset({"json", "toml", "text"})
 RUN_LANGUAGES = frozenset({"sh", "python"})
 PORTS = ("8642", "9090", "8000")
@@ -119,7 +120,7 @@ class Reader:
         programs.mkdir()
         self._ports = dict(zip(PORTS, free_ports(len(PORTS)), strict=True))
         serve = f'if [ "$1" = serve ]; then shift; set -- serve --port {self._ports["8642"]} "$@"; fi\n'
-        _program(programs / "majordomo", f'{serve}exec {shlex.quote(sys.executable)} -m majordomo.app "$@"\n')
+        _program(programs / "majordomo", f'{serve}exec {shlex.quote(sys.executable)} -m app "$@"\n')
         _program(programs / "python", f'exec {shlex.quote(sys.executable)} "$@"\n')
         packages = self.folder / "packages"
         installing = "-m pip install --quiet --no-deps --no-build-isolation --disable-pip-version-check --target"
@@ -129,7 +130,7 @@ class Reader:
         if shutil.which("curl") is None:
             _program(programs / "curl", f'exec {shlex.quote(sys.executable)} {ROOT / "tests" / "curl.py"} "$@"\n')
         lay_out(self.folder)
-        python_path = os.pathsep.join(map(str, (packages, ROOT / "src", ROOT, os.environ.get("PYTHONPATH", ""))))
+        python_path = os.pathsep.join(map(str, (packages, ROOT, os.environ.get("PYTHONPATH", ""))))
         self.environment = os.environ | self.environment | {
             "HOME": str(self.folder), "PATH": f"{programs}{os.pathsep}{os.environ['PATH']}", "PYTHONPATH": python_path,
             "COLUMNS": "160", "NO_COLOR": "1",
@@ -230,7 +231,7 @@ class Reader:
 
 def lay_out(folder: Path) -> None:
     """Put what guides take from a checkout into a folder."""
-    for name in ("examples", "scripts", "src", "tests"):
+    for name in ("examples", "perception", "scripts", "tests"):
         (folder / name).symlink_to(ROOT / name)
 
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from majordomo.planner.sketch import Sketch
-from majordomo.scene_graph.snapshot import Snapshot
+from planner.doubles.sketch import Sketch
+from scene_graph.snapshot import Snapshot
 
 ROOM_M = 4.2
 WARDS_A_CORRIDOR = 20

@@ -16,7 +16,7 @@ from pathlib import Path
 
 import httpx
 
-from majordomo.scene_graph.long_term.room_files import unreadable_rooms
+from scene_graph.long_term.room_files import unreadable_rooms
 from service_process import wait_until
 
 ENDED = {"succeeded", "failed", "cancelled", "refused"}
@@ -65,7 +65,7 @@ class Life:
 
     def __init__(self, data: Path, arguments: tuple[str, ...], account: Account) -> None:
         self.data, self.account = data, account
-        command = [sys.executable, "-m", "majordomo.app", "serve", "--port", "0", "--data", str(data), *arguments]
+        command = [sys.executable, "-m", "app", "serve", "--port", "0", "--data", str(data), *arguments]
         self.began = time.monotonic()
         self.log = (data / "stderr.log").open("a")
         self.process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=self.log, text=True)

@@ -14,22 +14,22 @@ from typing import Any
 
 import numpy as np
 
-from majordomo.app.ranges import ScanRanges
-from majordomo.perception.ports import LidarScan
-from majordomo.planner.arbiter import Arbiter
-from majordomo.planner.crew import Crew
-from majordomo.planner.executor import Executor
-from majordomo.planner.exploration import explore, look_at
-from majordomo.planner.goals import Goal
-from majordomo.planner.mission import Mission
-from majordomo.planner.plan import Interpretation, Kind
-from majordomo.planner.queue import TaskQueue
-from majordomo.planner.scripted import ScriptedInterpreter
-from majordomo.planner.skill_planner import SkillPlanner
-from majordomo.planner.tasks import Task
-from majordomo.planner.verifier import Verifier
-from majordomo.scene_graph.nodes import ObjectNode, ObjectState
+from app.stacks.ranges import ScanRanges
+from perception.ports import LidarScan
 from physics_stage import SKILLS, Stage
+from planner.doubles.scripted import ScriptedInterpreter
+from planner.executor.arbiter import Arbiter
+from planner.executor.executor import Executor
+from planner.executor.exploration import explore, look_at
+from planner.goals import Goal
+from planner.mission.mission import Mission
+from planner.mission.resources import Crew
+from planner.plan import Interpretation, Kind
+from planner.skill_planner.skill_planner import SkillPlanner
+from planner.skill_planner.verifier import Verifier
+from planner.tasks.queue import TaskQueue
+from planner.tasks.tasks import Task
+from scene_graph.nodes import ObjectNode, ObjectState
 
 SIGHT_M = 3.0
 FIELD_RAD = 0.5

@@ -13,16 +13,16 @@ from typing import Any
 import numpy as np
 from py_trees.common import Status
 
-from majordomo.perception.ports import LidarScan
-from majordomo.perception.sensing import scan_points_base
-from majordomo.scene_graph.edges import ConnectsEdge, EdgeType, InEdge, MatchEdge, RelationEdge, RtEdge
-from majordomo.scene_graph.memory import WorkingMemory
-from majordomo.scene_graph.nodes import DoorNode, ObjectNode, ObjectState, PersonNode, RoomNode, RoomStatus, WallNode
-from majordomo.scene_graph.se3 import SE3
-from majordomo.simulation.catalog import CATEGORIES
-from majordomo.simulation.client import SimulatedRobot
-from majordomo.skills.action import RobotContext
-from majordomo.skills.registry import load_registry
+from perception.ports import LidarScan
+from perception.sensing import scan_points_base
+from scene_graph.edges import ConnectsEdge, EdgeType, InEdge, MatchEdge, RelationEdge, RtEdge
+from scene_graph.geometry.se3 import SE3
+from scene_graph.memory import WorkingMemory
+from scene_graph.nodes import DoorNode, ObjectNode, ObjectState, PersonNode, RoomNode, RoomStatus, WallNode
+from simulation.furnishing.catalog import CATEGORIES
+from simulation.process.client import SimulatedRobot
+from skills.action import RobotContext
+from skills.registry import load_registry
 
 ROOMS = {"room_1": ((0.0, 0.0), (3.0, 2.5)), "room_2": ((5.2, 0.0), (2.0, 2.5))}
 """Center and half extents in house coordinates; the frame of room_1 is the house's."""

@@ -6,10 +6,10 @@ from itertools import pairwise
 
 import numpy as np
 
-from majordomo.planner.goals import Goal, goal
-from majordomo.planner.sketch import Sketch
-from majordomo.scene_graph.nodes import DoorState
-from majordomo.scene_graph.snapshot import Snapshot
+from planner.doubles.sketch import Sketch
+from planner.goals import Goal, goal
+from scene_graph.nodes import DoorState
+from scene_graph.snapshot import Snapshot
 
 
 def random_problem(seed: int) -> tuple[Snapshot, list[Goal]]:

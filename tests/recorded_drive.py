@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from majordomo.app.evaluations.replay import CAMERA_HZ, LIDAR_HZ, CompactFrame, Recording
-from majordomo.perception.localization.planar import Pose2
-from majordomo.perception.ports import Intrinsics, JointState, Odometry, RgbdFrame
-from majordomo.scene_graph.memory import WorkingMemory
-from majordomo.scene_graph.se3 import SE3
+from evaluations.service.replay import CAMERA_HZ, LIDAR_HZ, CompactFrame, Recording
+from perception.localization.planar import Pose2
+from perception.ports import Intrinsics, JointState, Odometry, RgbdFrame
+from scene_graph.geometry.se3 import SE3
+from scene_graph.memory import WorkingMemory
 from unit.perception.lidar_house import House, cast, rectangle
 
 ROOM = House(rooms={"a": rectangle(4.0, 3.0)})

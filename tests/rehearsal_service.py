@@ -5,19 +5,19 @@ from __future__ import annotations
 import time
 from collections.abc import Sequence
 
-from majordomo.app.node_history import NodeHistory
-from majordomo.app.scheduler import Agent
-from majordomo.planner.arbiter import Arbiter
-from majordomo.planner.crew import Crew
-from majordomo.planner.executor import Executor
-from majordomo.planner.grammar.parser import CommandGrammar
-from majordomo.planner.mission import Mission
-from majordomo.planner.rehearsal import Stage, StillBody, rehearsal_graph
-from majordomo.planner.scripted import Script, scripted_look, scripted_skills
-from majordomo.planner.skill_planner import SkillPlanner
-from majordomo.planner.task_planner import TaskPlanner
-from majordomo.planner.verifier import Verifier
-from majordomo.scene_graph.memory import WorkingMemory
+from app.memory.node_history import NodeHistory
+from app.scheduler import Agent
+from planner.doubles.rehearsal import Stage, StillBody, rehearsal_graph
+from planner.doubles.scripted import Script, scripted_look, scripted_skills
+from planner.executor.arbiter import Arbiter
+from planner.executor.executor import Executor
+from planner.language.grammar.parser import CommandGrammar
+from planner.mission.mission import Mission
+from planner.mission.resources import Crew
+from planner.skill_planner.skill_planner import SkillPlanner
+from planner.skill_planner.verifier import Verifier
+from planner.task_planner.task_planner import TaskPlanner
+from scene_graph.memory import WorkingMemory
 
 
 class Perception:

@@ -25,14 +25,14 @@ class ServiceProcess:
 
 def majordomo(*arguments, **options):
     """Run the command line to its end."""
-    command = [sys.executable, "-m", "majordomo.app", *arguments]
+    command = [sys.executable, "-m", "app", *arguments]
     return subprocess.run(command, capture_output=True, text=True, timeout=600, check=False, **options)
 
 
 @contextlib.contextmanager
 def serving(data: Path, *arguments):
     """A service on a free port that is ready to take requests."""
-    command = [sys.executable, "-m", "majordomo.app", "serve", "--port", "0", "--data", str(data), *arguments]
+    command = [sys.executable, "-m", "app", "serve", "--port", "0", "--data", str(data), *arguments]
     with (
         (data / "stderr.log").open("w") as log,
         subprocess.Popen(command, stdout=subprocess.PIPE, stderr=log, text=True) as process,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from majordomo.planner.grammar.verbs import PAST
+from planner.language.lexicon.verbs import PAST
 
 TENSELESS = ("found", "located", "put", "got", "gotten", "picked up")
 TALK: list[tuple[str, str]] = [

@@ -9,7 +9,7 @@ import typer
 from rich.console import Console
 from rich.progress import track
 
-from majordomo.perception.network.shipped import SHIPPED
+from perception.network.shipped import SHIPPED
 from training.collecting import collect, shards
 from training.quantities import HOUSE_PICTURES, ROOM_PICTURES, STEPS
 

@@ -7,9 +7,9 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from majordomo.app.evaluations.network import AIM_MB, AIM_MS, AIMS
-from majordomo.app.evaluations.recognition import CLEAR_PX
-from majordomo.app.evaluations.tables import shown
+from evaluations.perception.network import AIM_MB, AIM_MS, AIMS
+from evaluations.perception.recognition import CLEAR_PX
+from evaluations.tables import shown
 
 BEGIN, END = "<!-- figures -->\n", "<!-- end of figures -->\n"
 _CONFUSIONS = 16

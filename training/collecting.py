@@ -9,9 +9,9 @@ from pathlib import Path
 
 import numpy as np
 
-from majordomo.simulation.photographer import photographer
-from majordomo.simulation.photographs import Photograph
-from majordomo.simulation.stocking import stocked_house
+from simulation.generation.stocking import stocked_house
+from simulation.pictures.photographer import photographer
+from simulation.pictures.photographs import Photograph
 from training.photographs import photographs
 from training.shards import save_shard
 

@@ -12,7 +12,7 @@ import onnx
 import torch
 from torch import Tensor, nn
 
-from majordomo.perception.network.contract import INPUT, INSTANCE_OUTPUTS, TRIPLET_OUTPUTS
+from perception.network.contract import INPUT, INSTANCE_OUTPUTS, TRIPLET_OUTPUTS
 from training.names import CLASSES, PREDICATES, THINGS
 from training.network import HEIGHT, QUERIES, TRIPLETS, WIDTH, Network
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from majordomo.simulation.catalog import category_names
-from majordomo.simulation.relations import PREDICATES
+from simulation.furnishing.catalog import category_names
+from simulation.pictures.relations import PREDICATES
 
 THINGS = (*category_names(), "person", "door")
 STUFF = ("wall", "floor")

@@ -10,8 +10,8 @@ import numpy as np
 import pybullet as p
 from numpy.typing import NDArray
 
-from majordomo.simulation.photographs import MOST_INSTANCES, NOTHING, Photograph, photograph
-from majordomo.simulation.shapes import box
+from simulation.furnishing.shapes import box
+from simulation.pictures.photographs import MOST_INSTANCES, NOTHING, Photograph, photograph
 from training.scenes import Item, Scene, random_scene, visible_targets
 from training.shapes import Generator, random_color
 

@@ -11,11 +11,11 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from majordomo.simulation.catalog import CATEGORIES
-from majordomo.simulation.colors import Rgb
-from majordomo.simulation.placement import to_house
-from majordomo.simulation.relations import Solid
-from majordomo.simulation.shapes import Part, Size3, box
+from simulation.furnishing.catalog import CATEGORIES
+from simulation.furnishing.shapes import Part, Size3, box
+from simulation.houses.colors import Rgb
+from simulation.houses.placement import to_house
+from simulation.pictures.relations import Solid
 from training.shapes import Generator, nameless, random_color, random_parts, random_person, random_size, shaken_color
 
 FURNITURE = tuple(name for name, category in CATEGORIES.items() if category.static)

@@ -8,10 +8,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from majordomo.simulation.catalog import CATEGORIES
-from majordomo.simulation.colors import COLORS, Rgb, color_of, toward
-from majordomo.simulation.people import person_parts
-from majordomo.simulation.shapes import Part, Size3, box, cylinder, sphere
+from simulation.furnishing.catalog import CATEGORIES
+from simulation.furnishing.shapes import Part, Size3, box, cylinder, sphere
+from simulation.houses.colors import COLORS, Rgb, color_of, toward
+from simulation.world.people import person_parts
 
 Generator = np.random.Generator
 Build = Callable[[Size3, Rgb, Generator], tuple[Part, ...]]

@@ -10,8 +10,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from majordomo.simulation.photographs import Photograph
-from majordomo.simulation.relations import PREDICATES
+from simulation.pictures.photographs import Photograph
+from simulation.pictures.relations import PREDICATES
 from training.names import CLASSES, UNKNOWN
 
 

@@ -19,12 +19,7 @@ import numpy as np
 from websockets.asyncio.server import ServerConnection, serve
 from websockets.exceptions import ConnectionClosed
 
-from majordomo.perception.errors import SensorSilent
-from majordomo.perception.ports import LidarScan
-from majordomo.perception.sensing import ray_directions_base
-from majordomo.scene_graph.se3 import SE3
-from majordomo.simulation.client import SimulatedRobot
-from majordomo.skills.ports import ArmTarget
+from majordomo import SE3, ArmTarget, LidarScan, SensorSilent, SimulatedRobot, ray_directions_base
 
 EPOCH_S = 1_700_000_000.0
 """What the robot's clock shows when the simulation begins."""

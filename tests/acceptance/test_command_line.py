@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import json
 import os
-from pathlib import Path
 
 import pytest
 
+from paths import DATA
 from service_process import majordomo, serving, wait_until
 
-GRAPH = Path(__file__).parents[1] / "data" / "flat_graph.json"
-NETWORKS = Path(__file__).parents[1] / "data" / "network"
+GRAPH = DATA / "flat_graph.json"
+NETWORKS = DATA / "network"
 
 ROOM = {"id": "a", "label": "kitchen", "polygon": [[0, 0], [4, 0], [4, 3], [0, 3]]}
 DOOR = {"id": "d", "rooms": ["a", "outside"], "center": [4.1, 1.5], "width": 0.9}

@@ -7,8 +7,8 @@ import re
 import pytest
 import typer
 
+from app.commands.main import application
 from guide import ROOT, Reader, blocks, lay_out, own_commands
-from majordomo.app.command_line import application
 from training.__main__ import commands as training
 
 PROGRAMS = {"majordomo": application, "training": training}

@@ -6,13 +6,12 @@ middle of a start, is killed as well.
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import pytest
 
 from killed_service import Killing, explore
+from paths import DATA
 
-HOUSE = Path(__file__).parents[1] / "data" / "studio.json"
+HOUSE = DATA / "studio.json"
 FAST = ("--house", str(HOUSE), "--clock", "lockstep", "--speed", "max")
 GOING = ("go to room_2", "where are you?", "go to room_1", "what rooms are there?")
 CARRYING = ("bring the blue bottle to the desk", "where is the red cup?", "bring the red cup to the desk")

@@ -9,13 +9,13 @@ from dataclasses import dataclass
 
 import pytest
 
-from majordomo.app.evaluations.known_building import known_building
-from majordomo.perception.memory.working_set import WorkingSet
-from majordomo.scene_graph.edits import PutEdge
-from majordomo.scene_graph.long_term.long_term_store import LongTermStore
-from majordomo.scene_graph.memory import WorkingMemory
-from majordomo.scene_graph.queries import NodeFilter, NodeType, select
-from majordomo.scene_graph.topology import path_between
+from evaluations.mapping.known_building import known_building
+from perception.memory.working_set import WorkingSet
+from scene_graph.edits import PutEdge
+from scene_graph.long_term.long_term_store import LongTermStore
+from scene_graph.memory import WorkingMemory
+from scene_graph.queries.queries import NodeFilter, NodeType, select
+from scene_graph.queries.topology import path_between
 
 ROOMS = (10, 100, 1000)
 GROWTH = 1.10

@@ -10,14 +10,14 @@ import numpy as np
 import pytest
 
 from hospital import hospital
-from majordomo.planner.grammar.parser import CommandGrammar
-from majordomo.planner.interpreter import Interpreter
-from majordomo.planner.plan import Dialogue, Kind, Plan
-from majordomo.planner.replanner import Replanner
-from majordomo.planner.task_planner import TaskPlanner
-from majordomo.planner.verifier import Verifier
-from majordomo.scene_graph.nodes import ObjectNode
-from majordomo.skills.registry import load_registry
+from planner.dialogue.interpreter import Interpreter
+from planner.language.grammar.parser import CommandGrammar
+from planner.plan import Dialogue, Kind, Plan
+from planner.skill_planner.replanner import Replanner
+from planner.skill_planner.verifier import Verifier
+from planner.task_planner.task_planner import TaskPlanner
+from scene_graph.nodes import ObjectNode
+from skills.registry import load_registry
 
 REQUESTS = 300
 STAGES = ("read", "parse and ground", "plan", "verify", "all")

@@ -5,13 +5,22 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from majordomo.scene_graph.nodes import DoorNode, DoorState
-from majordomo.scene_graph.snapshot import Snapshot
-from majordomo.skills.action import Action, RobotContext
-from majordomo.skills.failures import Evidence, Failure, FailureCode
-from majordomo.skills.journeys import visit
-from majordomo.skills.skill import Parameter, Unmet, argument_schema, unknown_arguments
-from majordomo.skills.state import PlanState
+from majordomo import (
+    Action,
+    DoorNode,
+    DoorState,
+    Evidence,
+    Failure,
+    FailureCode,
+    Parameter,
+    PlanState,
+    RobotContext,
+    Snapshot,
+    Unmet,
+    argument_schema,
+    unknown_arguments,
+    visit,
+)
 
 
 class Open:

@@ -13,12 +13,13 @@ from pathlib import Path
 import pytest
 import websockets
 
-from majordomo.app.http.security import Token
-from majordomo.app.runtime import Runtime
-from majordomo.app.server import bind, page_address, serving
-from majordomo.app.settings import Settings
+from app.http.guards.security import Token
+from app.runtime import Runtime
+from app.server import bind, page_address, serving
+from app.settings import Settings
+from paths import DATA
 
-GRAPH = Path(__file__).parents[2] / "data" / "flat_graph.json"
+GRAPH = DATA / "flat_graph.json"
 TOKEN = Token("a-token-only-for-tests")
 LIMIT_S = 20.0
 KEYS = {"Enter": 13, "Escape": 27, "Tab": 9, "ArrowUp": 38, "ArrowDown": 40}

@@ -12,18 +12,18 @@ import itertools
 import json
 import re
 import statistics
-from pathlib import Path
 
 import pytest
 
-from majordomo.app.http.security import Token
-from majordomo.app.runtime import Runtime
-from majordomo.app.server import bind, page_address, serving
-from majordomo.app.settings import Settings
+from app.http.guards.security import Token
+from app.runtime import Runtime
+from app.server import bind, page_address, serving
+from app.settings import Settings
+from paths import DATA
 
 pytestmark = [pytest.mark.anyio, pytest.mark.slow]
 
-GRAPH = Path(__file__).parents[2] / "data" / "flat_graph.json"
+GRAPH = DATA / "flat_graph.json"
 TOKEN = Token("a-token-only-for-tests")
 FIRST_PAINT_MS, TRANSFER_BYTES, FRAME_MS = 1000.0, 400_000, 1000.0 / 30.0
 FLATS = (5, 5)

@@ -6,15 +6,15 @@ import contextlib
 import os
 import signal
 import socket
-from pathlib import Path
 
 import anyio.to_thread
 import pytest
 
+from paths import DATA
 from service_process import serving
 
 pytestmark = [pytest.mark.anyio, pytest.mark.slow]
-GRAPH = Path(__file__).parents[2] / "data" / "flat_graph.json"
+GRAPH = DATA / "flat_graph.json"
 SHOWN = "document.querySelectorAll('.room').length === 3"
 BANNER = "document.querySelector('#connection')"
 IS_STALE = "document.body.classList.contains('stale')"

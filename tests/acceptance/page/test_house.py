@@ -8,15 +8,15 @@ from importlib.resources import files
 
 import pytest
 
-from majordomo.app.http.security import Token
-from majordomo.app.runtime import Runtime
-from majordomo.app.server import bind, page_address, serving
-from majordomo.app.settings import ClockMode, Settings
+from app.http.guards.security import Token
+from app.runtime import Runtime
+from app.server import bind, page_address, serving
+from app.settings import ClockMode, Settings
 
 pytestmark = [pytest.mark.anyio, pytest.mark.slow]
 TOKEN = Token("a-token-only-for-tests")
 LIMIT_S = 120.0
-FLAT = json.loads((files("majordomo.simulation") / "houses" / "flat.json").read_text(encoding="utf-8"))
+FLAT = json.loads((files("simulation") / "houses" / "flat.json").read_text(encoding="utf-8"))
 [WARDROBE_M] = [piece["pose"][:2] for piece in FLAT["furniture"] if piece["category"] == "wardrobe"]
 NEAR_M = 1.5
 BADGE = "document.querySelector('.task .badge')?.textContent"

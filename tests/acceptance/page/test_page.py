@@ -5,18 +5,18 @@ from __future__ import annotations
 import itertools
 import json
 import math
-from pathlib import Path
 
 import pytest
 
-from majordomo.app.http.security import Token
-from majordomo.app.runtime import Runtime
-from majordomo.app.server import bind, page_address, serving
-from majordomo.app.settings import Settings
+from app.http.guards.security import Token
+from app.runtime import Runtime
+from app.server import bind, page_address, serving
+from app.settings import Settings
+from paths import DATA
 
 pytestmark = [pytest.mark.anyio, pytest.mark.slow]
 
-GRAPH = Path(__file__).parents[2] / "data" / "flat_graph.json"
+GRAPH = DATA / "flat_graph.json"
 TOKEN = Token("a-token-only-for-tests")
 SIZES = [(1440, 900), (390, 844)]
 BOX = "(({ left, top, right, bottom }) => [left, top, right, bottom])"

@@ -6,10 +6,10 @@ from dataclasses import replace
 
 import pytest
 
-from majordomo.app.http.security import Token
-from majordomo.app.server import bind, page_address, serving
-from majordomo.scene_graph.edits import PutNode
-from majordomo.scene_graph.nodes import ObjectNode
+from app.http.guards.security import Token
+from app.server import bind, page_address, serving
+from scene_graph.edits import PutNode
+from scene_graph.nodes import ObjectNode
 
 pytestmark = [pytest.mark.anyio, pytest.mark.slow]
 TOKEN = Token("a-token-only-for-tests")

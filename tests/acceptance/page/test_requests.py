@@ -6,14 +6,14 @@ import json
 
 import pytest
 
-from majordomo.app.http.security import Token
-from majordomo.app.runtime import Runtime
-from majordomo.app.server import bind, page_address, serving
-from majordomo.app.settings import Settings
-from majordomo.planner.scripted import Script
-from majordomo.planner.tasks import TaskStatus
-from majordomo.skills.failures import FailureCode
+from app.http.guards.security import Token
+from app.runtime import Runtime
+from app.server import bind, page_address, serving
+from app.settings import Settings
+from planner.doubles.scripted import Script
+from planner.tasks.tasks import TaskStatus
 from rehearsal_service import rehearsed
+from skills.failures import FailureCode
 
 pytestmark = [pytest.mark.anyio, pytest.mark.slow]
 TOKEN = Token("a-token-only-for-tests")

@@ -2,26 +2,25 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 
-from majordomo.app.camera import CameraWindow, Gaze
-from majordomo.app.graph_stack import GraphStack
-from majordomo.app.http.security import Token
-from majordomo.app.runtime import Runtime
-from majordomo.app.server import bind, page_address, serving
-from majordomo.app.settings import Settings
-from majordomo.perception.objects.look import Look
-from majordomo.perception.panoptic import Instance, PanopticScene
-from majordomo.perception.ports import Intrinsics, RgbdFrame
-from majordomo.planner.lessons import teach
-from majordomo.scene_graph.se3 import SE3
+from app.http.guards.security import Token
+from app.runtime import Runtime
+from app.server import bind, page_address, serving
+from app.settings import Settings
+from app.stacks.graph import GraphStack
+from app.views.camera import CameraWindow, Gaze
+from paths import DATA
+from perception.objects.seeing.look import Look
+from perception.panoptic import Instance, PanopticScene
+from perception.ports import Intrinsics, RgbdFrame
+from planner.mission.taught import teach
+from scene_graph.geometry.se3 import SE3
 
 pytestmark = [pytest.mark.anyio, pytest.mark.slow]
 
-GRAPH = Path(__file__).parents[2] / "data" / "flat_graph.json"
+GRAPH = DATA / "flat_graph.json"
 TOKEN = Token("a-token-only-for-tests")
 SHOWN = "document.querySelectorAll('#map .room').length === 3"
 HEIGHT, WIDTH = 240, 320

@@ -5,18 +5,18 @@ from __future__ import annotations
 import contextlib
 import json
 from dataclasses import dataclass
-from pathlib import Path
 
 import httpx
 import pytest
 
-from majordomo.app.http.security import Token
-from majordomo.app.http.service import make_service
-from majordomo.app.runtime import Runtime
-from majordomo.app.server import bind, page_address, serving
-from majordomo.app.settings import Settings
+from app.http.guards.security import Token
+from app.http.service import make_service
+from app.runtime import Runtime
+from app.server import bind, page_address, serving
+from app.settings import Settings
+from paths import DATA
 
-GRAPH = Path(__file__).parents[2] / "data" / "flat_graph.json"
+GRAPH = DATA / "flat_graph.json"
 TOKEN, VIEWER = Token("a-token-only-for-tests"), Token("a-viewers-token-for-tests")
 AUTHORIZED = {"Authorization": f"Bearer {TOKEN.value}"}
 SETTLED = {"succeeded", "failed", "cancelled", "refused", "awaiting_answer", "awaiting_approval"}

@@ -9,13 +9,13 @@ import itertools
 
 import pytest
 
-from majordomo.app.http.security import Token
-from majordomo.app.runtime import Runtime
-from majordomo.app.server import bind, page_address, serving
-from majordomo.client import (
-    AsyncMajordomo,
+from app.http.guards.security import Token
+from app.runtime import Runtime
+from app.server import bind, page_address, serving
+from client import (
+    AsyncClient,
+    Client,
     Invalid,
-    Majordomo,
     NoService,
     NotAllowedNow,
     NotFound,
@@ -24,7 +24,7 @@ from majordomo.client import (
     Unauthorized,
     find_service,
 )
-from majordomo.planner.tasks import TaskStatus
+from planner.tasks.tasks import TaskStatus
 
 pytestmark = pytest.mark.anyio
 
@@ -36,7 +36,7 @@ def there(served, token):
 
 @pytest.fixture
 async def robot(there):
-    async with AsyncMajordomo(there) as robot:
+    async with AsyncClient(there) as robot:
         yield robot
 
 
@@ -50,8 +50,8 @@ def test_both_clients_offer_the_same_calls():
             if inspect.isfunction(value)
         }
 
-    assert offered(Majordomo) == offered(AsyncMajordomo)
-    assert {"submit", "wait", "events", "trace", "stop"} <= offered(Majordomo).keys()
+    assert offered(Client) == offered(AsyncClient)
+    assert {"submit", "wait", "events", "trace", "stop"} <= offered(Client).keys()
 
 
 async def test_a_task_is_followed_from_its_words_to_its_outcome(robot, served):
@@ -93,7 +93,7 @@ async def test_what_is_refused_is_an_exception_with_the_code_of_the_problem(robo
     with pytest.raises(NotAllowedNow) as late:
         await robot.cancel(task.id)
     assert late.value.code == "not_allowed_now"
-    async with AsyncMajordomo(Service(address=there.address, token="not-the-one-you-want")) as stranger:
+    async with AsyncClient(Service(address=there.address, token="not-the-one-you-want")) as stranger:
         with pytest.raises(Unauthorized):
             await stranger.status()
         with pytest.raises(Unauthorized):
@@ -169,7 +169,7 @@ async def test_a_restart_of_the_service_is_told_and_the_stream_goes_on_with_a_sn
     seen = []
 
     async def read(address):
-        async with AsyncMajordomo(Service(address=address, token=token)) as robot:
+        async with AsyncClient(Service(address=address, token=token)) as robot:
             async for event in robot.events():
                 seen.append(event)  # noqa: PERF401 - looked at meanwhile
 
@@ -190,7 +190,7 @@ async def test_a_restart_of_the_service_is_told_and_the_stream_goes_on_with_a_sn
 async def test_a_service_that_stays_away_is_given_up(settings, token):
     async with life(settings, token) as address:
         pass
-    async with AsyncMajordomo(Service(address=address, token=token)) as robot:
+    async with AsyncClient(Service(address=address, token=token)) as robot:
         with pytest.raises(NoService, match="does not answer"):
             await robot.status()
         seen = robot.events(patience_s=0.3)
@@ -201,7 +201,7 @@ async def test_a_service_that_stays_away_is_given_up(settings, token):
 
 async def test_the_synchronous_client_does_the_same(there):
     def use():
-        with Majordomo(there) as robot:
+        with Client(there) as robot:
             task = robot.wait(robot.submit("where is the red apple?").id, timeout_s=30)
             with contextlib.closing(robot.events(for_s=5)) as events:
                 first = next(events)

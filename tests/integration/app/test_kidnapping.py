@@ -6,10 +6,10 @@ from pathlib import Path
 
 import pytest
 
-from majordomo.app.runtime import Runtime
-from majordomo.app.settings import ClockMode, Settings
-from majordomo.planner.tasks import TaskStatus
-from majordomo.scene_graph.nodes import CrossingStatus, DoorNode, RoomNode
+from app.runtime import Runtime
+from app.settings import ClockMode, Settings
+from planner.tasks.tasks import TaskStatus
+from scene_graph.nodes import CrossingStatus, DoorNode, RoomNode
 
 pytestmark = pytest.mark.anyio
 

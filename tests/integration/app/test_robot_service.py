@@ -11,10 +11,10 @@ import anyio
 import httpx
 import pytest
 
-from majordomo.app.http.security import Token
-from majordomo.app.http.service import make_service
-from majordomo.app.runtime import Runtime
-from majordomo.app.settings import ClockMode, Settings
+from app.http.guards.security import Token
+from app.http.service import make_service
+from app.runtime import Runtime
+from app.settings import ClockMode, Settings
 
 pytestmark = pytest.mark.anyio
 TOKEN = Token("0123456789abcdef")

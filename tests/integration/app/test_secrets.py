@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import pytest
 from websockets.sync.client import connect
 
+from paths import DATA
 from service_process import serving, wait_until
 
-GRAPH = Path(__file__).parents[2] / "data" / "flat_graph.json"
+GRAPH = DATA / "flat_graph.json"
 KEY = "sk-a-key/that+nobody/may-see"
 SETTLED = {"succeeded", "failed", "refused", "awaiting_answer"}
 

@@ -12,12 +12,12 @@ import sys
 import httpx
 import pytest
 
-from majordomo.app.errors import RefusedToBind
-from majordomo.app.http.security import Token
-from majordomo.app.runtime import Runtime
-from majordomo.app.server import bind, check_exposure, page_address, serving
-from majordomo.app.settings import Settings
-from majordomo.scene_graph.errors import SceneFormatError
+from app.errors import RefusedToBind
+from app.http.guards.security import Token
+from app.runtime import Runtime
+from app.server import bind, check_exposure, page_address, serving
+from app.settings import Settings
+from scene_graph.errors import SceneFormatError
 
 pytestmark = pytest.mark.anyio
 
@@ -58,7 +58,7 @@ async def test_a_graph_that_cannot_be_read_ends_the_start_with_its_own_error(set
 @pytest.mark.parametrize("ending", [signal.SIGINT, signal.SIGTERM])
 def test_a_served_graph_announces_itself_answers_and_leaves_nothing_behind(settings, ending):
     arguments = ["serve", "--graph", str(settings.graph), "--port", "0", "--data", str(settings.data)]
-    command = [sys.executable, "-c", "from majordomo.app.command_line import main; main()", *arguments]
+    command = [sys.executable, "-c", "from app.commands.main import main; main()", *arguments]
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
         address = process.stdout.readline().strip()
         announced = settings.data / "service.json"

@@ -7,8 +7,8 @@ from typing import Any
 
 import pytest
 
-from majordomo.simulation.client import SimulatedRobot
 from mission_stage import MissionStage
+from simulation.process.client import SimulatedRobot
 
 
 @pytest.fixture

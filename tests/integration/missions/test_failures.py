@@ -6,10 +6,10 @@ from math import dist
 
 import pytest
 
-from majordomo.planner.goals import goal
-from majordomo.planner.tasks import TaskStatus
 from mission_stage import Jammed, Mute
 from physics_stage import two_rooms
+from planner.goals import goal
+from planner.tasks.tasks import TaskStatus
 
 pytestmark = pytest.mark.anyio
 ON_DESK = goal("on", "bottle_1", "desk_1")

@@ -7,9 +7,9 @@ from math import dist
 import numpy as np
 import pytest
 
-from majordomo.planner.goals import goal
-from majordomo.planner.tasks import TaskStatus
 from physics_stage import two_rooms
+from planner.goals import goal
+from planner.tasks.tasks import TaskStatus
 
 pytestmark = [pytest.mark.anyio, pytest.mark.slow]
 TRIALS = 100

@@ -7,8 +7,8 @@ from typing import Any
 
 import pytest
 
-from majordomo.simulation.client import SimulatedRobot
 from physics_stage import Stage, two_rooms
+from simulation.process.client import SimulatedRobot
 
 
 @pytest.fixture

@@ -7,10 +7,10 @@ from math import hypot, pi
 import numpy as np
 import pytest
 
-from majordomo.simulation.catalog import CATEGORIES
-from majordomo.skills.actions.grasp import CloseGripper
-from majordomo.skills.failures import FailureCode
-from majordomo.skills.registry import load_registry
+from simulation.furnishing.catalog import CATEGORIES
+from skills.failures import FailureCode
+from skills.pick.grasp import CloseGripper
+from skills.registry import load_registry
 
 pytestmark = pytest.mark.anyio
 SKILLS = load_registry([])

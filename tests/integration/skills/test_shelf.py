@@ -7,10 +7,10 @@ from math import pi
 
 import pytest
 
-from majordomo.planner.goals import goal
-from majordomo.planner.verifier import Verifier
-from majordomo.skills.failures import FailureCode
 from physics_stage import SKILLS
+from planner.goals import goal
+from planner.skill_planner.verifier import Verifier
+from skills.failures import FailureCode
 
 pytestmark = pytest.mark.anyio
 BOARDS_M = (0.4, 0.8, 1.2, 1.6)

@@ -1,10 +1,10 @@
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from majordomo.scene_graph.catalog import Catalog
-from majordomo.scene_graph.identifiers import is_well_formed, natural_key, next_id, slug
-from majordomo.scene_graph.nodes import NodeType
-from majordomo.scene_graph.revisions import Revisions
+from scene_graph.identifiers import is_well_formed, natural_key, next_id, slug
+from scene_graph.nodes import NodeType
+from scene_graph.tables.catalog import Catalog
+from scene_graph.tables.revisions import Revisions
 
 law = settings(max_examples=100)
 identifiers = st.from_regex(r"[a-c]?[0-9_]{0,4}[a-c]?[0-9]{0,3}", fullmatch=True).filter(bool)

@@ -7,9 +7,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from majordomo.scene_graph.diff import apply, diff
-from majordomo.scene_graph.draft import Draft
-from majordomo.scene_graph.edges import (
+from scene_graph.checks.draft import Draft
+from scene_graph.checks.invariants import check, check_draft
+from scene_graph.diff import apply, diff
+from scene_graph.edges import (
     ConnectsEdge,
     EdgeKey,
     EdgeType,
@@ -21,13 +22,13 @@ from majordomo.scene_graph.edges import (
     RelationEdge,
     RtEdge,
 )
-from majordomo.scene_graph.edits import PutEdge, PutNode, RemoveEdge, RemoveNode
-from majordomo.scene_graph.errors import DeltaMismatch, InvariantBroken
-from majordomo.scene_graph.invariants import check, check_draft
-from majordomo.scene_graph.long_term.long_term_store import LongTermStore
-from majordomo.scene_graph.long_term.room_parts import keeps_in_use
-from majordomo.scene_graph.memory import WorkingMemory
-from majordomo.scene_graph.nodes import (
+from scene_graph.edits import PutEdge, PutNode, RemoveEdge, RemoveNode
+from scene_graph.errors import DeltaMismatch, InvariantBroken
+from scene_graph.geometry.se3 import SE3
+from scene_graph.long_term.long_term_store import LongTermStore
+from scene_graph.long_term.room_parts import keeps_in_use
+from scene_graph.memory import WorkingMemory
+from scene_graph.nodes import (
     NODE_CLASSES,
     AffordanceKind,
     AffordanceNode,
@@ -41,8 +42,7 @@ from majordomo.scene_graph.nodes import (
     WallNode,
     node_type,
 )
-from majordomo.scene_graph.se3 import SE3
-from majordomo.scene_graph.snapshot import Snapshot
+from scene_graph.snapshot import Snapshot
 
 law = settings(max_examples=100)
 

@@ -7,7 +7,7 @@ import weakref
 
 import pytest
 
-from majordomo.app.lasting import spare_what_lasts
+from app.lasting import spare_what_lasts
 
 
 class Knot:

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from majordomo.app.scheduler import LockstepScheduler, RealTimeScheduler, Turns
+from app.scheduler import LockstepScheduler, RealTimeScheduler, Turns
 
 pytestmark = pytest.mark.anyio
 

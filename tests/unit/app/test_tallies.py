@@ -7,10 +7,10 @@ from dataclasses import replace
 import pytest
 from prometheus_client.parser import text_string_to_metric_families
 
-from majordomo.app.tallies import CountedModel, Tallies
-from majordomo.planner.goals import goal
-from majordomo.planner.models.protocol import FailureKind, ModelFailure, ModelReply, ModelRequest
-from majordomo.planner.tasks import FailureReport, PlanReport, StepReport, StepStatus, Task, TaskStatus, TaskTimes
+from app.tallies import CountedModel, Tallies
+from planner.goals import goal
+from planner.models.protocol import FailureKind, ModelFailure, ModelReply, ModelRequest
+from planner.tasks.tasks import FailureReport, PlanReport, StepReport, StepStatus, Task, TaskStatus, TaskTimes
 
 pytestmark = pytest.mark.anyio
 GOALS = (goal("on", "cup_1", "table_1"),)

@@ -11,14 +11,14 @@ from typing import Protocol
 
 import numpy as np
 
-from majordomo.perception.errors import SensorSilent
-from majordomo.perception.localization.planar import Pose2, wrap
-from majordomo.perception.ports import JointState, LidarScan, Odometry, RgbdFrame
-from majordomo.perception.sensing import Sensing, SensorBuffer
-from majordomo.scene_graph.edges import HasIntentionEdge, IntentionAction, IntentionStatus
-from majordomo.scene_graph.memory import WorkingMemory
-from majordomo.scene_graph.nodes import ROBOT_ID, AffordanceNode, DoorNode
-from majordomo.scene_graph.se3 import SE3
+from perception.errors import SensorSilent
+from perception.localization.planar import Pose2, wrap
+from perception.ports import JointState, LidarScan, Odometry, RgbdFrame
+from perception.sensing import Sensing, SensorBuffer
+from scene_graph.edges import HasIntentionEdge, IntentionAction, IntentionStatus
+from scene_graph.geometry.se3 import SE3
+from scene_graph.memory import WorkingMemory
+from scene_graph.nodes import ROBOT_ID, AffordanceNode, DoorNode
 from unit.perception.lidar_house import Array, House, cast
 
 STEP_S = 0.1

@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import numpy as np
 
-from majordomo.perception.crossing import move_robot
-from majordomo.perception.doors.insertion import hang, wall_id_of
-from majordomo.perception.doors.posts import MeasuredGap
-from majordomo.perception.localization.alignment import Walls
-from majordomo.perception.localization.planar import Pose2
-from majordomo.perception.memory.dual import root_pose
-from majordomo.perception.memory.joining import join
-from majordomo.scene_graph.edges import RtEdge
-from majordomo.scene_graph.memory import Transaction, WorkingMemory
-from majordomo.scene_graph.nodes import ROOT_ID, CrossingStatus, DoorNode, RoomNode, RoomStatus, WallNode
-from majordomo.scene_graph.se3 import SE3
+from perception.crossing import move_robot
+from perception.doors.insertion import hang, wall_id_of
+from perception.doors.posts import MeasuredGap
+from perception.localization.alignment import Walls
+from perception.localization.planar import Pose2
+from perception.memory.dual import root_pose
+from perception.memory.joining import join
+from scene_graph.edges import RtEdge
+from scene_graph.geometry.se3 import SE3
+from scene_graph.memory import Transaction, WorkingMemory
+from scene_graph.nodes import ROOT_ID, CrossingStatus, DoorNode, RoomNode, RoomStatus, WallNode
 from unit.perception.lidar_house import Array, House
 
 

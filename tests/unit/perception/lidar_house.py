@@ -7,9 +7,9 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from majordomo.perception.localization.planar import Pose2
-from majordomo.perception.ports import LidarScan
-from majordomo.scene_graph.se3 import SE3
+from perception.localization.planar import Pose2
+from perception.ports import LidarScan
+from scene_graph.geometry.se3 import SE3
 
 Array = NDArray[np.float64]
 

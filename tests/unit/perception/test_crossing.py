@@ -7,13 +7,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from majordomo.perception.lifecycle import LifeCycle, Verdict
-from majordomo.perception.localization.alignment import Walls
-from majordomo.perception.localization.landmarks import RoomModel
-from majordomo.perception.localization.planar import Pose2, diagonal_covariance, wrap
-from majordomo.perception.memory.dual import back_to_back, place_in, same_door
-from majordomo.perception.memory.layout import Passage, PlacedRoom, lay_out
-from majordomo.perception.memory.recognition import overlap
+from perception.lifecycle import LifeCycle, Verdict
+from perception.localization.alignment import Walls
+from perception.localization.landmarks import RoomModel
+from perception.localization.planar import Pose2, diagonal_covariance, wrap
+from perception.memory.dual import back_to_back, place_in, same_door
+from perception.memory.layout import Passage, PlacedRoom, lay_out
+from perception.memory.recognition import overlap
 from unit.perception.lidar_house import rectangle
 
 angles = st.floats(-3.1, 3.1)

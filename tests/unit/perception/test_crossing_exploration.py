@@ -7,17 +7,17 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from majordomo.perception.crossing import DOOR_AGENT, OUTDOORS, given_up
-from majordomo.perception.doors.door_concept import DoorConcept
-from majordomo.perception.localization.energy_optimizer import EnergyOptimizer
-from majordomo.perception.localization.planar import Pose2
-from majordomo.perception.memory.long_term_memory import LongTermMemory
-from majordomo.perception.rooms.room_concept import RoomConcept
-from majordomo.perception.sensing import SensorBuffer
-from majordomo.scene_graph.edges import EdgeType
-from majordomo.scene_graph.interchange import to_json
-from majordomo.scene_graph.memory import WorkingMemory
-from majordomo.scene_graph.nodes import CrossingStatus, DoorNode, DoorState, RoomNode, RoomStatus
+from perception.crossing import DOOR_AGENT, OUTDOORS, given_up
+from perception.doors.door_concept import DoorConcept
+from perception.localization.energy_optimizer import EnergyOptimizer
+from perception.localization.planar import Pose2
+from perception.memory.long_term_memory import LongTermMemory
+from perception.rooms.room_concept import RoomConcept
+from perception.sensing import SensorBuffer
+from scene_graph.documents.interchange import to_json
+from scene_graph.edges import EdgeType
+from scene_graph.memory import WorkingMemory
+from scene_graph.nodes import CrossingStatus, DoorNode, DoorState, RoomNode, RoomStatus
 from unit.perception.exploring_robot import Agent, Exploration
 from unit.perception.lidar_house import Array, Box, Door, House, l_shape, rectangle, turned
 

@@ -7,21 +7,21 @@ import logging
 import numpy as np
 import pytest
 
-from majordomo.perception.crossing import door_being_crossed, is_lost, lose_robot
-from majordomo.perception.doors.door_concept import DoorConcept
-from majordomo.perception.localization.energy_optimizer import EnergyOptimizer
-from majordomo.perception.localization.planar import Pose2
-from majordomo.perception.localization.recovery import Relocalization
-from majordomo.perception.memory.long_term_memory import LongTermMemory
-from majordomo.perception.rooms.room_concept import RoomConcept
-from majordomo.perception.sensing import SensorBuffer
-from majordomo.scene_graph.memory import WorkingMemory
-from majordomo.scene_graph.nodes import ROBOT_ID, DoorNode, RoomNode, RoomStatus
+from perception.crossing import door_being_crossed, is_lost, lose_robot
+from perception.doors.door_concept import DoorConcept
+from perception.localization.energy_optimizer import EnergyOptimizer
+from perception.localization.planar import Pose2
+from perception.localization.recovery import Relocalization
+from perception.memory.long_term_memory import LongTermMemory
+from perception.rooms.room_concept import RoomConcept
+from perception.sensing import SensorBuffer
+from scene_graph.memory import WorkingMemory
+from scene_graph.nodes import ROBOT_ID, DoorNode, RoomNode, RoomStatus
 from unit.perception.exploring_robot import Agent, Exploration
 from unit.perception.known_house import frame_of, known_house, put_robot, room_ids
 from unit.perception.lidar_house import Box, Door, House, rectangle
+from unit.perception.localization.test_relocalization import offices
 from unit.perception.test_crossing_exploration import assert_aims_met, four_rooms
-from unit.perception.test_relocalization import offices
 
 
 def agents(memory: WorkingMemory, buffer: SensorBuffer) -> list[Agent]:

@@ -5,12 +5,12 @@ from dataclasses import replace
 
 import pytest
 
-from majordomo.perception.labels import ROOM_LABELS, RoomLabels, room_label
-from majordomo.scene_graph.edges import InEdge, RtEdge
-from majordomo.scene_graph.edits import PutEdge, PutNode
-from majordomo.scene_graph.memory import WorkingMemory
-from majordomo.scene_graph.nodes import ObjectNode, ObjectState, RoomNode, RoomStatus
-from majordomo.scene_graph.se3 import SE3
+from perception.labels import ROOM_LABELS, RoomLabels, room_label
+from scene_graph.edges import InEdge, RtEdge
+from scene_graph.edits import PutEdge, PutNode
+from scene_graph.geometry.se3 import SE3
+from scene_graph.memory import WorkingMemory
+from scene_graph.nodes import ObjectNode, ObjectState, RoomNode, RoomStatus
 
 SQUARE = ((-2.0, -2.0), (2.0, -2.0), (2.0, 2.0), (-2.0, 2.0))
 NARROW = ((-4.0, -0.7), (4.0, -0.7), (4.0, 0.7), (-4.0, 0.7))

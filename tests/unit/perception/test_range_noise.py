@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from majordomo.perception.localization.planar import Pose2
-from majordomo.perception.range_noise import calmed, range_noise_m
+from perception.localization.planar import Pose2
+from perception.range_noise import calmed, range_noise_m
 from unit.perception.lidar_house import Box, House, cast, rectangle
 
 USUAL_M = 0.02

@@ -14,11 +14,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from majordomo.perception.errors import OdometryUnavailable, SensorSilent
-from majordomo.perception.localization.planar import Pose2
-from majordomo.perception.ports import Intrinsics, JointState, Odometry, RgbdFrame
-from majordomo.perception.sensing import Filming, Sensing, SensorBuffer, scan_points_base
-from majordomo.scene_graph.se3 import SE3
+from perception.errors import OdometryUnavailable, SensorSilent
+from perception.localization.planar import Pose2
+from perception.ports import Intrinsics, JointState, Odometry, RgbdFrame
+from perception.sensing import Filming, Sensing, SensorBuffer, scan_points_base
+from scene_graph.geometry.se3 import SE3
 from unit.perception.exploring_robot import HousePort
 from unit.perception.lidar_house import House, cast, rectangle
 

@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from majordomo.perception.vocabulary import (
+from perception.vocabulary import (
     CATEGORIES,
     carries_things,
     category_of,

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from majordomo.planner.forecast import forecast
-from majordomo.skills.placement import PlaceRelation
-from majordomo.skills.state import DoorLink, PlanState, World
+from planner.forecast import forecast
+from skills.state.placement import PlaceRelation
+from skills.state.state import DoorLink, PlanState, World
 
 DOOR = DoorLink(door="door_1", rooms=("room_1", "room_2"), open=False)
 

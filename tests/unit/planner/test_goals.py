@@ -6,14 +6,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from majordomo.planner.errors import WrongArity
-from majordomo.planner.goals import ARITY, Goal, Predicate, goal, holds, holds_in, lasting, superseded
-from majordomo.planner.sketch import flat
-from majordomo.scene_graph.edges import EdgeKey, EdgeType, InEdge, RelationEdge, RtEdge
-from majordomo.scene_graph.nodes import ObjectState
-from majordomo.scene_graph.se3 import SE3
-from majordomo.skills.registry import load_registry
-from majordomo.skills.state import PlanState
+from planner.doubles.sketch import flat
+from planner.errors import WrongArity
+from planner.goals import ARITY, Goal, Predicate, goal, holds, holds_in, lasting, superseded
+from scene_graph.edges import EdgeKey, EdgeType, InEdge, RelationEdge, RtEdge
+from scene_graph.geometry.se3 import SE3
+from scene_graph.nodes import ObjectState
+from skills.registry import load_registry
+from skills.state.state import PlanState
 
 SKILLS = load_registry([])
 SNAPSHOT = flat().snapshot(robot_in="room_2", at=(4.2, 0.0))

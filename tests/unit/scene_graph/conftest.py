@@ -3,7 +3,7 @@ import math
 import numpy as np
 import pytest
 
-from majordomo.scene_graph.edges import (
+from scene_graph.edges import (
     ConnectsEdge,
     HasEdge,
     HasIntentionEdge,
@@ -14,8 +14,9 @@ from majordomo.scene_graph.edges import (
     RelationEdge,
     RtEdge,
 )
-from majordomo.scene_graph.memory import WorkingMemory
-from majordomo.scene_graph.nodes import (
+from scene_graph.geometry.se3 import SE3
+from scene_graph.memory import WorkingMemory
+from scene_graph.nodes import (
     AffordanceKind,
     AffordanceNode,
     CornerNode,
@@ -29,7 +30,6 @@ from majordomo.scene_graph.nodes import (
     RoomStatus,
     WallNode,
 )
-from majordomo.scene_graph.se3 import SE3
 
 SQUARE = ((-2.0, -2.0), (2.0, -2.0), (2.0, 2.0), (-2.0, 2.0))
 

@@ -5,11 +5,11 @@ import timeit
 import numpy as np
 import pytest
 
-from majordomo.scene_graph.edges import EdgeType, InEdge, RelationEdge, RtEdge
-from majordomo.scene_graph.edits import PutEdge
-from majordomo.scene_graph.memory import WorkingMemory
-from majordomo.scene_graph.nodes import ObjectNode, RoomNode
-from majordomo.scene_graph.se3 import SE3
+from scene_graph.edges import EdgeType, InEdge, RelationEdge, RtEdge
+from scene_graph.edits import PutEdge
+from scene_graph.geometry.se3 import SE3
+from scene_graph.memory import WorkingMemory
+from scene_graph.nodes import ObjectNode, RoomNode
 
 
 @pytest.fixture(scope="module")

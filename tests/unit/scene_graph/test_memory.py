@@ -4,14 +4,14 @@ import threading
 
 import pytest
 
-from majordomo.scene_graph.diff import apply
-from majordomo.scene_graph.edges import EdgeKey, EdgeType, InEdge, RtEdge
-from majordomo.scene_graph.edits import PutEdge, PutNode, RemoveEdge, RemoveNode
-from majordomo.scene_graph.errors import InvariantBroken, RevisionConflict, SubscriptionClosed, ViolationKind
-from majordomo.scene_graph.memory import WorkingMemory
-from majordomo.scene_graph.nodes import NODE_CLASSES, ObjectNode, RobotNode, RoomNode, RootNode
-from majordomo.scene_graph.se3 import SE3
-from majordomo.scene_graph.snapshot import ABSENT, Snapshot
+from scene_graph.diff import apply
+from scene_graph.edges import EdgeKey, EdgeType, InEdge, RtEdge
+from scene_graph.edits import PutEdge, PutNode, RemoveEdge, RemoveNode
+from scene_graph.errors import InvariantBroken, RevisionConflict, SubscriptionClosed, ViolationKind
+from scene_graph.geometry.se3 import SE3
+from scene_graph.memory import WorkingMemory
+from scene_graph.nodes import NODE_CLASSES, ObjectNode, RobotNode, RoomNode, RootNode
+from scene_graph.snapshot import ABSENT, Snapshot
 
 
 def battery(level):

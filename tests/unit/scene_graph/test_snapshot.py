@@ -3,12 +3,12 @@ import pickle
 import numpy as np
 import pytest
 
-from majordomo.scene_graph.edges import EdgeKey, EdgeType, IntentionStatus, RtEdge
-from majordomo.scene_graph.errors import EdgeNotFound, FramesNotConnected, NodeNotFound, WrongNodeType
-from majordomo.scene_graph.nodes import ObjectNode, RoomNode, RootNode, WallNode
-from majordomo.scene_graph.poses import MapPoses, layout
-from majordomo.scene_graph.se3 import SE3
-from majordomo.scene_graph.snapshot import ABSENT, Snapshot
+from scene_graph.edges import EdgeKey, EdgeType, IntentionStatus, RtEdge
+from scene_graph.errors import EdgeNotFound, FramesNotConnected, NodeNotFound, WrongNodeType
+from scene_graph.geometry.se3 import SE3
+from scene_graph.nodes import ObjectNode, RoomNode, RootNode, WallNode
+from scene_graph.queries.poses import MapPoses, layout
+from scene_graph.snapshot import ABSENT, Snapshot
 
 
 def test_nodes_of_a_type_come_in_natural_order(house):

@@ -7,8 +7,8 @@ import math
 import numpy as np
 import pytest
 
-from majordomo.simulation.house import House, parse_disturbance
-from majordomo.simulation.meddling import KINDS, Gaze, deeds
+from simulation.houses.house import House, parse_disturbance
+from simulation.meddling import KINDS, Gaze, deeds
 
 HOUSE = House.model_validate(
     {

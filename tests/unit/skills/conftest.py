@@ -8,9 +8,10 @@ from math import pi
 
 import pytest
 
-from majordomo.scene_graph.edges import ConnectsEdge, EdgeType, InEdge, MatchEdge, RelationEdge, RtEdge
-from majordomo.scene_graph.memory import WorkingMemory
-from majordomo.scene_graph.nodes import (
+from scene_graph.edges import ConnectsEdge, EdgeType, InEdge, MatchEdge, RelationEdge, RtEdge
+from scene_graph.geometry.se3 import SE3
+from scene_graph.memory import WorkingMemory
+from scene_graph.nodes import (
     CrossingStatus,
     DoorNode,
     DoorState,
@@ -21,8 +22,7 @@ from majordomo.scene_graph.nodes import (
     RoomStatus,
     WallNode,
 )
-from majordomo.scene_graph.se3 import SE3
-from majordomo.skills.kinematics import gripper_pose
+from skills.arm.kinematics import gripper_pose
 
 
 class Flat:

@@ -8,14 +8,14 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from majordomo.scene_graph.nodes import DoorState, ObjectState
-from majordomo.skills.errors import DuplicateSkill, NotASkill, SkillNotFound, WrongArguments
-from majordomo.skills.failures import FailureCode
-from majordomo.skills.goto import Goto
-from majordomo.skills.pick import Pick
-from majordomo.skills.place import Place
-from majordomo.skills.registry import load_registry
-from majordomo.skills.state import PlaceRelation, PlanState, Thing, World
+from scene_graph.nodes import DoorState, ObjectState
+from skills.errors import DuplicateSkill, NotASkill, SkillNotFound, WrongArguments
+from skills.failures import FailureCode
+from skills.goto.goto import Goto
+from skills.pick.pick import Pick
+from skills.place.place import Place
+from skills.registry import load_registry
+from skills.state.state import PlaceRelation, PlanState, Thing, World
 
 SKILLS = (Goto(), Pick(), Place())
 
@@ -136,7 +136,7 @@ def initial() -> PlanState:
         thing("bottle1", graspable=True, width_m=0.07),
         thing("cup1", graspable=True, width_m=0.08),
     ]
-    from majordomo.skills.state import DoorLink
+    from skills.state.state import DoorLink
 
     world = World(things={t.id: t for t in things}, doors=(DoorLink(door="d1", rooms=("r1", "r2")),))
     places = {"bottle1": (PlaceRelation.ON, "table1"), "cup1": (PlaceRelation.ON, "bottle1")}

@@ -10,7 +10,7 @@ pytest.importorskip("onnx")
 
 import torch
 
-from majordomo.perception.network.model import OnnxPanopticModel
+from perception.network.model import OnnxPanopticModel
 from training.dataset import MOST, Lessons, batch_of
 from training.export import export, weights_of
 from training.fit import Course, fit, trained

@@ -7,7 +7,7 @@ from itertools import islice
 import numpy as np
 import pytest
 
-from majordomo.simulation.photographs import FLOOR, WALL
+from simulation.pictures.photographs import FLOOR, WALL
 from training.collecting import SHARD_PICTURES, collect, shards
 from training.names import CLASSES, PREDICATES, STUFF, UNKNOWN
 from training.photographs import HEIGHT, WIDTH, photographs

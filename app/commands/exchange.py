@@ -1,0 +1,100 @@
+"""Commands that exchange with other programs: ``majordomo export | replay | mcp``."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.console import Console
+
+from app.commands.options import GraphFormat, Network
+from app.settings import DEFAULT_DATA
+from perception.network.shipped import SHIPPED
+from planner.tasks.approval import Approval
+
+complaints = Console(stderr=True)
+
+Address = Annotated[str | None, typer.Option(help="Address of the service; default: the one running here.")]
+TokenOption = Annotated[str | None, typer.Option("--token", envvar="MAJORDOMO_TOKEN", help="Its token.")]
+Data = Annotated[Path, typer.Option(help="Folder of token, logs and memory.")]
+
+
+def add_exchange_commands(application: typer.Typer) -> None:
+    """Make them commands of ``application``."""
+    application.command("export")(export_graph)
+    application.command("replay")(replay_recording)
+    application.command("mcp")(serve_mcp)
+
+
+def export_graph(
+    file: Annotated[Path, typer.Argument(help="Where to write; - writes to standard output.")],
+    kind: Annotated[
+        GraphFormat, typer.Option("--format", help="Our own, or the JSON of Spark-DSG (Hydra).")
+    ] = GraphFormat.MAJORDOMO,
+    graph: Annotated[
+        Path | None,
+        typer.Option(help="Take this stored scene graph, in either format, and not a service's; - reads it."),
+    ] = None,
+    url: Address = None,
+    token: TokenOption = None,
+    data: Data = DEFAULT_DATA,
+) -> None:
+    """Write down the scene graph of the running service; ``serve --graph`` and ``plan --graph`` read both formats."""
+    from app.commands.export import export, graph_of
+    from app.exchange.stored_graph import load_graph
+    from client import NoService, find_service
+
+    try:
+        snapshot = load_graph(graph) if graph is not None else graph_of(find_service(url, token, data.expanduser()))
+    except NoService as error:
+        complaints.print(str(error), style="red", markup=False, highlight=False, soft_wrap=True)
+        raise typer.Exit(2) from None
+    export(snapshot, file, kind)
+
+
+def replay_recording(
+    file: Annotated[Path, typer.Argument(help="A recording, MCAP, as serve --record makes it.")],
+    graph: Annotated[Path | None, typer.Option(help="Where to write the graph that comes out; - prints it.")] = None,
+    model: Network = SHIPPED,
+) -> None:
+    """Let perception work on a recording again, without a robot, and say what it makes of it."""
+    from app.commands.export import write_text
+    from app.recording.errors import RecordingError
+    from app.recording.replaying import replay, told
+
+    try:
+        replayed = asyncio.run(replay(file, model=model))
+    except RecordingError as error:
+        complaints.print(f"majordomo: {error}", style="red", markup=False, highlight=False, soft_wrap=True)
+        raise typer.Exit(2) from None
+    complaints.print(told(replayed), markup=False, highlight=False, soft_wrap=True)
+    if graph is not None:
+        write_text(json.dumps(replayed.scene, indent=1) + "\n", graph)
+
+
+def serve_mcp(
+    approval: Annotated[
+        Approval, typer.Option(help="Whether a person approves each plan on the page, or requests run at once.")
+    ] = Approval.ASK,
+    url: Address = None,
+    token: TokenOption = None,
+    data: Data = DEFAULT_DATA,
+) -> None:
+    """Offer the running service to a language model's host as tools, over standard input and output (MCP)."""
+    from client import NoService, find_service
+
+    try:
+        from app.exchange.mcp_server import ServiceTools, make_mcp_server
+    except ModuleNotFoundError as error:
+        missing = f"majordomo mcp needs the package {error.name!r}: pip install 'majordomo[mcp]'"
+        complaints.print(missing, style="red", markup=False, highlight=False, soft_wrap=True)
+        raise typer.Exit(2) from None
+    try:
+        service = find_service(url, token, data.expanduser())
+    except NoService as error:
+        complaints.print(str(error), style="red", markup=False, highlight=False, soft_wrap=True)
+        raise typer.Exit(2) from None
+    make_mcp_server(ServiceTools(service, approval=approval)).run("stdio")

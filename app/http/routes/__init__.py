@@ -1,0 +1,1 @@
+"""The routes of the interface, one module a group of calls."""

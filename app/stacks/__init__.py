@@ -1,0 +1,1 @@
+"""What runs behind the interface: a robot with its agents, or a stored graph."""

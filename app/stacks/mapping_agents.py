@@ -1,0 +1,28 @@
+"""The agents that turn LiDAR into a map, in the order in which they take their turns: localize, measure, remember."""
+
+from __future__ import annotations
+
+from app.scheduler import Agent
+from perception.doors.door_concept import DoorConcept
+from perception.localization.energy_optimizer import EnergyOptimizer
+from perception.localization.recovery import Relocalization
+from perception.memory.long_term_memory import LongTermMemory
+from perception.rooms.room_concept import RoomConcept
+from perception.rooms.views.slice import OutlineSlicer
+from perception.sensing import SensorBuffer
+from scene_graph.memory import WorkingMemory
+
+
+def mapping_agents(memory: WorkingMemory, buffer: SensorBuffer) -> list[Agent]:
+    """Localization, room and door concepts and long-term memory over one graph and what the sensors said last.
+
+    They share one slicer, so that each scan is cut once.
+    """
+    slicer = OutlineSlicer()
+    return [
+        EnergyOptimizer(memory, buffer, slicer=slicer),
+        Relocalization(memory, buffer, slicer=slicer),
+        RoomConcept(memory, buffer, slicer=slicer),
+        DoorConcept(memory, buffer),
+        LongTermMemory(memory, buffer, slicer=slicer),
+    ]

@@ -1,0 +1,1 @@
+"""Documents, pictures and metrics of how things stand, made from one snapshot."""

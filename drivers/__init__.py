@@ -1,0 +1,1 @@
+"""Robots that exist: each driver implements both ports."""

@@ -1,0 +1,1 @@
+"""How well rooms and doors are mapped, and the robot knows where it is."""

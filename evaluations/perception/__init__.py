@@ -1,0 +1,1 @@
+"""How well things are recognized, tracked and kept."""

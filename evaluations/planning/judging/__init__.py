@@ -1,0 +1,1 @@
+"""What is expected of a request, and whether the outcome is that."""

@@ -1,0 +1,198 @@
+"""The door concept agent (Concepts, section 3.5.2): gaps in the walls of the current room become doors."""
+
+from __future__ import annotations
+
+import logging
+from dataclasses import dataclass
+
+import numpy as np
+
+from perception.crossing import DOOR_AGENT, door_being_crossed, in_doubt, match_of
+from perception.doors.errands import DoorErrands
+from perception.doors.insertion import free_door_id, is_suspicion, put_provisional, put_suspected
+from perception.doors.room_watch import RoomWatch
+from perception.doors.scene import NARROWEST_DOOR_M, Scene
+from perception.doors.twins import better_twin
+from perception.doors.upkeep import DoorUpkeep
+from perception.lifecycle import LifeCycle, Verdict
+from perception.localization.landmarks import room_model
+from perception.localization.robot_pose import robot_pose_at
+from perception.sensing import SensorBuffer
+from scene_graph.identifiers import wall_id_of
+from scene_graph.memory import WorkingMemory
+from scene_graph.nodes import DoorNode
+from scene_graph.snapshot import Snapshot
+
+logger = logging.getLogger(__name__)
+
+
+@dataclass(frozen=True, kw_only=True)
+class DoorSettings:
+    """When a gap is taken for a door.
+
+    ``narrowest_m``: least width (``D_min``). ``seen_s``: how long a gap without two posts must be seen to be proposed.
+    ``settled_scans``: how long a room is watched before its unseen walls are. ``clear_m``: how far from any wall the
+    robot must be for its scans to count, ``pose_std_m``: how well localized.
+    """
+
+    narrowest_m: float = NARROWEST_DOOR_M
+    seen_s: float = 1.0
+    clear_m: float = 0.2
+    detect_every_s: float = 0.5
+    settled_scans: int = 20
+    pose_std_m: float = 0.05
+
+
+class DoorConcept:
+    """Agent that finds doors in the walls of the current room, measures them, and asks for them to be crossed.
+
+    Dormant where no room stands, and while the room behind a door is being measured.
+    """
+
+    name = DOOR_AGENT
+
+    def __init__(
+        self,
+        memory: WorkingMemory,
+        buffer: SensorBuffer,
+        *,
+        settings: DoorSettings | None = None,
+        period_s: float = 0.1,
+    ) -> None:
+        self.period_s = period_s
+        self._memory = memory
+        self._buffer = buffer
+        self._settings = settings or DoorSettings()
+        self._upkeep = DoorUpkeep(memory)
+        self._errands = DoorErrands(memory)
+        self._watches: dict[str, RoomWatch] = {}
+        self._settled: dict[str, tuple[object, ...]] = {}
+        self._room_id: str | None = None
+        self._scan_stamp_s = -np.inf
+        self._stamp_s = 0.0
+        self._detected_s = -np.inf
+        self._first_seen_s: dict[tuple[str, int, int], float] = {}
+        self._life = LifeCycle(
+            "door",
+            explain=self._explain,
+            initialize=self._initialize,
+            maintain=self._maintain,
+            affordances=self._affordances,
+        )
+
+    async def step(self, stamp_s: float) -> None:
+        """Take in the newest scan and live one tick."""
+        self._stamp_s = stamp_s
+        self._room_id = self._observe(self._memory.snapshot())
+        self._life.tick()
+
+    def _observe(self, snapshot: Snapshot) -> str | None:
+        """Count what the newest scan says about the walls; the room it was taken in, if one stands."""
+        scan = self._buffer.scan
+        pose = robot_pose_at(snapshot, self._buffer, scan.stamp_s) if scan is not None else None
+        if scan is None or pose is None or door_being_crossed(snapshot) is not None:
+            return None
+        room = room_model(snapshot, pose.parent)
+        if room is None or room.depth_m(pose.T_parent_base.position_m) < self._settings.clear_m:
+            return None
+        watch = self._watches.get(room.room_id)
+        if watch is None or not np.array_equal(watch.polygon, room.polygon):
+            watch = self._watches[room.room_id] = RoomWatch(room.polygon)
+        localized = np.sqrt(np.trace(pose.covariance[:2, :2])) < self._settings.pose_std_m and not in_doubt(snapshot)
+        if localized and scan.stamp_s > self._scan_stamp_s:
+            self._scan_stamp_s = scan.stamp_s
+            watch.add(scan, pose.T_parent_base)
+        return room.room_id
+
+    def _scene(self) -> Scene | None:
+        """The room that the robot is in."""
+        return self._scene_of(self._room_id) if self._room_id is not None else None
+
+    def _scene_of(self, room_id: str) -> Scene | None:
+        """A room that was watched, with the graph as it is now."""
+        snapshot = self._memory.snapshot()
+        room, watch = room_model(snapshot, room_id), self._watches.get(room_id)
+        if room is None or watch is None:
+            return None
+        return Scene(snapshot=snapshot, room=room, watch=watch, stamp_s=self._stamp_s)
+
+    # The four stages of the life cycle.
+
+    def _explain(self) -> Verdict:
+        """Silent while known doors explain every gap."""
+        if self._stamp_s < self._detected_s + self._settings.detect_every_s - 1e-6:
+            return Verdict.DONE
+        self._detected_s = self._stamp_s
+        for room_id in self._watches:
+            self._suspect(room_id)
+        scene = self._scene()
+        return Verdict.NO if scene is not None and scene.unexplained() else Verdict.DONE
+
+    def _suspect(self, room_id: str) -> None:
+        """When a room has been watched for a while, ask to look at its longest stretch of wall never seen.
+
+        A room that was left is asked for too: what the robot could not see from its way stays to be seen.
+        """
+        watch = self._watches[room_id]
+        doors = tuple(door.id for door in self._memory.snapshot().of_type(DoorNode) if door.rooms[0] == room_id)
+        told = (watch.scans, len(watch.checked), doors)
+        if watch.scans < self._settings.settled_scans or self._settled.get(room_id) == told:
+            return
+        scene = self._scene_of(room_id)
+        if scene is None or any(is_suspicion(door) for door, _, _ in scene.doors()):
+            return
+        hidden = scene.unseen()
+        if not hidden:
+            self._settled[room_id] = told
+            return
+        wall, stretch = max(hidden, key=lambda item: item[1].width_m)
+        with self._memory.edit(self.name, self._stamp_s) as tx:
+            door_id = free_door_id(tx.snapshot, room_id, wall)
+            length_m = scene.wall_length_m(wall)
+            put_suspected(tx, door_id, room_id, wall, length_m, stretch, self._stamp_s)
+
+    def _initialize(self) -> Verdict:
+        """Propose to visit each gap that no door explains, once it is seen well or long enough."""
+        scene = self._scene()
+        if scene is None:
+            return Verdict.NO
+        for wall, gap in scene.unexplained():
+            measured = scene.watch.measure(wall, gap)
+            key = (scene.room.room_id, wall, round(gap.center_m / 0.3))
+            seen_s = self._stamp_s - self._first_seen_s.setdefault(key, self._stamp_s)
+            if measured.width_m < self._settings.narrowest_m or (measured.posts < 2 and seen_s < self._settings.seen_s):
+                continue
+            with self._memory.edit(self.name, self._stamp_s) as tx:
+                door_id = free_door_id(tx.snapshot, scene.room.room_id, wall)
+                length_m = scene.wall_length_m(wall)
+                room_id, stamp_s = scene.room.room_id, self._stamp_s
+                put_provisional(tx, door_id, room_id, wall, length_m, measured, stamp_s, state=gap.state)
+            logger.info("something like a door in %s", wall_id_of(scene.room.room_id, wall), extra={"door": door_id})
+        return Verdict.BUSY
+
+    def _maintain(self) -> Verdict:
+        """Refine doors that are not measured well yet, here and behind known ones, and watch whether they are open."""
+        scene = self._scene()
+        if scene is not None:
+            self._upkeep.run(scene)
+            for room_id in sorted(_behind(scene) & self._watches.keys()):
+                left = self._scene_of(room_id)
+                if left is not None:
+                    self._upkeep.learn(left)
+        return Verdict.DONE
+
+    def _affordances(self) -> Verdict:
+        """Follow the own intentions to their end."""
+        self._errands.run(self._memory.snapshot(), self._scene_of, self._stamp_s)
+        return Verdict.DONE
+
+
+def _behind(scene: Scene) -> set[str]:
+    """Rooms from which a door of this one is not measured as well as from here."""
+    rooms: set[str] = set()
+    for door, _, _ in scene.doors():
+        other_id = match_of(scene.snapshot, door.id)
+        if other_id is not None and other_id in scene.snapshot:
+            other = scene.snapshot.door(other_id)
+            rooms |= {other.rooms[0]} if better_twin(scene.snapshot, other) is not None else set()
+    return rooms

@@ -1,0 +1,124 @@
+"""Doors as evidence of where the robot is: gaps that a scan shows, against the doors that a room has.
+
+Walls alone leave a rectangular room the same when turned by half. A gap where the room has wall speaks strongly against
+a pose; wall where it has a door speaks weakly, since doors get closed.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from perception.doors.hanging import doors_in
+from perception.doors.wall_rays import WallRays, rays_by_wall
+from perception.localization.alignment import Walls
+from perception.localization.landmarks import RoomModel
+from perception.localization.planar import Pose2
+from perception.ports import LidarScan
+from scene_graph.identifiers import wall_id_of
+from scene_graph.nodes import DoorState
+from scene_graph.snapshot import Snapshot
+
+Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+_NARROWEST_M = 0.4
+_FEWEST_RAYS = 6
+_WIDEST_STEP_M = 0.3
+_POST_M = 0.2
+_CLEAR = 0.6
+
+
+@dataclass(frozen=True, kw_only=True)
+class Doorway:
+    """A door of a room: its wall's index, the station of its center from the wall's start, its width, its state."""
+
+    wall: int
+    center_m: float
+    width_m: float
+    state: DoorState
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class DoorwayModel:
+    """All wall faces of a room, which of them are ``known``, and its doors."""
+
+    walls: Walls
+    known: tuple[bool, ...]
+    doorways: tuple[Doorway, ...]
+
+    @cached_property
+    def openings(self) -> Array:
+        """(D, 2, 2) ends of the gaps where doors are known or presumed, room frame; some are as high as the walls."""
+        ends = np.array([[-0.5], [0.5]])
+        return np.array(
+            [
+                self.walls.start[door.wall] + (door.center_m + ends * door.width_m) * self.walls.along[door.wall]
+                for door in self.doorways
+            ]
+        ).reshape(-1, 2, 2)
+
+
+@dataclass(frozen=True, kw_only=True)
+class DoorwayFit:
+    """What a scan says about a room's doors: how many open ones it shows open, how many it shows shut, and in how many
+    places it passes where the room has wall.
+    """
+
+    open: int
+    shut: int
+    strange: int
+
+
+def doorway_model(snapshot: Snapshot, room: RoomModel) -> DoorwayModel:
+    """The doors of a room as the graph has them, provisional ones included."""
+    walls = Walls.of_polygon(room.polygon)
+    wall_ids = [wall_id_of(room.room_id, k) for k in range(len(room.polygon))]
+    found: list[Doorway] = []
+    for k, wall_id in enumerate(wall_ids):
+        for door, station_m in doors_in(snapshot, wall_id):
+            center_m = float(station_m + walls.length_m[k] / 2.0)
+            found.append(Doorway(wall=k, center_m=center_m, width_m=door.width_m, state=door.state))
+    return DoorwayModel(walls=walls, known=tuple(w in snapshot for w in wall_ids), doorways=tuple(found))
+
+
+def doorway_fit(scan: LidarScan, model: DoorwayModel, T_room_base: Pose2) -> DoorwayFit:
+    """What ``scan``, taken at ``T_room_base``, says about the room's doors."""
+    seen_open = shut = strange = 0
+    for k, rays in enumerate(rays_by_wall(scan, T_room_base, model.walls)):
+        doorways = [one for one in model.doorways if one.wall == k]
+        for doorway in (one for one in doorways if one.state is DoorState.OPEN):
+            looks_open = _looks_open(rays, doorway)
+            seen_open += looks_open is True
+            shut += looks_open is False
+        strange += _strange_gaps(rays, doorways) if model.known[k] else 0
+    return DoorwayFit(open=seen_open, shut=shut, strange=strange)
+
+
+def _looks_open(rays: WallRays, doorway: Doorway) -> bool | None:
+    """Whether rays pass in the middle of a doorway, or end on its wall's face; ``None`` when they do not tell."""
+    near = np.abs(rays.station_m - doorway.center_m) < 0.3 * doorway.width_m
+    if near.sum() < _FEWEST_RAYS:
+        return None
+    if float(rays.passed[near].mean()) > _CLEAR:
+        return True
+    return False if float((rays.on_face & ~rays.passed)[near].mean()) > _CLEAR else None
+
+
+def _strange_gaps(rays: WallRays, doorways: list[Doorway]) -> int:
+    """How many stretches of wall, wide enough for a door, the rays pass where there is none."""
+    order = np.argsort(rays.station_m, kind="stable")
+    station, passed = rays.station_m[order], rays.passed[order]
+    for doorway in doorways:
+        away = np.abs(station - doorway.center_m) > doorway.width_m / 2.0 + _POST_M
+        station, passed = station[away], passed[away]
+    stops = np.flatnonzero((np.diff(station) > _WIDEST_STEP_M) | (np.diff(passed.astype(np.int8)) != 0)) + 1
+    runs = [
+        part
+        for part, through in zip(np.split(station, stops), np.split(passed, stops), strict=True)
+        if len(part) and through[0]
+    ]
+    return sum(bool(len(run) >= _FEWEST_RAYS and np.ptp(run) > _NARROWEST_M) for run in runs)

@@ -1,0 +1,160 @@
+"""The energy optimizer (Concepts, section 3.7): keeps the ``rt`` edge to the robot, ten times a second.
+
+Odometry ties successive poses. Where a room stands, the scan is aligned with its walls, and corners that pass the gate
+tie poses to nominal landmarks. Without a room, or outside of it, the pose is dead-reckoned and its covariance grows.
+"""
+
+from __future__ import annotations
+
+import logging
+
+import numpy as np
+from numpy.typing import NDArray
+
+from perception.localization.alignment import Alignment, AlignmentSettings, align, log_between, odometry_covariance
+from perception.localization.landmarks import RoomModel, match_corners, room_model
+from perception.localization.planar import Pose2, planar_covariance, spatial_covariance
+from perception.localization.window import LandmarkSighting, PoseWindow
+from perception.ports import LidarScan
+from perception.rooms.views.corners import confirm_lines, corners_of
+from perception.rooms.views.slice import OutlineSlicer
+from perception.sensing import SensorBuffer
+from scene_graph.edges import RtEdge
+from scene_graph.errors import TransactionRejected
+from scene_graph.memory import WorkingMemory
+from scene_graph.nodes import ROBOT_ID
+from scene_graph.snapshot import Snapshot
+
+Array = NDArray[np.float64]
+
+logger = logging.getLogger(__name__)
+
+_LEAST_MATCHED = 0.25
+_WIDE_GATE_M = 0.2
+_LAST_GATES_M = (0.12, 0.08)
+_DOORSTEP_M = 0.05
+_INNOVATION_GATE = 30.0  # chi-square, three degrees of freedom, far beyond 99.99 %
+_START_STD = np.array([1e-3, 1e-3, 1e-3])
+_REPORTED_FLOOR = np.diag([0.003, 0.003, 0.001]) ** 2
+
+
+class EnergyOptimizer:
+    """Agent that localizes the robot in its parent frame."""
+
+    name = "energy_optimizer"
+
+    def __init__(
+        self,
+        memory: WorkingMemory,
+        buffer: SensorBuffer,
+        *,
+        slicer: OutlineSlicer | None = None,
+        period_s: float = 0.1,
+    ) -> None:
+        self.period_s = period_s
+        self._memory = memory
+        self._buffer = buffer
+        self._slicer = slicer or OutlineSlicer()
+        self._window: PoseWindow | None = None
+        self._model: RoomModel | None = None
+        self._own_revision = -1
+        self._odometry = Pose2.identity()
+        self._stamp_s = -np.inf
+
+    async def step(self, stamp_s: float) -> None:
+        """Add the newest scan or odometry to the window and write the pose."""
+        if not self._buffer.odometry or self._buffer.odometry[0].stamp_s > stamp_s:
+            return
+        snapshot = self._memory.snapshot()
+        edge = snapshot.parent(ROBOT_ID)
+        if edge is None:
+            return
+        newest_s = self._buffer.odometry[-1].stamp_s
+        scan = self._buffer.scan
+        measured_s = newest_s
+        if scan is not None and self._stamp_s < scan.stamp_s <= newest_s:
+            measured_s = scan.stamp_s
+        else:
+            scan = None
+        window = self._window
+        if window is None or snapshot.revision_of(edge.key) != self._own_revision:
+            window = self._window = self._restart(snapshot, edge)
+        if measured_s > self._stamp_s:
+            self._advance(window, measured_s, scan)
+        self._write(window, edge, snapshot, newest_s)
+
+    def _restart(self, snapshot: Snapshot, edge: RtEdge) -> PoseWindow:
+        """Somebody else wrote the pose: believe it."""
+        oldest_s, newest_s = self._buffer.odometry[0].stamp_s, self._buffer.odometry[-1].stamp_s
+        self._stamp_s = min(max(edge.stamp_s, oldest_s), newest_s)
+        self._odometry = Pose2.from_se3(self._buffer.odometry_at(self._stamp_s))
+        self._model = room_model(snapshot, edge.source)
+        covariance = planar_covariance(edge.covariance) + np.diag(_START_STD**2)
+        landmarks = self._model.polygon if self._model else None
+        return PoseWindow(Pose2.from_se3(edge.T_source_target), covariance, landmarks)
+
+    def _advance(self, window: PoseWindow, measured_s: float, scan: LidarScan | None) -> None:
+        odometry = Pose2.from_se3(self._buffer.odometry_at(measured_s))
+        moved = self._odometry.inverse() @ odometry
+        noise = odometry_covariance(moved)
+        predicted, covariance = window.predict(moved, noise)
+        alignment, sightings = None, list[LandmarkSighting]()
+        if scan is not None and self._model is not None and self._model.depth_m(predicted.position_m) > -_DOORSTEP_M:
+            alignment, sightings = self._measure(scan, self._model, predicted, covariance)
+        window.advance(moved, noise, sightings, alignment)
+        self._odometry, self._stamp_s = odometry, measured_s
+
+    def _measure(
+        self, scan: LidarScan, model: RoomModel, predicted: Pose2, covariance: Array
+    ) -> tuple[Alignment | None, list[LandmarkSighting]]:
+        """What the scan says about the pose: alignment with the walls, and corners."""
+        outline = self._slicer.cut(scan)
+        if len(outline.points_base) < 20:
+            return None, []
+        reach_m = float(np.clip(4.0 * np.sqrt(np.trace(covariance[:2, :2])), 0.2, 0.8))
+        settings = AlignmentSettings(gates_m=_narrowing(reach_m), floor_m=0.004)
+        found = align(outline.points_base, model.walls, predicted, covariance, settings)
+        if found is None or found.matched < _LEAST_MATCHED or not _plausible(found, predicted, covariance):
+            return None, []
+        seen = corners_of(confirm_lines(outline.points_base, *_expected_lines(model, found.pose)))
+        spread = np.asarray(np.linalg.inv(found.information + np.linalg.inv(covariance)), dtype=np.float64)
+        return found, match_corners(model.polygon, seen, found.pose, spread)
+
+    def _write(self, window: PoseWindow, edge: RtEdge, snapshot: Snapshot, newest_s: float) -> None:
+        moved = self._odometry.inverse() @ Pose2.from_se3(self._buffer.odometry_at(newest_s))
+        pose, covariance = window.predict(moved, odometry_covariance(moved))
+        written = RtEdge(
+            source=edge.source,
+            target=ROBOT_ID,
+            T_source_target=pose.to_se3(),
+            covariance=spatial_covariance(covariance + _REPORTED_FLOOR),
+            stamp_s=newest_s,
+        )
+        try:
+            with self._memory.edit(self.name, newest_s, expected={edge.key: snapshot.revision_of(edge.key)}) as tx:
+                tx.put(written)
+        except TransactionRejected as conflict:
+            logger.debug("pose not written: %s", conflict)
+            return
+        self._own_revision = tx.snapshot.revision_of(written.key)
+
+
+def _expected_lines(model: RoomModel, pose: Pose2) -> tuple[Array, Array]:
+    """Normals (K, 2) and offsets (K,) of the room's walls, in the base frame at ``pose``."""
+    normals = model.walls.normal @ pose.rotation()
+    return normals, model.walls.offset_m - model.walls.normal @ pose.position_m
+
+
+def _narrowing(reach_m: float) -> tuple[float, ...]:
+    """Gates in meters from how far off the pose may be down to what noise explains."""
+    gates_m = [reach_m]
+    while gates_m[-1] > _WIDE_GATE_M:
+        gates_m.append(0.6 * gates_m[-1])
+    return (*gates_m, *_LAST_GATES_M)
+
+
+def _plausible(found: Alignment, predicted: Pose2, covariance: Array) -> bool:
+    """Mahalanobis gate on the innovation, with a tolerance for wheel slip."""
+    innovation = log_between(predicted, found.pose)
+    slack = covariance + np.diag([0.02, 0.02, 0.02]) ** 2
+    return float(innovation @ np.linalg.solve(slack, innovation)) < _INNOVATION_GATE

@@ -1,0 +1,1 @@
+"""A camera and its network in an analytic room, for tests."""

@@ -1,0 +1,1 @@
+"""The thing in the gripper: what the fingers feel, and where it went."""

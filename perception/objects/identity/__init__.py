@@ -1,0 +1,1 @@
+"""Which sighting is which thing: known, moved, part of another, or new."""

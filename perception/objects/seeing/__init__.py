@@ -1,0 +1,1 @@
+"""One frame: pixels to points, and what each detection is and where (Filtering, section 3.1)."""

@@ -1,0 +1,1 @@
+"""One thing over time: place, existence, relations (Filtering, algorithm 1)."""

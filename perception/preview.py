@@ -1,0 +1,106 @@
+"""A frame with what the model found in it, as a picture for people and as outlines for programs."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from perception.panoptic import Instance, PanopticModel, PanopticScene
+from perception.ports import RgbdFrame
+
+SCALE = 2
+"""The picture is this much larger than the frame, so that labels can be read."""
+_GOLDEN_ANGLE_DEG = 137.508
+
+
+_SPECK_PX = 12
+"""Parts of a mask with a smaller outline are left out."""
+_TOLERANCE_PX = 1.0
+
+
+class WatchedModel:
+    """A panoptic model that counts the frames it understood. Passes everything through.
+
+    Attributes:
+        understood: how many frames were understood so far.
+    """
+
+    def __init__(self, model: PanopticModel) -> None:
+        self._model = model
+        self.understood = 0
+
+    async def infer(self, frame: RgbdFrame) -> PanopticScene:
+        """Instances and relations of ``frame``, as the model gives them."""
+        scene = await self._model.infer(frame)
+        self.understood += 1
+        return scene
+
+
+@dataclass(frozen=True, kw_only=True)
+class Outline:
+    """The outline of a mask in pixels, x right and y down.
+
+    ``box_px``: left, top, right, bottom, the last two exclusive. ``parts_px``: a polygon for each part, largest first.
+    """
+
+    box_px: tuple[int, int, int, int]
+    parts_px: tuple[tuple[tuple[int, int], ...], ...]
+
+
+def outline_of(mask: NDArray[np.bool_]) -> Outline | None:
+    """The outline of an (H, W) mask, to a pixel, without holes and specks; ``None`` if nothing is left."""
+    found, _ = cv2.findContours(mask.astype(np.uint8), cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_SIMPLE)
+    large = sorted((part for part in found if cv2.arcLength(part, closed=True) >= _SPECK_PX), key=cv2.contourArea)
+    if not large:
+        return None
+    x, y, width, height = cv2.boundingRect(np.concatenate(large))
+    parts = (cv2.approxPolyDP(part, _TOLERANCE_PX, closed=True)[:, 0, :].tolist() for part in reversed(large))
+    return Outline(
+        box_px=(x, y, x + width, y + height),
+        parts_px=tuple(tuple((int(u), int(v)) for u, v in part) for part in parts),
+    )
+
+
+def frame_jpeg(frame: RgbdFrame) -> bytes:
+    """``frame`` as JPEG, as it was taken."""
+    return _jpeg(cv2.cvtColor(frame.rgb, cv2.COLOR_RGB2BGR))
+
+
+def preview_jpeg(frame: RgbdFrame, scene: PanopticScene) -> bytes:
+    """``frame`` as JPEG with every instance outlined and labeled."""
+    picture = cv2.cvtColor(frame.rgb, cv2.COLOR_RGB2BGR)
+    resized = cv2.resize(picture, None, fx=SCALE, fy=SCALE, interpolation=cv2.INTER_LINEAR)
+    canvas: NDArray[np.uint8] = np.asarray(resized, dtype=np.uint8)
+    for index, instance in enumerate(scene.instances):
+        _draw(canvas, instance, _color(index))
+    return _jpeg(canvas)
+
+
+def _jpeg(picture: Any) -> bytes:
+    _, encoded = cv2.imencode(".jpg", picture, [cv2.IMWRITE_JPEG_QUALITY, 80])
+    return bytes(encoded)
+
+
+def _draw(picture: NDArray[np.uint8], instance: Instance, color: Sequence[int]) -> None:
+    mask = cv2.resize(instance.mask.astype(np.uint8), None, fx=SCALE, fy=SCALE, interpolation=cv2.INTER_NEAREST)
+    outlines, _ = cv2.findContours(mask, cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_SIMPLE)
+    if not outlines:
+        return
+    cv2.drawContours(picture, outlines, -1, color, 1, cv2.LINE_AA)
+    x, y, _, _ = cv2.boundingRect(max(outlines, key=cv2.contourArea))
+    text = f"{instance.label} {instance.score:.2f}"
+    place = (x, max(12, y - 3))
+    cv2.putText(picture, text, place, cv2.FONT_HERSHEY_SIMPLEX, 0.4, (0, 0, 0), 3, cv2.LINE_AA)
+    cv2.putText(picture, text, place, cv2.FONT_HERSHEY_SIMPLEX, 0.4, color, 1, cv2.LINE_AA)
+
+
+def _color(index: int) -> tuple[int, int, int]:
+    """Well separated hues."""
+    hsv = np.array([[[int(index * _GOLDEN_ANGLE_DEG) % 180, 160, 255]]], dtype=np.uint8)
+    blue, green, red = cv2.cvtColor(hsv, cv2.COLOR_HSV2BGR)[0, 0]
+    return int(blue), int(green), int(red)

@@ -1,0 +1,1 @@
+"""From lines to the outline of a room: cells, openings, free forms."""

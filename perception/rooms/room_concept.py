@@ -1,0 +1,342 @@
+"""The room concept agent (Concepts, section 3.5.1): from "no room explains what I see" to a room that stands."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from perception.crossing import OUTDOORS, door_being_crossed, given_up, in_doubt, is_lost, move_robot, uncrossed
+from perception.lifecycle import LifeCycle, Verdict
+from perception.localization.landmarks import RoomModel, room_model
+from perception.localization.planar import Pose2
+from perception.localization.robot_pose import RobotPose, robot_pose_at
+from perception.range_noise import calmed
+from perception.rooms.insertion import insert_room, propose_visit, withdraw
+from perception.rooms.survey.instance import MeasuredRoom
+from perception.rooms.survey.survey import Survey, SurveySettings
+from perception.rooms.upkeep.adjustment import LocalAdjustment
+from perception.rooms.upkeep.outline_fitness import OutlineFitness, Stretch
+from perception.rooms.upkeep.revision import let_stand, missing_walls, revise_room, same_place, take_back, taken_back
+from perception.rooms.upkeep.shifted_walls import shift_walls, wall_stds
+from perception.rooms.views.slice import OutlineScan, OutlineSlicer
+from perception.sensing import SensorBuffer, scan_points_between
+from scene_graph.edges import HasIntentionEdge, IntentionStatus
+from scene_graph.identifiers import next_id
+from scene_graph.memory import WorkingMemory
+from scene_graph.nodes import ROBOT_ID, RoomNode, RoomStatus
+from scene_graph.snapshot import Snapshot
+
+Array = NDArray[np.float64]
+
+logger = logging.getLogger(__name__)
+
+UNMEASURABLE = "the room behind it could not be measured"
+_ATTEMPTS = 8
+_LOOK_S = 1.5
+_RETURNS = 4
+_WELL_INSIDE_M = 0.35
+_REVISIONS = 2
+_WORTH_WRITING = 0.05
+_USUAL_NOISE_M = 0.015
+_STRANDED_S = 4.0
+_MOVED_STD_M = 0.01
+
+
+class RoomConcept:
+    """Agent that measures a room where none explains the scan, and puts it into the graph."""
+
+    name = "room_concept"
+
+    def __init__(
+        self,
+        memory: WorkingMemory,
+        buffer: SensorBuffer,
+        *,
+        settings: SurveySettings | None = None,
+        slicer: OutlineSlicer | None = None,
+        period_s: float = 0.1,
+    ) -> None:
+        self.period_s = period_s
+        self._memory = memory
+        self._buffer = buffer
+        self._settings = settings or SurveySettings()
+        self._slicer = slicer or OutlineSlicer()
+        self._survey = Survey(self._settings)
+        self._scan_stamp_s = -np.inf
+        self._stamp_s = 0.0
+        self._arrived_s: dict[float, float] = {}
+        self._stranded_s = np.inf
+        self._returns: dict[str, int] = {}
+        self._fitness: dict[str, OutlineFitness] = {}
+        self._adjustment = LocalAdjustment()
+        self._revised: dict[str, int] = {}
+        self._judge = False
+        self._life = LifeCycle(
+            "room",
+            explain=self._explain,
+            initialize=self._initialize,
+            maintain=self._maintain,
+            affordances=self._affordances,
+        )
+
+    async def step(self, stamp_s: float) -> None:
+        """Take in the newest scan, fit when enough is new, and live one tick."""
+        self._stamp_s = stamp_s
+        self._observe(self._memory.snapshot())
+        if _room_needed(self._memory.snapshot()) and self._survey.due(stamp_s):
+            await asyncio.to_thread(self._survey.solve, stamp_s)
+        self._life.tick()
+
+    def _observe(self, snapshot: Snapshot) -> None:
+        """Collect a view when the robot stands in no known room: before the first, or beyond the current one."""
+        scan = self._buffer.scan
+        if scan is None or scan.stamp_s <= self._scan_stamp_s:
+            return
+        self._scan_stamp_s = scan.stamp_s
+        pose = robot_pose_at(snapshot, self._buffer, scan.stamp_s)
+        if pose is None or is_lost(snapshot):
+            return
+        if self._survey.started and self._survey.parent != pose.parent:
+            self._survey = Survey(self._settings)
+        model = room_model(snapshot, pose.parent)
+        if model is None or not model.contains(pose.T_parent_base.position_m):
+            self._survey.known = model
+            self._survey.add(self._slicer.cut(scan), pose)
+            return
+        if self._survey.started and model.depth_m(pose.T_parent_base.position_m) > _WELL_INSIDE_M:
+            self._abandon(snapshot)
+        if door_being_crossed(snapshot) is None:
+            fitness = self._fitness.get(model.room_id)
+            if fitness is None or not np.array_equal(fitness.polygon, model.polygon):
+                fitness = self._fitness[model.room_id] = OutlineFitness(model.polygon)
+            self._judge |= fitness.add(self._slicer.cut(scan), pose.T_parent_base)
+            self._adjust(snapshot, model, self._slicer.cut(scan), pose)
+
+    def _adjust(self, snapshot: Snapshot, model: RoomModel, scan: OutlineScan, pose: RobotPose) -> None:
+        """Move walls of the room that are surely not quite where they are believed to be."""
+        if in_doubt(snapshot) or snapshot.room(model.room_id).status is not RoomStatus.PERMANENT:
+            self._adjustment.doubt()
+            return
+        if not self._adjustment.add(model, scan, pose):
+            return
+        shifts = self._adjustment.solve(wall_stds(snapshot, model))
+        if shifts is None:
+            return
+        self._adjustment.reset()
+        with self._memory.edit(self.name, self._stamp_s) as tx:
+            moved = shift_walls(tx, model, shifts, self._stamp_s)
+            if moved:
+                move_robot(tx, model.room_id, pose.T_parent_base @ shifts.T_base_moved, scan.stamp_s, _MOVED_STD_M)
+        if moved:
+            logger.info("adjusted %s: %s", model.room_id, shifts, extra={"room": model.room_id})
+
+    # The four stages of the life cycle.
+
+    def _explain(self) -> Verdict:
+        return Verdict.NO if _room_needed(self._memory.snapshot()) else Verdict.DONE
+
+    def _initialize(self) -> Verdict:
+        snapshot = self._memory.snapshot()
+        pose = robot_pose_at(snapshot, self._buffer, self._scan_stamp_s)
+        if pose is None or not self._survey.started:
+            return Verdict.BUSY
+        if self._survey.outdoors and door_being_crossed(snapshot) is not None:
+            return self._give_up(snapshot, OUTDOORS)
+        if self._survey.sufficient:
+            return self._conclude(snapshot, pose)
+        intention = own_intention(snapshot)
+        if intention is None:
+            return self._begin(snapshot, pose)
+        if intention.status in (IntentionStatus.DONE, IntentionStatus.FAILED):
+            return self._arrived(snapshot, pose, intention)
+        return Verdict.BUSY
+
+    def _maintain(self) -> Verdict:
+        """A room that stands is kept, unless what is seen contradicts it: then it is taken back and measured again."""
+        snapshot = self._memory.snapshot()
+        room_id = snapshot.current_room
+        fitness = self._fitness.get(room_id) if room_id is not None else None
+        if room_id is None or fitness is None or not self._judge or _room_needed(snapshot):
+            return Verdict.DONE
+        self._judge = False
+        self._publish(snapshot.room(room_id), fitness)
+        if self._revised.get(room_id, 0) < _REVISIONS:
+            against = missing_walls(snapshot, room_id, fitness)
+            if against:
+                self._take_back(room_id, against)
+        return Verdict.DONE
+
+    def _publish(self, room: RoomNode, fitness: OutlineFitness) -> None:
+        """Let the room's confidence be its running fitness: what of its walls is lately seen where it should be."""
+        if abs(fitness.recent - room.confidence) > _WORTH_WRITING:
+            with self._memory.edit(self.name, self._stamp_s) as tx:
+                tx.put(replace(room, confidence=fitness.recent))
+
+    def _take_back(self, room_id: str, against: Sequence[Stretch]) -> None:
+        self._revised[room_id] = self._revised.get(room_id, 0) + 1
+        del self._fitness[room_id]
+        self._survey = Survey(self._settings)
+        with self._memory.edit(self.name, self._stamp_s) as tx:
+            take_back(tx, room_id)
+        length_m = max(stretch.end_m - stretch.start_m for stretch in against)
+        logger.info(
+            "%.1f m of a wall of %s are not there; measuring it again", length_m, room_id, extra={"room": room_id}
+        )
+
+    def _affordances(self) -> Verdict:
+        """Withdraw a visit to a room that needs no measuring any more."""
+        snapshot = self._memory.snapshot()
+        intention = own_intention(snapshot)
+        if intention is not None and not _room_needed(snapshot):
+            self._abandon(snapshot)
+        return Verdict.DONE
+
+    # Steps of the initialization.
+
+    def _begin(self, snapshot: Snapshot, pose: RobotPose) -> Verdict:
+        """Propose to visit what looks like a room; where for a while no way leads on, take it as it looks from here."""
+        begun = self._propose(pose, next_id(snapshot, "room"))
+        if begun is not None:
+            self._stranded_s = np.inf
+            return begun
+        self._stranded_s = min(self._stranded_s, self._stamp_s)
+        if self._stamp_s < self._stranded_s + _STRANDED_S:
+            return Verdict.BUSY
+        self._stranded_s = np.inf
+        logger.info("no way leads further into what looks like a room")
+        return self._conclude(snapshot, pose)
+
+    def _arrived(self, snapshot: Snapshot, pose: RobotPose, intention: HasIntentionEdge) -> Verdict:
+        """At a vantage point, or unable to get there: take the room as it is now, or look from elsewhere."""
+        arrived_s = self._arrived_s.setdefault(intention.proposed_s, self._stamp_s)
+        if self._survey.closed:
+            return self._conclude(snapshot, pose)
+        if self._stamp_s < arrived_s + _LOOK_S:
+            return Verdict.BUSY
+        if len(self._survey.places) >= _ATTEMPTS:
+            return self._conclude(snapshot, pose)
+        return self._propose(pose, intention.target) or self._conclude(snapshot, pose)
+
+    def _propose(self, pose: RobotPose, room_id: str) -> Verdict | None:
+        place = self._place_outside(self._memory.snapshot(), pose)
+        if place is None:
+            return None
+        with self._memory.edit(self.name, self._stamp_s) as tx:
+            propose_visit(
+                tx, room_id, parent=pose.parent, T_parent_place=pose.T_parent_base @ place, stamp_s=self._stamp_s
+            )
+        logger.info("looks like a room; going to measure it", extra={"room": room_id})
+        return Verdict.BUSY
+
+    def _place_outside(self, snapshot: Snapshot, pose: RobotPose) -> Pose2 | None:
+        """The next vantage point that is not in the room which the robot came from, base frame."""
+        known, obstacles = room_model(snapshot, pose.parent), self._obstacles_base()
+        while (place := self._survey.next_place(obstacles, pose)) is not None:
+            if known is None or not known.contains((pose.T_parent_base @ place).position_m):
+                return place
+        return None
+
+    def _conclude(self, snapshot: Snapshot, pose: RobotPose) -> Verdict:
+        """The room stands, as permanent when it is closed, else as partial; nothing at all gives the door up."""
+        self._survey.decide()
+        room, doubted = self._survey.measured(pose), taken_back(snapshot)
+        if doubted is not None:
+            return self._revise(doubted, room)
+        if room is None:
+            return self._give_up(snapshot, OUTDOORS if self._survey.outdoors else UNMEASURABLE)
+        intention = own_intention(snapshot)
+        room_id = intention.target if intention else next_id(snapshot, "room")
+        with self._memory.edit(self.name, self._stamp_s) as tx:
+            insert_room(tx, room, room_id, status=self._status, height_m=self._height_m, stamp_s=self._scan_stamp_s)
+        self._say("stands", room_id, room)
+        self._survey = Survey(self._settings)
+        return Verdict.DONE
+
+    def _revise(self, doubted: RoomNode, room: MeasuredRoom | None) -> Verdict:
+        """The room that was taken back stands as it was measured now, or for want of that as it was."""
+        if room is not None and not same_place(doubted, room):
+            logger.info("what was measured is not %s; it stands as it was", doubted.id, extra={"room": doubted.id})
+            room = None
+        with self._memory.edit(self.name, self._stamp_s) as tx:
+            if room is None:
+                let_stand(tx, doubted)
+            else:
+                revise_room(
+                    tx, room, doubted.id, status=self._status, height_m=self._height_m, stamp_s=self._scan_stamp_s
+                )
+        if room is not None:
+            self._say("is revised", doubted.id, room)
+        self._survey = Survey(self._settings)
+        return Verdict.DONE
+
+    @property
+    def _status(self) -> RoomStatus:
+        return RoomStatus.PERMANENT if self._survey.closed else RoomStatus.PARTIAL
+
+    @property
+    def _height_m(self) -> float:
+        return self._slicer.ceiling_m or self._slicer.wall_top_m or 2.5
+
+    def _say(self, happened: str, room_id: str, room: MeasuredRoom) -> None:
+        sides = np.ptp(room.polygon, axis=0)
+        logger.info(
+            "%s %s: %.2f m x %.2f m, %d walls, %s",
+            room_id,
+            happened,
+            sides[0],
+            sides[1],
+            len(room.polygon),
+            self._status,
+            extra={"room": room_id, "views": len(self._survey.fit.views) if self._survey.fit else 0},
+        )
+
+    def _give_up(self, snapshot: Snapshot, reason: str) -> Verdict:
+        door = door_being_crossed(snapshot)
+        if door is None:
+            return Verdict.BUSY
+        with self._memory.edit(self.name, self._stamp_s) as tx:
+            tx.put(given_up(door, reason))
+            withdraw(tx)
+        logger.info("gave up on %s: %s", door.id, reason, extra={"door": door.id})
+        self._survey = Survey(self._settings)
+        return Verdict.NO
+
+    def _abandon(self, snapshot: Snapshot) -> None:
+        """The robot is back in a known room: what was begun is forgotten, and the door may be crossed again."""
+        door = door_being_crossed(snapshot)
+        with self._memory.edit(self.name, self._stamp_s) as tx:
+            withdraw(tx)
+            if door is not None:
+                self._returns[door.id] = self._returns.get(door.id, 0) + 1
+                again = self._returns[door.id] < _RETURNS
+                tx.put(uncrossed(door) if again else given_up(door, UNMEASURABLE))
+        self._survey = Survey(self._settings)
+
+    def _obstacles_base(self) -> Array:
+        """(N, 2) returns at the height of the robot's body."""
+        scan = self._buffer.scan
+        if scan is None:
+            return np.empty((0, 2))
+        ranges_m = calmed(scan.ranges_m.astype(np.float64), _USUAL_NOISE_M).astype(np.float32)
+        return scan_points_between(replace(scan, ranges_m=ranges_m), 0.10, 1.7)[:, :2]
+
+
+def own_intention(snapshot: Snapshot) -> HasIntentionEdge | None:
+    """The room concept's visit, if it has proposed one."""
+    return next((edge for edge in snapshot.intentions() if edge.agent == RoomConcept.name), None)
+
+
+def _room_needed(snapshot: Snapshot) -> bool:
+    """Whether the robot is where no room stands: at the very start, or behind a door that is being crossed."""
+    edge = snapshot.parent(ROBOT_ID)
+    if edge is None or is_lost(snapshot):
+        return False
+    room = snapshot.get(edge.source)
+    if not isinstance(room, RoomNode) or room.status is RoomStatus.TEMPORARY:
+        return True
+    return door_being_crossed(snapshot) is not None

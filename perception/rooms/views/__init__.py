@@ -1,0 +1,1 @@
+"""What the LiDAR saw of walls: slices, corners, lines, and views from several places."""

@@ -1,0 +1,1 @@
+"""From what was said, before and now, to what is meant."""

@@ -1,0 +1,1 @@
+"""Made-up flats, skills and graphs for tests of the planner."""

@@ -1,0 +1,1 @@
+"""The Executor: carries out the granted intention, action by action."""

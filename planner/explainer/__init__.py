@@ -1,0 +1,1 @@
+"""The Explainer: what failed, on what evidence, and what to try next."""

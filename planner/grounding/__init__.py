@@ -1,0 +1,1 @@
+"""Words to nodes: which things of the graph a phrase names."""

@@ -1,0 +1,1 @@
+"""The command grammar: from tokens to readings."""

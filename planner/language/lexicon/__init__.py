@@ -1,0 +1,1 @@
+"""Words: what each means, its forms, and the names of the live graph."""

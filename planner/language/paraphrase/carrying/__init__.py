@@ -1,0 +1,1 @@
+"""Wordings of carrying, putting away and bringing back."""

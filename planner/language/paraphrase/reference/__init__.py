@@ -1,0 +1,1 @@
+"""Wordings of which thing is meant."""

@@ -1,0 +1,1 @@
+"""Wordings of courtesy, motives and other talk around a request."""

@@ -1,0 +1,86 @@
+"""What is told about a task under way: its failures, its confirmed goals, and how it ended."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from planner.explainer.explainer import explain, failure_sentence, success_sentence
+from planner.grounding.naming import name_of, whereabouts
+from planner.mission.ledger import Ledger
+from planner.mission.resources import Crew
+from planner.plan import Step
+from planner.skill_planner.replanner import Hunt
+from planner.tasks.tasks import TaskStatus
+from scene_graph.nodes import ROBOT_ID, ObjectNode
+from scene_graph.snapshot import Snapshot
+from skills.failures import Failure
+
+
+@dataclass(frozen=True, kw_only=True)
+class Ending:
+    """How a task ended, and the sentence that says so; or that it is to be planned anew, in silence, while things that
+    are ``displaced`` no longer are where the request may say.
+    """
+
+    status: TaskStatus
+    explanation: str
+    displaced: frozenset[str] = frozenset()
+
+
+class Chronicle:
+    """Writes what happens into the task's record and the event log."""
+
+    def __init__(self, task_id: str, ledger: Ledger, crew: Crew) -> None:
+        self._task_id, self._ledger, self._crew = task_id, ledger, crew
+
+    def step(self, step: Step, stamp_s: float) -> None:
+        """A step begins."""
+        self._crew.emit(stamp_s, "step", task=self._task_id, step=str(step))
+
+    def observed(self, step: Step, snapshot: Snapshot, stamp_s: float, *, hunt: Hunt | None) -> None:
+        """What was seen says that a step is done; with a ``hunt``: that a place was looked at in vain."""
+        seen = hunt.seen_there if hunt is not None else observation(step, snapshot, stamp_s)
+        fields = {"step": str(step), "seen": seen, "nodes": list(step.args), "revision": snapshot.revision}
+        self._crew.emit(stamp_s, "observed", task=self._task_id, **fields)
+
+    def step_done(self, step: Step, snapshot: Snapshot, stamp_s: float) -> None:
+        """A step is confirmed, and with it perhaps a goal."""
+        self._crew.queue.amend(self._task_id, verified=self._ledger.report(snapshot))
+        self._crew.emit(stamp_s, "step_done", task=self._task_id, step=str(step))
+
+    def failure(self, failure: Failure, step: Step, snapshot: Snapshot, stamp_s: float, *, hopeless: bool) -> None:
+        """Something went wrong; ``hopeless``: nothing more will be tried."""
+        report = explain(failure, step, snapshot, hopeless=hopeless)
+        failures = self._crew.queue.task(self._task_id).failures
+        self._crew.queue.amend(self._task_id, failures=(*failures, report), explanation=report.sentence)
+        fields = {"step": report.step, "code": report.code, "why": report.message, "next": report.suggestion}
+        self._crew.emit(stamp_s, "failure", task=self._task_id, **fields)
+
+    def replan(self, plan: str, why: str, stamp_s: float) -> None:
+        """A new plan comes into force."""
+        self._crew.emit(stamp_s, "replan", task=self._task_id, why=why, plan=plan)
+
+    def success(self, snapshot: Snapshot, stamp_s: float) -> Ending:
+        """Every goal is confirmed."""
+        task = self._crew.queue.amend(self._task_id, verified=self._ledger.report(snapshot))
+        goals = [verified.goal for verified in task.verified]
+        return Ending(status=TaskStatus.SUCCEEDED, explanation=success_sentence(task, goals, snapshot, stamp_s))
+
+    def surrender(self, reason: str, snapshot: Snapshot) -> Ending:
+        """Nothing is left to try."""
+        self._crew.queue.amend(self._task_id, verified=self._ledger.report(snapshot))
+        explanation = failure_sentence(self._ledger.remaining(), reason, snapshot)
+        return Ending(status=TaskStatus.FAILED, explanation=explanation)
+
+
+def observation(step: Step, snapshot: Snapshot, stamp_s: float) -> str:
+    """What the graph says after a step about what that step was to change, and how old it is."""
+    thing = step.args[0] if step.args else ROBOT_ID
+    node = snapshot.get(thing)
+    if step.skill == "GOTO" and node is not None:
+        return f"the robot is at {name_of(thing, snapshot)}"
+    if isinstance(node, ObjectNode):
+        age_s = max(0.0, stamp_s - node.last_seen_s)
+        return f"{name_of(thing, snapshot)} is {whereabouts(thing, snapshot)}, seen {age_s:.1f} s ago"
+    room = snapshot.room_of(ROBOT_ID)
+    return f"the robot is in {name_of(room, snapshot) if room is not None else 'a place that it does not know'}"

@@ -1,0 +1,1 @@
+"""The Skill Planner: goals to verified plans, steps to actions."""

@@ -1,0 +1,70 @@
+"""The Skill Planner: a step becomes actions, and the skills are described for people and models (design, section 8)."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Mapping
+from typing import Any
+
+from planner.plan import Step
+from scene_graph.snapshot import Snapshot
+from skills.action import Action, RobotContext
+from skills.errors import SkillNotFound
+from skills.failures import Failure
+from skills.skill import Skill
+from skills.state.state import PlanState
+
+LEAST_TIMEOUT_S = 90.0
+TIMEOUT_FACTOR = 4.0
+"""A step may take this many times the expected time before it counts as stuck."""
+
+
+class SkillPlanner:
+    """Looks skills up by name and asks them for actions, confirmation, cost and description."""
+
+    def __init__(self, skills: Mapping[str, Skill]) -> None:
+        self._skills = dict(skills)
+
+    def skill(self, name: str) -> Skill:
+        """The skill of this name.
+
+        Raises:
+            SkillNotFound: listing those that are registered.
+        """
+        try:
+            return self._skills[name]
+        except KeyError:
+            raise SkillNotFound(name, self._skills) from None
+
+    def actions(self, step: Step, context: RobotContext) -> list[Action]:
+        """Actions that carry a step out from the graph as it is now."""
+        return self.skill(step.skill).actions(context, step.args)
+
+    def confirmed(self, step: Step, snapshot: Snapshot, since_s: float) -> Failure | None:
+        """``None`` when perception confirms the step's effect, seen after ``since_s``; else what is amiss."""
+        return self.skill(step.skill).confirmed(snapshot, step.args, since_s)
+
+    def timeout_s(self, step: Step, snapshot: Snapshot) -> float:
+        """How long a step may act before it counts as stuck."""
+        expected_s = self.skill(step.skill).cost_s(PlanState.from_snapshot(snapshot), step.args)
+        return max(LEAST_TIMEOUT_S, TIMEOUT_FACTOR * expected_s)
+
+    def describe(self) -> list[dict[str, Any]]:
+        """Name, parameters, schema and docstring of every skill, by name."""
+        return [_description(self._skills[name]) for name in sorted(self._skills)]
+
+
+def _description(skill: Skill) -> dict[str, Any]:
+    parameters = [{"name": p.name, "kinds": sorted(p.kinds)} for p in skill.parameters]
+    text = inspect.getdoc(type(skill)) or ""
+    return {"name": skill.name, "description": text, "parameters": parameters, "schema": skill.schema()}
+
+
+def skill_lines(skills: Mapping[str, Skill]) -> str:
+    """The skills as a prompt lists them, one a line: the first paragraph of the docstring."""
+    return "\n".join(f"- {_summary(skill)}" for skill in skills.values())
+
+
+def _summary(skill: Skill) -> str:
+    first = (inspect.getdoc(type(skill)) or skill.name).split("\n\n")[0]
+    return " ".join(first.split())

@@ -1,0 +1,1 @@
+"""The record of each request, and the queue that they wait in."""

@@ -1,0 +1,1 @@
+"""What always holds in the graph, and the draft that is checked."""

@@ -1,0 +1,1 @@
+"""The scene graph as a JSON document, and back (design, section 9)."""

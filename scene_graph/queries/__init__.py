@@ -1,0 +1,1 @@
+"""Questions to a snapshot: filters, ways, physical doors, the layout."""

@@ -1,0 +1,1 @@
+"""The immutable tables behind a snapshot, copied on write."""

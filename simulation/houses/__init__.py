@@ -1,0 +1,1 @@
+"""The house document: its fields, checks, colors and plane geometry (design, section 4)."""

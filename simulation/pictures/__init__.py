@@ -1,0 +1,1 @@
+"""Pictures of houses with the truth about them: for scoring and training."""

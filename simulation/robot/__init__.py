@@ -1,0 +1,1 @@
+"""The default robot: its body, camera, LiDAR and their noise."""

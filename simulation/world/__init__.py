@@ -1,0 +1,1 @@
+"""A house in the physics client: walls, things, people, and what happens to them."""

@@ -1,0 +1,1 @@
+"""Furniture as the hand meets it: boards, seats, containers."""

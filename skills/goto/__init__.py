@@ -1,0 +1,1 @@
+"""GOTO: to a room, a thing, a person, or through a door."""

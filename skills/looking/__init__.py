@@ -1,0 +1,1 @@
+"""Looking: at a place, around, and until perception confirms what was done."""

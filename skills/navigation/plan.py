@@ -1,0 +1,102 @@
+"""One plan of a drive: the goal chosen among several, the path to it, and the grid it was found on."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from skills.action import RobotContext
+from skills.geometry import Point2, Pose2
+from skills.navigation.grid import Grid
+from skills.navigation.local_map import draw_map
+from skills.navigation.pose import footprint_radius_m
+from skills.navigation.route import Routes, find_routes
+from skills.navigation.walls import Walls
+
+SAME_GOAL_M = 0.08
+SQUEEZE_M = 0.02
+"""So much closer, and slowly, the base passes what leaves no other way: the body is less wide than planned."""
+KEEP_GOAL_M = 0.3
+"""Credit of the goal chosen last, so that two equal goals do not take turns."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Goal:
+    """Where the base may end: a point of the robot's frame, perhaps a heading, and what choosing it costs extra."""
+
+    point: Point2
+    yaw_rad: float | None = None
+    cost_m: float = 0.0
+
+
+GoalSource = Callable[[Routes | None], Sequence[Goal]]
+"""Gives the goals in the robot's present frame.
+
+It is asked again at every replan: first with ``None``, for the extent of the map, then with the routes found on it.
+"""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Plan:
+    """Way points in ``frame`` from where the robot was at ``made_s`` to ``goal``, for a disc of ``radius_m``."""
+
+    frame: str
+    made_s: float
+    goal: Goal
+    path: tuple[Point2, ...]
+    grid: Grid
+    walls: Walls
+    radius_m: float
+
+
+def make_plan(
+    context: RobotContext, frame: str, pose: Pose2, goals: GoalSource, *, last: Goal | None, ignore: Collection[str]
+) -> Plan | None:
+    """The cheapest goal and the way there.
+
+    First with what the graph believes and with room for what the hand holds; then for the base alone, as most of what
+    stands around is lower than the hand; then with raw points, and of the graph only what they would not show; at last
+    with hardly any room to spare.
+    """
+    spots = [pose.point, *(goal.point for goal in goals(None))]
+    walls = Walls.of(context.snapshot, frame)
+    carrying_m, base_m = footprint_radius_m(context), context.limits.footprint_radius_m
+    bare_m = base_m - SQUEEZE_M
+    tries = dict.fromkeys([(True, carrying_m), (True, base_m), (False, base_m), (True, bare_m), (False, bare_m)])
+    for believe_furniture, radius_m in tries:
+        grid = draw_map(
+            context.snapshot,
+            frame,
+            context.surroundings.points(),
+            spots,
+            walls=walls,
+            stamp_s=context.stamp_s,
+            believe_furniture=believe_furniture,
+            ignore=ignore,
+        )
+        routes = find_routes(grid, pose.point, radius_m)
+        goal = _cheapest(routes, goals(routes), last)
+        if goal is not None and (path := routes.path_to(goal.point)):
+            return Plan(
+                frame=frame,
+                made_s=context.stamp_s,
+                goal=goal,
+                path=path,
+                grid=grid,
+                walls=walls,
+                radius_m=radius_m,
+            )
+    return None
+
+
+def _cheapest(routes: Routes, goals: Sequence[Goal], last: Goal | None) -> Goal | None:
+    if not goals:
+        return None
+    points = np.array([goal.point for goal in goals])
+    costs = routes.cost_at(points) + [goal.cost_m for goal in goals]
+    if last is not None:
+        costs -= np.where(np.hypot(*(points - last.point).T) < SAME_GOAL_M, KEEP_GOAL_M, 0.0)
+    best = int(np.argmin(costs))
+    return goals[best] if np.isfinite(costs[best]) else None

@@ -1,0 +1,87 @@
+"""The walls of a room as points, and obstacle points explained by them: the ranges' noise must not narrow a room."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from scene_graph.errors import FramesNotConnected
+from scene_graph.nodes import ROBOT_ID, DoorNode, DoorState, RoomNode, RoomStatus
+from scene_graph.snapshot import Snapshot
+from skills.geometry import Box2, Points, Pose2, boundary_distance_m, inside_polygon
+
+SKIN_M = 0.08
+"""Points this close to a wall that the graph knows are that wall, blurred by noise."""
+STEP_M = 0.05
+MIN_CORNERS = 3
+DOOR_DEPTH_M = 0.5
+BEYOND_M = 0.05
+"""By less than this nobody is beyond a wall: so well outlines and poses are known."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Walls:
+    """Points (N, 2) along the walls of a room, door gaps left out; none where no room stands."""
+
+    points: Points
+    tree: cKDTree | None
+
+    @classmethod
+    def of(cls, snapshot: Snapshot, frame: str) -> Walls:
+        """The walls of the room ``frame``, in its frame; none where a part of them was guessed."""
+        room = whole_room(snapshot, frame)
+        if room is None:
+            return cls(points=np.zeros((0, 2)), tree=None)
+        corners = np.array(room.polygon_m)
+        sides = zip(corners, np.roll(corners, -1, axis=0), strict=True)
+        points = np.concatenate([np.linspace(a, b, int(np.hypot(*(b - a)) / STEP_M) + 2) for a, b in sides])
+        for gap in door_gaps(snapshot, frame):
+            points = points[~gap.contains(points)]
+        return cls(points=points, tree=cKDTree(points) if len(points) else None)
+
+    def explain(self, points: Points) -> Points:
+        """``points`` (N, 2) without those that are a known wall, and the walls themselves."""
+        if self.tree is None or not len(points):
+            return points
+        far, _ = self.tree.query(points, distance_upper_bound=SKIN_M)
+        return np.concatenate([points[np.isinf(far)], self.points])
+
+
+def whole_room(snapshot: Snapshot, frame: str) -> RoomNode | None:
+    """The room ``frame`` if it was seen whole; the outline of any other is partly guessed."""
+    room = snapshot.get(frame)
+    if isinstance(room, RoomNode) and room.status is RoomStatus.PERMANENT and len(room.polygon_m) >= MIN_CORNERS:
+        return room
+    return None
+
+
+def door_gaps(snapshot: Snapshot, room: str) -> list[Box2]:
+    """Passages through the walls of ``room`` that are not closed, in its frame, a little deeper than the wall."""
+    gaps = []
+    for door in snapshot.of_type(DoorNode):
+        if door.rooms[0] == room and door.state is not DoorState.CLOSED:
+            pose = Pose2.of(snapshot.transform(room, door.id))
+            x_m, y_m = pose.apply(np.array([[0.0, 0.1 - DOOR_DEPTH_M]]))[0]
+            gaps.append(Box2(Pose2(float(x_m), float(y_m), pose.yaw_rad), door.width_m, 2 * DOOR_DEPTH_M))
+    return gaps
+
+
+def robot_beyond_m(snapshot: Snapshot) -> float:
+    """How far the robot is beyond the walls of the room that it hangs from: outdoors, or where nothing is measured yet.
+
+    0 inside, in the gap of a door that is not closed, and where the room was not seen whole.
+    """
+    room = whole_room(snapshot, snapshot.current_room or "")
+    if room is None:
+        return 0.0
+    try:
+        x_m, y_m, _ = (float(value) for value in snapshot.position(ROBOT_ID, room.id))
+    except FramesNotConnected:
+        return 0.0
+    at = np.array([[x_m, y_m]])
+    if inside_polygon(room.polygon_m, at)[0] or any(gap.contains(at)[0] for gap in door_gaps(snapshot, room.id)):
+        return 0.0
+    beyond_m = boundary_distance_m(room.polygon_m, (x_m, y_m))
+    return beyond_m if beyond_m > BEYOND_M else 0.0

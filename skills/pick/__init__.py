@@ -1,0 +1,1 @@
+"""PICK: taking hold of a thing."""

@@ -1,0 +1,1 @@
+"""PLACE: finding a free spot and putting down what the gripper holds."""

@@ -1,0 +1,1 @@
+"""The symbolic state that conditions and effects speak about."""

@@ -1,4 +1,5 @@
-# Everything runs in .venv, made on first use. PyBullet has no wheels past Python 3.11, and the code needs 3.11.
+# Everything runs in .venv, made on first use with Python 3.11, 3.12 or 3.13: the first that is there, or the one that
+# make install PYTHON=python3.13 names.
 SHELL := /bin/bash
 VENV  := .venv
 BIN   := $(VENV)/bin
@@ -44,9 +45,8 @@ $(STAMP): constraints.txt pyproject.toml
 	$(BIN)/python -m pip install --quiet --no-build-isolation --no-deps --editable .
 	@touch $@
 
-lock:            ## renew constraints.txt from pyproject.toml
-	$(BIN)/pip-compile --quiet --extra dev --generate-hashes --allow-unsafe --strip-extras \
-		--no-emit-index-url --no-emit-trusted-host --no-emit-find-links --no-header \
+lock:            ## renew constraints.txt from pyproject.toml, for all three Pythons and every system at once
+	$(BIN)/uv pip compile --quiet --universal --python-version 3.11 --extra dev --generate-hashes --no-header \
 		--output-file constraints.txt pyproject.toml
 
 clean:

@@ -22,6 +22,7 @@ from planner.models.exchange import host_of
 from planner.models.spec import ModelSpec, parse_spec
 
 PACKAGE = "majordomo"
+PYTHONS = ("3.11", "3.12", "3.13")
 IMPORTED = ("numpy", "scipy", "gtsam", "cv2", "onnxruntime", "filterpy", "igraph", "pybullet", "py_trees", "lark")
 """Libraries with compiled parts, or the first to break: being installed does not mean that they load."""
 REINSTALL = "run make install, or pip install --upgrade majordomo"
@@ -32,9 +33,9 @@ UNUSED = "none is configured: the command grammar answers alone"
 def python() -> Finding:
     """The interpreter's version."""
     version = platform.python_version()
-    if version.startswith("3.11."):
+    if version.startswith(tuple(f"{known}." for known in PYTHONS)):
         return Finding(name="python", text=version)
-    advice = "use Python 3.11, since pybullet has no wheels for later ones; make install finds or fetches it"
+    advice = f"use Python {' or '.join(PYTHONS)}, for which every library has wheels; make install finds or fetches one"
     return Finding(name="python", health=Health.BAD, text=version, advice=advice)
 
 

@@ -88,6 +88,23 @@ def test_a_library_that_does_not_load_is_named_instead_of_breaking_the_doctor_it
     assert found["text"] == f"{library} cannot be imported (broken on purpose)"
 
 
+@pytest.mark.parametrize(
+    ("version", "health"),
+    [
+        ("3.11.0", Health.WELL),
+        ("3.13.4", Health.WELL),
+        ("3.10.9", Health.BAD),
+        ("3.14.0", Health.BAD),
+        ("3.1.1", Health.BAD),
+    ],
+)
+def test_a_python_for_which_not_every_library_has_wheels_is_told(monkeypatch, version, health):
+    monkeypatch.setattr(machine.platform, "python_version", lambda: version)
+    found = machine.python()
+    assert (found.text, found.health) == (version, health)
+    assert ("3.11 or 3.12 or 3.13" in found.advice) == (health is Health.BAD)
+
+
 def test_a_library_that_is_missing_or_too_old_is_named():
     flaws = list(machine._versions(["numpy>=999", "no-such-library>=1", "rich>=1", 'pytest>=999; extra == "dev"']))
     assert len(flaws) == 2

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from scene_graph.nodes import NodeType
 
 _LISTED = 12
+"""Names that a message lists: one line or two of text."""
 
 
 def _list_names(wanted: str, available: Sequence[str]) -> str:
@@ -28,10 +29,6 @@ def _list_names(wanted: str, available: Sequence[str]) -> str:
 
 class SceneGraphError(Exception):
     """Base of everything this package raises on purpose."""
-
-
-class InvalidTransform(SceneGraphError, ValueError):
-    """Numbers that are no rigid transform."""
 
 
 class NodeNotFound(SceneGraphError, LookupError):

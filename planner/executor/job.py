@@ -10,10 +10,13 @@ from py_trees.common import Status
 
 from planner.tasks.tasks import ActionReport, StepStatus
 from scene_graph.errors import SceneGraphError
+from scene_graph.geometry.errors import InvalidTransform
 from skills.action import Action, Refusal, RobotContext
 from skills.failures import Evidence, Failure, FailureCode
 
 Watch = Callable[["Job"], Failure | None]
+UNFIT_GRAPH = (SceneGraphError, InvalidTransform)
+"""What an action raises when the graph lacks what it needs, or holds numbers that are no pose."""
 
 
 class JobState(StrEnum):
@@ -30,11 +33,11 @@ def actions_or_refusal(make: Callable[[], list[Action]], context: RobotContext) 
     """What ``make`` makes, or one action that fails with the reason when the graph lacks what it needs."""
     try:
         return make()
-    except SceneGraphError as error:
+    except UNFIT_GRAPH as error:
         return [Refusal(context, vanished("It", error))]
 
 
-def vanished(who: str, error: SceneGraphError) -> Failure:
+def vanished(who: str, error: SceneGraphError | InvalidTransform) -> Failure:
     """The failure of something that needed what the graph does not have (any more)."""
     message = f"{who} cannot be done: something that it needs is no longer on my map."
     return Failure(code=FailureCode.OBJECT_GONE, message=message, evidence=Evidence(observation=str(error)))
@@ -122,7 +125,7 @@ class Job:
         self.state = JobState.RUNNING
         try:
             tree.tick_once()
-        except SceneGraphError as error:
+        except UNFIT_GRAPH as error:
             self.fail(vanished(self.action, error))
             return
         open_ends = (i for i, action in enumerate(self._actions) if action.status is not Status.SUCCESS)

@@ -15,6 +15,7 @@ from scene_graph.snapshot import Snapshot
 _T = NodeType
 _RELATIVE_TOLERANCE = 1e-9
 _ABSOLUTE_TOLERANCE = 1e-12
+"""Rounding that a covariance gathers on its way through transforms."""
 
 # Source types and target types of every edge type; rt is listed by child, because the child decides, and so is what a
 # room is in.

@@ -28,6 +28,8 @@ def _on_floor(value: object) -> object:
     return (*value, 0.0) if len(value) == 2 else tuple(value)
 
 
+DECIMALS = 6
+"""Of meters and radians: coarser than rounding errors, so that reading and writing again changes nothing."""
 Identifier = Annotated[str, AfterValidator(_identifier)]
 Probability = Annotated[float, Field(ge=0.0, le=1.0)]
 Length = Annotated[float, Field(ge=0.0)]

@@ -9,6 +9,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from scene_graph.documents.document import DECIMALS
 from scene_graph.edges import Edge, EdgeType, HasIntentionEdge, RelationEdge
 from scene_graph.errors import UnknownLayer
 from scene_graph.geometry.se3 import SE3
@@ -35,7 +36,6 @@ from scene_graph.snapshot import Snapshot
 
 Frame = Literal["map", "room"]
 Record = dict[str, Any]
-_DECIMALS = 6  # micrometers; coarser than rounding errors, so that reading and writing again changes nothing
 _IDENTITY = SE3.identity()
 
 
@@ -274,4 +274,4 @@ def _rounded(numbers: Collection[float]) -> list[float]:
 
 
 def _rounded_number(number: float) -> float:
-    return round(float(number), _DECIMALS) + 0.0
+    return round(float(number), DECIMALS) + 0.0

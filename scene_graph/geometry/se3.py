@@ -13,7 +13,7 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from scene_graph.errors import InvalidTransform
+from scene_graph.geometry.errors import InvalidTransform
 from scene_graph.geometry.rotation import matrix_of, product, quaternion_of, rotate, sinc, skew, wrap_angle
 
 __all__ = ["SE3", "wrap_angle"]
@@ -21,6 +21,7 @@ __all__ = ["SE3", "wrap_angle"]
 Array = NDArray[np.float64]
 
 _SMALL_ANGLE = 0.1
+"""Below it the series, cut off after four terms, are exact in double precision, and the closed forms are not."""
 _ORTHONORMAL_TOLERANCE = 1e-6
 _UNIT_TOLERANCE = 8.0 * sys.float_info.epsilon
 

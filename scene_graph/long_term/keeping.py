@@ -32,11 +32,17 @@ from scene_graph.nodes import (
 )
 from scene_graph.snapshot import Snapshot
 
-LOST_EXISTENCE = 0.12
-"""Probability that a thing is where the hand had it, once the robot has been off: as for one that slipped away. It is
-recognized elsewhere the sooner.
-"""
 _ENDED = frozenset({IntentionStatus.DONE, IntentionStatus.FAILED})
+
+
+@dataclass(frozen=True, kw_only=True)
+class KeepingSettings:
+    """What is believed of a building while the robot is off."""
+
+    lost_existence: float = 0.12
+    """Probability that a thing is where the hand had it, once the robot has been off. Chosen: as for one that slipped
+    away, so that it is recognized elsewhere the sooner.
+    """
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -54,9 +60,9 @@ class TakenUp:
     dropped: tuple[tuple[str, str], ...]
 
 
-def rooms_to_keep(building: Snapshot) -> tuple[RoomParts, ...]:
+def rooms_to_keep(building: Snapshot, *, settings: KeepingSettings = KeepingSettings()) -> tuple[RoomParts, ...]:
     """All rooms that stand; what the robot holds is kept as missing in its room."""
-    settled = _with_empty_hand(building)
+    settled = _with_empty_hand(building, settings)
     rooms = [room for room in settled.of_type(RoomNode) if room.status is not RoomStatus.TEMPORARY]
     return tuple(_kept(cut_room(settled, room.id)) for room in rooms)
 
@@ -85,16 +91,17 @@ def held_in(building: Snapshot) -> str | None:
     return building.robot.holding if building.robot is not None else None
 
 
-def _with_empty_hand(building: Snapshot) -> Snapshot:
+def _with_empty_hand(building: Snapshot, settings: KeepingSettings) -> Snapshot:
     robot, room = building.robot, building.current_room
     held = building.get(robot.holding) if robot is not None and robot.holding is not None else None
     if robot is None or not isinstance(held, ObjectNode) or room is None:
         return building
     place = RtEdge(source=room, target=held.id, T_source_target=building.transform(room, held.id))
     old = [edge.key for edge in (*building.edges_to(held.id), *building.edges_from(held.id))]
+    existence = min(held.existence, settings.lost_existence)
     return building.evolve(
         put_nodes={
-            held.id: replace(held, state=ObjectState.MISSING, existence=min(held.existence, LOST_EXISTENCE)),
+            held.id: replace(held, state=ObjectState.MISSING, existence=existence),
             robot.id: replace(robot, holding=None),
         },
         put_edges={edge.key: edge for edge in (place, InEdge(source=held.id, target=room))},

@@ -7,7 +7,7 @@ from the root says by how much, and whoever asks for the metric layout gets the 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,16 +20,24 @@ from scene_graph.snapshot import Snapshot
 
 Array = NDArray[np.float64]
 
-_NEARLY_PARALLEL = 0.1  # tangent of half the angle between two walls, about 11 degrees
+
+@dataclass(frozen=True, kw_only=True)
+class LaidOutSettings:
+    """How shifted walls meet."""
+
+    nearly_parallel: float = 0.1
+    """Tangent of half the angle between two walls below which they make no corner. Chosen: about 11 degrees, where a
+    wall's shift would move the corner ten times as far.
+    """
 
 
-def laid_out(snapshot: Snapshot) -> Snapshot:
+def laid_out(snapshot: Snapshot, *, settings: LaidOutSettings = LaidOutSettings()) -> Snapshot:
     """The snapshot with shifted walls in their places, and corners and doors on them; itself when none is shifted.
 
     A door goes along with its wall but keeps its station: that was measured in the room, not from the wall's ends.
     Things in the room stay where they are.
     """
-    shifted = [element for room in snapshot.of_type(RoomNode) for element in _shifted_room(snapshot, room)]
+    shifted = [element for room in snapshot.of_type(RoomNode) for element in _shifted_room(snapshot, room, settings)]
     if not shifted:
         return snapshot
     return snapshot.evolve(
@@ -47,7 +55,7 @@ def inward_normals(polygon: Array) -> Array:
     return np.asarray(normals, dtype=np.float64)
 
 
-def shifted_polygon(polygon: Array, shifts_m: Array) -> Array:
+def shifted_polygon(polygon: Array, shifts_m: Array, *, settings: LaidOutSettings = LaidOutSettings()) -> Array:
     """(N, 2) corners after each wall, which starts at the corner of its index, was shifted by (N,) along its normal.
 
     Two walls meet in the corner between them: ``normal · displacement = shift`` for both. Where they are nearly
@@ -56,11 +64,11 @@ def shifted_polygon(polygon: Array, shifts_m: Array) -> Array:
     normals = inward_normals(polygon)
     pairs = np.stack([np.roll(normals, 1, axis=0), normals], axis=1)
     wanted = np.stack([np.roll(shifts_m, 1), shifts_m], axis=1)
-    displacement = np.linalg.pinv(pairs, rcond=_NEARLY_PARALLEL) @ wanted[:, :, None]
+    displacement = np.linalg.pinv(pairs, rcond=settings.nearly_parallel) @ wanted[:, :, None]
     return np.asarray(polygon + displacement[:, :, 0], dtype=np.float64)
 
 
-def _shifted_room(snapshot: Snapshot, room: RoomNode) -> Iterator[Node | RtEdge]:
+def _shifted_room(snapshot: Snapshot, room: RoomNode, settings: LaidOutSettings) -> Iterator[Node | RtEdge]:
     """The room, its walls and what hangs from them after the shifts; nothing for a room whose walls stay.
 
     A room too small for its shifts, in which a wall would turn around, stays as well.
@@ -70,7 +78,7 @@ def _shifted_room(snapshot: Snapshot, room: RoomNode) -> Iterator[Node | RtEdge]
     if len(shifts_m) != len(room.polygon_m) or not shifts_m.any():
         return
     measured = np.array(room.polygon_m)
-    shifted = shifted_polygon(measured, shifts_m)
+    shifted = shifted_polygon(measured, shifts_m, settings=settings)
     steps = inward_normals(measured) * shifts_m[:, None]
     if ((inward_normals(measured) * inward_normals(shifted)).sum(axis=1) < 0.0).any():
         return

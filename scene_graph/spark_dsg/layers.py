@@ -13,6 +13,8 @@ METADATA = "majordomo"
 """Key under which nodes, edges and the graph keep what the format has no field for."""
 NO_LABEL = 0xFFFFFFFF
 """``semantic_label`` of what has no label."""
+NS_PER_S = 1e9
+"""Times of the format are in nanoseconds."""
 _CATEGORY_BITS = 56
 
 

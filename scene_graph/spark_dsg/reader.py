@@ -14,18 +14,17 @@ from typing import Any
 
 from pydantic import ValidationError
 
+from scene_graph.documents.document import DECIMALS
 from scene_graph.documents.interchange import from_json
 from scene_graph.errors import SceneFormatError
 from scene_graph.identifiers import slug
 from scene_graph.nodes import ROBOT_ID, ROOT_ID, UNKNOWN_LABEL, NodeType
 from scene_graph.snapshot import Snapshot
 from scene_graph.spark_dsg.document import Attributes, Box, Document, Edge, Node, Quaternion
-from scene_graph.spark_dsg.layers import HEADER, HOMES, METADATA, Layer, index_of
+from scene_graph.spark_dsg.layers import HEADER, HOMES, METADATA, NS_PER_S, Layer, index_of
 
 Record = dict[str, Any]
 
-_DECIMALS = 6
-_NS_PER_S = 1e9
 _INHABITANTS = (NodeType.OBJECT, NodeType.PERSON, NodeType.ROBOT)
 _LISTED_NODE = re.compile(r"nodes\[(\d+)\]")
 
@@ -151,7 +150,7 @@ class _Reader:
         room = self._room_of(node.id)
         if record["id"] == ROBOT_ID:
             return record | {"type": "robot", "room": room, "yaw_rad": _yaw_rad(attributes.turned)}
-        seen_s = attributes.last_update_time_ns / _NS_PER_S
+        seen_s = attributes.last_update_time_ns / NS_PER_S
         told = {"type": "object", "label": self._label(node), "room": room, "last_seen_s": seen_s}
         return record | told | _extent(attributes)
 
@@ -261,5 +260,5 @@ def _yaw_rad(turned: Quaternion) -> float:
     """Of a turn about z twice the angle of (w, z), which keeps what was written; otherwise the heading of x."""
     w, x, y, z = turned.w, turned.x, turned.y, turned.z
     if x == 0.0 and y == 0.0:
-        return round(2.0 * math.atan2(z, w), _DECIMALS)
-    return round(math.atan2(2.0 * (x * y + w * z), 1.0 - 2.0 * (y * y + z * z)), _DECIMALS)
+        return round(2.0 * math.atan2(z, w), DECIMALS)
+    return round(math.atan2(2.0 * (x * y + w * z), 1.0 - 2.0 * (y * y + z * z)), DECIMALS)

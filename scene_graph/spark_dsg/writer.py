@@ -14,13 +14,12 @@ from typing import Any
 from scene_graph.documents.interchange import to_json
 from scene_graph.nodes import NodeType
 from scene_graph.snapshot import Snapshot
-from scene_graph.spark_dsg.layers import BUILDING, HEADER, HOMES, METADATA, NO_LABEL, VERSION, Home, symbol
+from scene_graph.spark_dsg.layers import BUILDING, HEADER, HOMES, METADATA, NO_LABEL, NS_PER_S, VERSION, Home, symbol
 
 Record = dict[str, Any]
 
 CARRIED = (*HOMES, NodeType.ROOT, NodeType.REGION)
 """Node types that come through; the root as the building, regions as metadata of the graph."""
-_NS_PER_S = 1e9
 _TOLD = ("position_m", "yaw_rad", "size_m")
 """Fields of a record that attributes hold; only rooms have no attribute for how they are turned."""
 
@@ -221,7 +220,7 @@ def _about_z(yaw_rad: float) -> Record:
 
 def _nanoseconds(stamp_s: float) -> int:
     """The format knows no time before zero."""
-    return max(0, round(stamp_s * _NS_PER_S))
+    return max(0, round(stamp_s * NS_PER_S))
 
 
 def _placed(number: int, home: Home, attributes: Record) -> Record:

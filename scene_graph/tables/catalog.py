@@ -9,6 +9,7 @@ from scene_graph.identifiers import natural_key
 from scene_graph.nodes import NodeType
 
 _BULK = 16
+"""Changes above which one sort costs less than inserting each; the outcome is the same."""
 
 
 class Catalog:

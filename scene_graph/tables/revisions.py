@@ -7,6 +7,7 @@ from typing import Generic, TypeVar
 
 K = TypeVar("K")
 _RECENT = 256
+"""Size of a full small table; larger ones make commits slow, smaller ones fold too often; answers are the same."""
 
 
 class Revisions(Generic[K]):

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from scipy.linalg import expm
 from scipy.spatial.transform import Rotation
 
-from scene_graph.errors import InvalidTransform
+from scene_graph.geometry.errors import InvalidTransform
 from scene_graph.geometry.rotation import skew
 from scene_graph.geometry.se3 import SE3, wrap_angle
 

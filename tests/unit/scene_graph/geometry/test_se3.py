@@ -3,7 +3,7 @@ import math
 import numpy as np
 import pytest
 
-from scene_graph.errors import InvalidTransform
+from scene_graph.geometry.errors import InvalidTransform
 from scene_graph.geometry.se3 import SE3, wrap_angle
 
 

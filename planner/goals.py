@@ -12,16 +12,25 @@ from enum import StrEnum
 from math import hypot
 
 from planner.errors import WrongArity
-from planner.surfaces import NEAR_M, surfaces_near
+from planner.surfaces import surfaces_near
 from scene_graph.errors import FramesNotConnected
 from scene_graph.nodes import ObjectNode, ObjectState, PersonNode
 from scene_graph.snapshot import Snapshot
 from skills.state.state import PlaceRelation, PlanState
 
-GIVEN_M = 1.6
-"""Something counts as given when it is out of the robot's hand and this close to the person, between extents."""
-FRESH_S = 5.0
-"""An object counts as seen *now* when it was seen this long ago or less."""
+
+@dataclass(frozen=True, kw_only=True)
+class GoalSettings:
+    """From when on goals count as true."""
+
+    near_m: float = 1.5
+    """Two things count as near each other when they are closer than this. Chosen: within two steps of a person."""
+    given_m: float = 1.6
+    """Something counts as given when it is out of the robot's hand and this close to the person, between extents.
+    Chosen: what a person reaches for with one step, and more than the arm's reach.
+    """
+    fresh_s: float = 5.0
+    """An object counts as seen *now* when it was seen this long ago or less. Chosen: a few frames' gap."""
 
 
 class Predicate(StrEnum):
@@ -102,7 +111,7 @@ def lasting(goals: Sequence[Goal]) -> tuple[Goal, ...]:
     return tuple(this for index, this in enumerate(goals) if not superseded(goals, index))
 
 
-def holds(goal: Goal, state: PlanState) -> bool:
+def holds(goal: Goal, state: PlanState, settings: GoalSettings = GoalSettings()) -> bool:
     """Whether ``goal`` is true in a symbolic state."""
     first, second = goal.args[0], goal.args[-1]
     match goal.predicate:
@@ -117,12 +126,14 @@ def holds(goal: Goal, state: PlanState) -> bool:
         case Predicate.GIVEN:
             return state.places.get(first) == (PlaceRelation.GIVEN, second)
         case Predicate.NEAR:
-            return first not in state.missing and _near(state, first, second)
+            return first not in state.missing and _near(state, first, second, settings.near_m)
         case Predicate.ON | Predicate.IN:
             return first not in state.missing and _placed(state, first, second)
 
 
-def holds_in(goal: Goal, snapshot: Snapshot, *, since_s: float | None = None) -> bool:
+def holds_in(
+    goal: Goal, snapshot: Snapshot, *, since_s: float | None = None, settings: GoalSettings = GoalSettings()
+) -> bool:
     """Whether the graph believes ``goal``. ``found``: the object was seen at or after ``since_s``."""
     first, second = goal.args[0], goal.args[-1]
     if any(arg not in snapshot for arg in goal.args):
@@ -132,19 +143,20 @@ def holds_in(goal: Goal, snapshot: Snapshot, *, since_s: float | None = None) ->
         return False
     match goal.predicate:
         case Predicate.FOUND:
-            threshold_s = snapshot.stamp_s - FRESH_S if since_s is None else since_s
+            threshold_s = snapshot.stamp_s - settings.fresh_s if since_s is None else since_s
             return isinstance(node, ObjectNode) and node.last_seen_s >= threshold_s
         case Predicate.GIVEN | Predicate.NEAR:
-            limit_m = GIVEN_M if goal.predicate is Predicate.GIVEN else NEAR_M
+            limit_m = settings.given_m if goal.predicate is Predicate.GIVEN else settings.near_m
             same_room = snapshot.room_of(first) == snapshot.room_of(second)
             return same_room and not _held(snapshot, first) and gap_m(snapshot, first, second) <= limit_m
-        case Predicate.ROBOT_AT if holds(goal, PlanState.from_snapshot(snapshot)):
+        case Predicate.ROBOT_AT if holds(goal, PlanState.from_snapshot(snapshot), settings):
             return True
         case Predicate.ROBOT_AT:
             here = snapshot.robot
-            return here is not None and second not in _rooms(snapshot) and gap_m(snapshot, here.id, second) <= NEAR_M
+            near = here is not None and gap_m(snapshot, here.id, second) <= settings.near_m
+            return near and second not in _rooms(snapshot)
         case _:
-            return holds(goal, PlanState.from_snapshot(snapshot))
+            return holds(goal, PlanState.from_snapshot(snapshot), settings)
 
 
 def _is_room(state: PlanState, node_id: str) -> bool:
@@ -161,13 +173,13 @@ def _placed(state: PlanState, object_id: str, place_id: str) -> bool:
     return place == place_id and relation is not PlaceRelation.GIVEN
 
 
-def _near(state: PlanState, first: str, second: str) -> bool:
+def _near(state: PlanState, first: str, second: str, near_m: float) -> bool:
     if first not in state.places:
         return False
     relation, place = state.places[first]
     if relation is PlaceRelation.GIVEN:
         return place == second
-    return place in surfaces_near(second, state)
+    return place in surfaces_near(second, state, near_m)
 
 
 def _held(snapshot: Snapshot, object_id: str) -> bool:

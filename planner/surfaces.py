@@ -6,15 +6,12 @@ from math import hypot, inf
 
 from skills.state.state import PlanState, Thing
 
-NEAR_M = 1.5
-"""Two things count as near each other when they are closer than this."""
 
-
-def surfaces_near(node_id: str, state: PlanState) -> tuple[str, ...]:
+def surfaces_near(node_id: str, state: PlanState, near_m: float) -> tuple[str, ...]:
     """Surfaces on which something stands next to ``node_id``, the nearest first.
 
     Next to a thing that stands on a table is on that table; next to a piece of furniture or a person is on any surface
-    within ``NEAR_M``, the furniture's own included. Nothing is next to what is held or lies on the floor.
+    within ``near_m``, the furniture's own included. Nothing is next to what is held or lies on the floor.
     """
     if node_id == state.holding or node_id not in state.world.things:
         return ()
@@ -23,7 +20,7 @@ def surfaces_near(node_id: str, state: PlanState) -> tuple[str, ...]:
         return (place[1],) if _is_surface(state.world.things[place[1]]) else ()
     thing = state.world.things[node_id]
     gaps = sorted((_gap_m(thing, other), other.id) for other in state.world.in_room(thing.room) if _is_surface(other))
-    close = tuple(surface for gap_m, surface in gaps if gap_m <= NEAR_M and surface not in state.missing)
+    close = tuple(surface for gap_m, surface in gaps if gap_m <= near_m and surface not in state.missing)
     return close if thing.support or thing.kind == "person" else close[:1]
 
 

@@ -8,8 +8,8 @@ from typing import Any
 
 from planner.explainer.explainer import plan_sentence
 from planner.goals import Goal
-from planner.grounding.naming import step_phrase
 from planner.language.grammar.parser import CommandGrammar
+from planner.naming import step_phrase
 from planner.plan import Dialogue, Impossible, Interpretation, Kind, Plan
 from planner.skill_planner.pddl import Problem, export
 from planner.skill_planner.replanner import Replanner

@@ -2,25 +2,25 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from planner.answers.comparing import COMPARING, Comparing
+from planner.answers.inventory import Inventory
 from planner.answers.reports import ABILITIES, REPORTED, Report, Reports
-from planner.grounding.grounding import Ambiguous, Context, Grounding, NoReferent
+from planner.answers.settings import AnswerSettings
+from planner.answers.subjects import Subjects, speaks_of_all
+from planner.answers.whereabouts import Whereabouts
+from planner.grounding.context import Context, Trouble
+from planner.grounding.grounding import Grounding
 from planner.grounding.matching import nodes_of
-from planner.grounding.naming import at, listed, name_of, plain_name
-from planner.grounding.narrowing import Narrowing
-from planner.grounding.openness import about_loss, about_openness, is_open, not_known, undecided, without_openness
-from planner.grounding.phrasing import article, describe, described, phrase_text, place_phrase, told_apart
-from planner.grounding.whereabouts import NOW_S, Whereabouts, capital
-from planner.language.grammar.syntax import Ask, NounPhrase, Pronoun, Quantity, Reference, Restriction
-from planner.language.lexicon.vocabulary import is_plural, singular
+from planner.grounding.openness import about_loss, about_openness, is_open, not_known, undecided
+from planner.grounding.phrasing import describe, phrase_text, place_phrase
+from planner.language.grammar.syntax import Ask, NounPhrase, Pronoun, Quantity
+from planner.language.lexicon.vocabulary import singular
+from planner.naming import at, capital, listed, name_of
 from planner.plan import Query, QueryKind
-from scene_graph.nodes import DoorNode, ObjectNode, ObjectState, PersonNode, RoomNode
-
-MAX_NAMED = 6
+from scene_graph.nodes import DoorNode, ObjectNode, PersonNode, RoomNode
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -38,14 +38,14 @@ class Answer:
 class Answers:
     """Answers ``Ask`` steps on one graph."""
 
-    def __init__(self, grounding: Grounding) -> None:
-        self._grounding = grounding
+    def __init__(self, grounding: Grounding, settings: AnswerSettings = AnswerSettings()) -> None:
+        self._grounding, self._settings = grounding, settings
         self._snapshot, self._state = grounding.snapshot, grounding.state
-        self._narrowing = Narrowing(grounding.snapshot, grounding.state, grounding)
-        self._reports, self._comparing = Reports(grounding), Comparing(grounding)
-        self._told = Whereabouts(grounding.snapshot, grounding.state)
+        self._subjects, self._inventory = Subjects(grounding), Inventory(grounding.snapshot, grounding.state, settings)
+        self._reports, self._comparing = Reports(grounding, settings), Comparing(grounding)
+        self._told = Whereabouts(grounding.snapshot, grounding.state, settings)
 
-    def of(self, ask: Ask, context: Context) -> Answer | NoReferent | Ambiguous:
+    def of(self, ask: Ask, context: Context) -> Answer | Trouble:
         """The answer, or why the question cannot be put to the graph."""
         nodes: tuple[str, ...] = ()
         if about_openness(ask) and isinstance(ask.things[0], Pronoun) and context.places:
@@ -54,91 +54,30 @@ class Answers:
             return self._reported(ask, context)
         match ask.kind:
             case QueryKind.ROBOT_ROOM:
-                text = self._robot_room()
+                text = self._inventory.robot_room()
             case QueryKind.ABILITIES:
                 text = ABILITIES
             case QueryKind.ROOMS:
-                text, nodes = self._rooms()
+                text, nodes = self._inventory.rooms()
             case QueryKind.SEEN:
-                text, nodes = self._seen()
+                text, nodes = self._inventory.seen()
             case QueryKind.HOLDING:
-                text, nodes = self._holding()
+                text, nodes = self._inventory.holding()
             case _:
-                found = self._found(ask, context)
+                found = self._subjects.found(ask, context)
                 if not isinstance(found, tuple):
                     return found
                 nodes = found
                 text = self._about(ask, found, context)
         query = Query(kind=ask.kind, nodes=nodes, phrase=_phrase(ask))
-        return Answer(text=text, query=query, holds=self._holds(ask, nodes, context))
+        return Answer(text=text, query=query, holds=self._subjects.holds(ask, nodes, context))
 
-    def _reported(self, ask: Ask, context: Context) -> Answer | NoReferent | Ambiguous:
+    def _reported(self, ask: Ask, context: Context) -> Answer | Trouble:
         told = (self._comparing if ask.kind in COMPARING else self._reports).of(ask, context)
         if not isinstance(told, Report):
             return told
         holds = told.text.startswith("Yes") if ask.kind is QueryKind.CAPABLE else None
         return Answer(text=told.text, query=Query(kind=ask.kind, nodes=told.nodes, phrase=_phrase(ask)), holds=holds)
-
-    def _holds(self, ask: Ask, found: Sequence[str], context: Context) -> bool | None:
-        """Whether it is so; None if that depends on doors that nobody has seen lately."""
-        if ask.kind not in (QueryKind.EXISTS, QueryKind.HOLDING):
-            return None
-        number = len([i for i in found if i not in self._state.missing])
-        at_most = number + len(self._undecided(ask, context))
-        so = {self._is_enough(ask, count, context) for count in (number, at_most)}
-        return None if len(so) > 1 else so.pop() != ask.negated
-
-    def _is_enough(self, ask: Ask, number: int, context: Context) -> bool:
-        """Whether ``number`` things are as many as the question speaks of."""
-        enough = (1 if ask.most is None else 0) if ask.least is None else ask.least
-        wanted = ask.things[0] if ask.things else None
-        if isinstance(wanted, NounPhrase) and wanted.quantity is Quantity.SOME:
-            enough = wanted.count or enough
-        if ask.place is not None and _speaks_of_all(wanted):
-            every = self._candidates(wanted, context)
-            enough = len(every) if isinstance(every, tuple) else enough
-        return number >= enough and (ask.most is None or number <= ask.most)
-
-    def _undecided(self, ask: Ask, context: Context) -> tuple[str, ...]:
-        """The doors and rooms that a question about openness cannot tell."""
-        if not about_openness(ask):
-            return ()
-        wanted = ask.things[0] if ask.things else None
-        every = self._candidates(without_openness(wanted) if isinstance(wanted, NounPhrase) else wanted, context)
-        return undecided(every, self._snapshot) if isinstance(every, tuple) else ()
-
-    def _found(self, ask: Ask, context: Context) -> tuple[str, ...] | NoReferent | Ambiguous:
-        """Everything the question is about, present or missing."""
-        found: dict[str, None] = {}
-        for reference in ask.things or (None,):
-            here = self._candidates(reference, context)
-            if not isinstance(here, tuple):
-                return here
-            if ask.place is not None:
-                lost = self._unknown_place(ask.place, context)
-                if lost is not None:
-                    return lost
-                here = tuple(self._narrowing.restricted(here, ask.place, context))
-            found.update(dict.fromkeys(here))
-        return tuple(found)
-
-    def _candidates(self, reference: Reference | None, context: Context) -> tuple[str, ...] | NoReferent | Ambiguous:
-        if isinstance(reference, NounPhrase) and reference.words == ("anything",):
-            reference = None
-        if reference is None:
-            return tuple(node.id for node in nodes_of(self._snapshot) if isinstance(node, ObjectNode | PersonNode))
-        if isinstance(reference, NounPhrase):
-            return self._grounding.matches(reference, context, fixed=True)
-        return self._grounding.things(reference, context)
-
-    def _unknown_place(self, place: Restriction, context: Context) -> NoReferent | None:
-        if isinstance(place.reference, NounPhrase) and self._narrowing.is_everywhere(place.reference):
-            return None
-        if place.reference is None or self._narrowing.targets(place, context):
-            return None
-        if isinstance(place.reference, NounPhrase):
-            return self._grounding.nothing(place.reference, context)
-        return NoReferent(reason="I do not know which place you mean.")
 
     def _about(self, ask: Ask, found: tuple[str, ...], context: Context) -> str:
         present = [i for i in found if i not in self._state.missing or about_loss(ask)]
@@ -158,7 +97,7 @@ class Answers:
                 return self._where(found, rooms_only=False) or self._none(ask, context)
 
     def _not_known(self, ask: Ask, context: Context) -> str:
-        return not_known(self._undecided(ask, context), self._snapshot)
+        return not_known(self._subjects.undecided(ask, context), self._snapshot)
 
     def _none(self, ask: Ask, context: Context) -> str:
         reference = ask.things[0] if ask.things else None
@@ -169,9 +108,11 @@ class Answers:
     def _where(self, found: Sequence[str], *, rooms_only: bool) -> str:
         you = self._grounding.speaker(Context())
         speaker = you[0] if isinstance(you, tuple) else None
-        told = [self._told.sentence(i, rooms_only=rooms_only, speaker=speaker) for i in found[:MAX_NAMED]]
-        if len(found) > MAX_NAMED:
-            told.append(f"I know of {len(found) - MAX_NAMED} more.")
+        told = [
+            self._told.sentence(i, rooms_only=rooms_only, speaker=speaker) for i in found[: self._settings.most_named]
+        ]
+        if len(found) > self._settings.most_named:
+            told.append(f"I know of {len(found) - self._settings.most_named} more.")
         return " ".join(told)
 
     def _count(self, ask: Ask, present: Sequence[str], found: Sequence[str]) -> str:
@@ -180,19 +121,23 @@ class Answers:
         lost = len(found) - number
         many = ("is", "it") if lost == 1 else ("are", "them")
         also = f", and {lost} more that {many[0]} not where I last saw {many[1]}"
-        names = f": {listed([describe(i, self._snapshot) for i in present[:MAX_NAMED]])}" if 0 < number <= 3 else ""
+        names = (
+            f": {listed([describe(i, self._snapshot) for i in present[: self._settings.most_named]])}"
+            if 0 < number <= 3
+            else ""
+        )
         return f"I know of {number or 'no'} {text}{also if lost else ''}{names}."
 
     def _list(self, ask: Ask, present: Sequence[str], context: Context) -> str:
-        shown = [i for i in present if i not in self._targets(ask, context)]
+        shown = [i for i in present if i not in self._subjects.targets(ask, context)]
         if not shown:
             return self._nothing(ask, context)
-        targets = self._targets(ask, context)
+        targets = self._subjects.targets(ask, context)
         if len(targets) > 1 and not ask.things:
             return self._by_place(shown, targets)
         if ask.things:
-            return f"{capital(listed([describe(i, self._snapshot) for i in shown[: 2 * MAX_NAMED]]))}."
-        return f"I have seen {self._inventory(shown)} there."
+            return f"{capital(listed([describe(i, self._snapshot) for i in shown[: 2 * self._settings.most_named]]))}."
+        return f"I have seen {self._inventory.of(shown)} there."
 
     def _nothing(self, ask: Ask, context: Context) -> str:
         """Nobody is there: who is elsewhere; of a thing that was to be described, where it is."""
@@ -201,7 +146,7 @@ class Answers:
         if ask.things:
             return f"I know of no {_phrase(ask)} there."
         things = self._state.world.things
-        carried = [i for i in self._targets(ask, context) if i in things and things[i].graspable]
+        carried = [i for i in self._subjects.targets(ask, context) if i in things and things[i].graspable]
         if carried and ask.place is not None and ask.place.relation == "at":
             return self._where(carried, rooms_only=False)
         return "I know of nothing there."
@@ -217,60 +162,51 @@ class Answers:
     def _by_place(self, shown: Sequence[str], targets: tuple[str, ...]) -> str:
         sentences = []
         for target in targets:
-            here = [i for i in shown if self._narrowing.is_at(i, target)]
-            sentences.append(f"{capital(at(target, self._snapshot))}: {self._inventory(here) if here else 'nothing'}.")
+            here = [i for i in shown if self._grounding.places.is_at(i, target)]
+            sentences.append(
+                f"{capital(at(target, self._snapshot))}: {self._inventory.of(here) if here else 'nothing'}."
+            )
         return " ".join(sentences)
-
-    def _targets(self, ask: Ask, context: Context) -> tuple[str, ...]:
-        return self._narrowing.targets(ask.place, context) if ask.place is not None else ()
-
-    def _inventory(self, nodes: Sequence[str]) -> str:
-        names = Counter(self._plain(i) for i in nodes)
-        return listed([article(name) if count == 1 else f"{count} × {name}" for name, count in names.items()])
-
-    def _plain(self, node_id: str) -> str:
-        node = self._snapshot.node(node_id)
-        if isinstance(node, ObjectNode):
-            return plain_name(node)
-        return described(node_id, self._snapshot)
 
     def _exists(self, ask: Ask, found: Sequence[str], context: Context) -> str:
         place = ask.place
         if place is not None and place.relation in ("state", "color"):
             return self._is_so(ask, found, context)
         if not ask.things:
-            shown = [i for i in found if i not in self._targets(ask, context)]
-            return f"No. I have seen {self._inventory(shown)} there." if shown else "Yes: I know of nothing there."
+            shown = [i for i in found if i not in self._subjects.targets(ask, context)]
+            return f"No. I have seen {self._inventory.of(shown)} there." if shown else "Yes: I know of nothing there."
         if ask.negated or ask.least is not None or ask.most is not None:
-            so = "Yes" if self._holds(ask, found, context) else "No"
+            so = "Yes" if self._subjects.holds(ask, found, context) else "No"
             return f"{so}. {self._where(found, rooms_only=False) or self._none(ask, context)}"
         if found and all(i in self._state.missing for i in found):
             return f"No. {self._where(found, rooms_only=False)}"
-        if found and not self._holds(ask, found, context):
+        if found and not self._subjects.holds(ask, found, context):
             return self._too_few(ask, found, context)
         if found:
             return f"Yes. {self._where(found, rooms_only=False)}"
         if ask.place is None:
             return f"No. {self._none(ask, context)}"
-        elsewhere = self._candidates(ask.things[0], context) if ask.things else ()
+        elsewhere = self._subjects.candidates(ask.things[0], context) if ask.things else ()
         rest = self._where(elsewhere, rooms_only=False) if isinstance(elsewhere, tuple) else ""
         return f"Not that I know of. {rest}".strip() if rest else f"No. {self._none(ask, context)}"
 
     def _too_few(self, ask: Ask, found: Sequence[str], context: Context) -> str:
         """*No*, with those that are elsewhere, of all; else with those there are."""
-        every = self._candidates(ask.things[0], context)
-        if not _speaks_of_all(ask.things[0]) or not isinstance(every, tuple):
+        every = self._subjects.candidates(ask.things[0], context)
+        if not speaks_of_all(ask.things[0]) or not isinstance(every, tuple):
             return f"No, I know of only {len(found)}. {self._where(found, rooms_only=False)}"
         return f"No. {self._where([i for i in every if i not in found], rooms_only=False)}"
 
     def _is_so(self, ask: Ask, found: Sequence[str], context: Context) -> str:
         """*The door is open*: the answer with what is so instead."""
         some = isinstance(ask.things[0], NounPhrase) and ask.things[0].quantity is Quantity.A
-        about = tuple(found) if some and found else self._candidates(ask.things[0], context)
-        told = " ".join(self._state_of(i) for i in about[:MAX_NAMED]) if isinstance(about, tuple) else ""
+        about = tuple(found) if some and found else self._subjects.candidates(ask.things[0], context)
+        told = (
+            " ".join(self._state_of(i) for i in about[: self._settings.most_named]) if isinstance(about, tuple) else ""
+        )
         if not told:
             return self._none(ask, context)
-        holds = self._holds(ask, found, context)
+        holds = self._subjects.holds(ask, found, context)
         return told if holds is None else f"{'Yes' if holds else 'No'}. {told}"
 
     def _state_of(self, node_id: str) -> str:
@@ -288,7 +224,7 @@ class Answers:
 
     def _colors(self, found: Sequence[str]) -> str:
         objects = [node for i in found if isinstance(node := self._snapshot.node(i), ObjectNode)]
-        return " ".join(self._color(node) for node in objects[:MAX_NAMED])
+        return " ".join(self._color(node) for node in objects[: self._settings.most_named])
 
     def _color(self, node: ObjectNode) -> str:
         thing = f"The {node.name or node.label.replace('_', ' ')} {place_phrase(node.id, self._snapshot)}"
@@ -296,47 +232,9 @@ class Answers:
             return f"{thing}: I could not tell its color."
         return f"{thing} is {node.color}{f', and partly {listed(list(node.accents))}' if node.accents else ''}."
 
-    def _robot_room(self) -> str:
-        room = self._snapshot.current_room
-        if room is None:
-            return "I do not know yet which room I am in."
-        if not self._snapshot.room(room).label:
-            return f"I am in {room}; I have no name for it."
-        return f"I am in {describe(room, self._snapshot)}."
-
-    def _rooms(self) -> tuple[str, tuple[str, ...]]:
-        rooms = tuple(node.id for node in nodes_of(self._snapshot) if isinstance(node, RoomNode))
-        if not rooms:
-            return "I do not know any room yet.", ()
-        names = told_apart(rooms, self._snapshot)
-        return f"I know {len(rooms)} room{'s' if len(rooms) > 1 else ''}: {listed(names)}.", rooms
-
-    def _seen(self) -> tuple[str, tuple[str, ...]]:
-        now = self._snapshot.stamp_s - NOW_S
-        objects = [node for node in nodes_of(self._snapshot) if isinstance(node, ObjectNode)]
-        fresh = tuple(node.id for node in objects if node.last_seen_s >= now and node.state is not ObjectState.MISSING)
-        if fresh:
-            return f"I see {self._inventory(fresh)}.", fresh
-        number = f"{len(objects)} object{'s' if len(objects) != 1 else ''}"
-        return f"I see no object right now. In all I know of {number}.", ()
-
-    def _holding(self) -> tuple[str, tuple[str, ...]]:
-        held = self._state.holding
-        if held is None:
-            return "I am holding nothing.", ()
-        return f"I am holding {name_of(held, self._snapshot)}.", (held,)
-
 
 def _also(told: str, more: str) -> str:
     return f"{told} {more}".strip()
-
-
-def _speaks_of_all(reference: Reference | None) -> bool:
-    """*All cups*, *both doors*, *the cups*."""
-    if not isinstance(reference, NounPhrase):
-        return False
-    several = is_plural(reference.words[-1]) if reference.words else False
-    return reference.quantity in (Quantity.ALL, Quantity.BOTH) or (reference.quantity is Quantity.THE and several)
 
 
 def _phrase(ask: Ask) -> str:

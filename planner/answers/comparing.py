@@ -6,13 +6,13 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from planner.answers.reports import Report, one_place
-from planner.grounding.grounding import Ambiguous, Context, Grounding, NoReferent
-from planner.grounding.naming import listed
-from planner.grounding.narrowing import Narrowing
+from planner.grounding.context import Context, Grounded, NoReferent, Trouble
+from planner.grounding.grounding import Grounding
+from planner.grounding.ordering import volume_m3
 from planner.grounding.phrasing import describe, phrase_text
-from planner.grounding.whereabouts import capital
 from planner.language.grammar.syntax import Ask, NounPhrase, Quantity, Reference
 from planner.language.lexicon.vocabulary import singular
+from planner.naming import capital, listed
 from planner.plan import QueryKind
 
 COMPARING = frozenset({QueryKind.MOST, QueryKind.MORE, QueryKind.COMPARE})
@@ -24,9 +24,8 @@ class Comparing:
     def __init__(self, grounding: Grounding) -> None:
         self._grounding = grounding
         self._snapshot, self._state = grounding.snapshot, grounding.state
-        self._narrowing = Narrowing(grounding.snapshot, grounding.state, grounding)
 
-    def of(self, ask: Ask, context: Context) -> Report | NoReferent | Ambiguous:
+    def of(self, ask: Ask, context: Context) -> Report | Trouble:
         """The answer, or why there is none."""
         match ask.kind:
             case QueryKind.MOST:
@@ -36,7 +35,7 @@ class Comparing:
             case _:
                 return self._compared(ask, context)
 
-    def _most(self, ask: Ask, context: Context) -> Report | NoReferent | Ambiguous:
+    def _most(self, ask: Ask, context: Context) -> Report | Trouble:
         """The places with the most or the fewest of something; places without any count for the fewest."""
         place, wanted = ask.things
         places = self._every(place, context)
@@ -50,7 +49,7 @@ class Comparing:
         chosen = [i for i in places if numbers[i] == best]
         return Report(text=self._told(chosen, best, wanted), nodes=tuple(chosen))
 
-    def _more(self, ask: Ask, context: Context) -> Report | NoReferent | Ambiguous:
+    def _more(self, ask: Ask, context: Context) -> Report | Trouble:
         """Which of two places has more of something."""
         wanted, *places = ask.things
         counted = self._counted(wanted, context)
@@ -67,7 +66,7 @@ class Comparing:
             lead = f"{'Yes' if not lead and ordered[0] == named[0] else 'No'}. {lead}"
         return Report(text=f"{lead}{capital('; '.join(told))}.", nodes=tuple(ordered))
 
-    def _compared(self, ask: Ask, context: Context) -> Report | NoReferent | Ambiguous:
+    def _compared(self, ask: Ask, context: Context) -> Report | Trouble:
         """Which of two things is bigger, smaller, nearer to the robot or farther, with *yes* or *no* if asked so."""
         found = [self._one(thing, context) for thing in ask.things]
         nodes = [each for each in found if isinstance(each, str)]
@@ -90,15 +89,15 @@ class Comparing:
     def _measure(self, node_id: str, word: str) -> float | None:
         if word in ("nearer", "farther"):
             return self._state.distance_m(self._state.robot_at, node_id)
-        return self._narrowing.volume_m3(node_id) or None
+        return volume_m3(node_id, self._snapshot) or None
 
-    def _every(self, reference: Reference, context: Context) -> tuple[str, ...] | NoReferent | Ambiguous:
+    def _every(self, reference: Reference, context: Context) -> Grounded:
         if not isinstance(reference, NounPhrase):
             return self._grounding.things(reference, context)
         found = self._grounding.matches(reference, context, fixed=True)
         return found or self._grounding.nothing(reference, context)
 
-    def _counted(self, wanted: Reference, context: Context) -> tuple[str, ...] | NoReferent | Ambiguous:
+    def _counted(self, wanted: Reference, context: Context) -> Grounded:
         """What is counted: of *things*, those that can be carried."""
         found = self._every(wanted, context)
         if not isinstance(found, tuple):
@@ -109,12 +108,12 @@ class Comparing:
             return tuple(i for i in present if i in things and things[i].graspable)
         return present
 
-    def _one(self, reference: Reference, context: Context) -> str | NoReferent | Ambiguous:
+    def _one(self, reference: Reference, context: Context) -> str | Trouble:
         known = replace(reference, quantity=Quantity.THE) if isinstance(reference, NounPhrase) else reference
         return one_place(self._grounding, known, context)
 
     def _number_at(self, place: str, counted: Sequence[str]) -> int:
-        return sum(self._narrowing.is_at(i, place) for i in counted)
+        return sum(self._grounding.places.is_at(i, place) for i in counted)
 
     def _told(self, places: Sequence[str], number: int, wanted: Reference) -> str:
         names = [self._called(i) for i in places]

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from planner.grounding.grounding import Ambiguous, Context, Grounding, NoReferent
-from planner.grounding.naming import listed, name_of
+from planner.answers.settings import AnswerSettings
+from planner.answers.whereabouts import Whereabouts, age_phrase
+from planner.grounding.context import Ambiguous, Context, Trouble
+from planner.grounding.grounding import Grounding
 from planner.grounding.phrasing import parts_unseen
-from planner.grounding.whereabouts import Whereabouts, age_phrase, capital
 from planner.language.grammar.syntax import Ask, Reference
+from planner.naming import capital, listed, name_of
 from planner.plan import Exchange, QueryKind
-from planner.skill_planner.object_search import SPEED_MPS
 from scene_graph.nodes import ObjectNode, PersonNode, RoomNode
 from scene_graph.queries.topology import Topology
 
@@ -30,11 +31,8 @@ REPORTED = frozenset(
 ABILITIES = (
     "I can go to places and people, find things, pick them up, put them somewhere, bring them, and answer questions."
 )
-HANDLING_S = 60.0
-"""Picking one thing up and putting it down, roughly."""
 MINUTE_S = 60.0
 NOTHING_YET = "I have done nothing yet."
-MAX_TOLD = 3
 UNDER_WAY = ("running", "paused", "planning", "queued")
 BEGUN = ("running", "paused", "succeeded", "failed", "cancelled")
 
@@ -47,7 +45,7 @@ class Report:
     nodes: tuple[str, ...] = ()
 
 
-def one_place(grounding: Grounding, reference: Reference, context: Context) -> str | NoReferent | Ambiguous:
+def one_place(grounding: Grounding, reference: Reference, context: Context) -> str | Trouble:
     """The one place, thing or person that a question is about."""
     found = grounding.place(reference, context)
     if not isinstance(found, tuple):
@@ -60,12 +58,12 @@ def one_place(grounding: Grounding, reference: Reference, context: Context) -> s
 class Reports:
     """Answers the kinds of ``REPORTED`` on one graph."""
 
-    def __init__(self, grounding: Grounding) -> None:
-        self._grounding = grounding
+    def __init__(self, grounding: Grounding, settings: AnswerSettings) -> None:
+        self._grounding, self._settings = grounding, settings
         self._snapshot, self._state = grounding.snapshot, grounding.state
-        self._told = Whereabouts(grounding.snapshot, grounding.state)
+        self._told = Whereabouts(grounding.snapshot, grounding.state, settings)
 
-    def of(self, ask: Ask, context: Context) -> Report | NoReferent | Ambiguous:
+    def of(self, ask: Ask, context: Context) -> Report | Trouble:
         """The answer, or why there is none."""
         nodes: list[str] = []
         for reference in ask.things:
@@ -103,13 +101,14 @@ class Reports:
             case QueryKind.NATURE:
                 return f"I am Majordomo, a robot that fetches and carries. {ABILITIES}"
             case QueryKind.WELL_BEING:
-                return f"I am fine, thank you. {self._battery()} {_told(QueryKind.DOING, context.earlier)}"
+                doing = _told(QueryKind.DOING, context.earlier, self._settings.most_told)
+                return f"I am fine, thank you. {self._battery()} {doing}"
             case QueryKind.SOURCE:
                 return "I say only what I have seen myself, and how long ago; things may have changed since."
             case QueryKind.ASKED:
                 return _sentence(context.earlier[0]) if context.earlier else "You have not asked me for anything yet."
             case _:
-                return _told(kind, context.earlier)
+                return _told(kind, context.earlier, self._settings.most_told)
 
     def _explored(self) -> str:
         """How far exploration has come; the robot goes on with it by itself."""
@@ -167,7 +166,7 @@ class Reports:
         node = self._snapshot.node(node_id)
         if not isinstance(node, ObjectNode | PersonNode):
             return Report(text="I note when I see things, not rooms.", nodes=(node_id,))
-        age = age_phrase(self._snapshot.stamp_s - node.last_seen_s)
+        age = age_phrase(self._snapshot.stamp_s - node.last_seen_s, self._settings)
         return Report(text=f"I saw {self._name_of(node_id)} {age}.", nodes=(node_id,))
 
     def _capable(self, node_id: str) -> Report:
@@ -202,10 +201,10 @@ class Reports:
             speaker = self._grounding.speaker(context)
             back_m = self._state.distance_m(node_id, speaker[0]) if isinstance(speaker, tuple) else way_m
             way_m = way_m + back_m if way_m is not None and back_m is not None else None
-            handling_s = HANDLING_S
+            handling_s = self._settings.handling_s
         if way_m is None:
             return Report(text=f"I know of no open way to {name}.", nodes=(node_id,))
-        seconds = way_m / SPEED_MPS + handling_s
+        seconds = way_m / self._settings.speed_mps + handling_s
         told = f"{seconds:.0f} seconds" if seconds < MINUTE_S else f"{seconds / MINUTE_S:.1f} minutes"
         doing = f"bring you {name}" if what == "fetch" else f"get to {name}"
         return Report(text=f"I would need about {told} to {doing}.", nodes=(node_id,))
@@ -229,7 +228,7 @@ class Reports:
         return name_of(node_id, self._snapshot)
 
 
-def _told(kind: QueryKind, earlier: tuple[Exchange, ...]) -> str:
+def _told(kind: QueryKind, earlier: tuple[Exchange, ...], most_told: int) -> str:
     if kind is QueryKind.DOING:
         busy = [e for e in earlier if e.status in UNDER_WAY]
         return " ".join(map(_sentence, busy[:1])) or "Nothing right now: I am waiting for your request."
@@ -237,7 +236,7 @@ def _told(kind: QueryKind, earlier: tuple[Exchange, ...]) -> str:
         failed = [e for e in earlier if e.status in ("failed", "refused", "cancelled")]
         return _sentence(failed[0]) if failed else "I have not failed at anything that I remember."
     begun = [e for e in earlier if e.status in BEGUN and e.goals]
-    return " ".join(map(_sentence, begun[:MAX_TOLD])) or NOTHING_YET
+    return " ".join(map(_sentence, begun[:most_told])) or NOTHING_YET
 
 
 def _sentence(exchange: Exchange) -> str:

@@ -7,7 +7,7 @@ from math import dist, sqrt
 from typing import Protocol
 
 from planner.controller.situation import ExpectedObject, Situation, is_missing, position_in, robot_jump_m, way
-from planner.grounding.naming import at, name_of, whereabouts
+from planner.naming import at, name_of, whereabouts
 from scene_graph.nodes import ROBOT_ID, DoorNode, DoorState, ObjectNode, ObjectState
 from skills.failures import Evidence, Failure, FailureCode
 

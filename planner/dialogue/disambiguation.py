@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
+from planner.dialogue.settings import DialogueSettings
 from planner.grounding.grounding import Grounding
 from planner.language.lexicon.lexicon import Lexicon
 from planner.language.lexicon.verbs import VERBS
@@ -20,22 +21,33 @@ _UNDECIDED = frozenset(
 )  # fmt: skip
 """Words that deny, join, ask or compare: nothing is chosen by a sentence with one of them."""
 _EMPTY = frozenset({"one", "ones", "thing", "things", "it", "that", "this", "these", "those", "place"})
-MAX_WORDS = 14
 
 
-def spoken_for(answer: str, candidates: Sequence[str], lexicon: Lexicon, grounding: Grounding) -> tuple[str, ...]:
+def the_one_described(
+    answer: str,
+    candidates: Sequence[str],
+    lexicon: Lexicon,
+    grounding: Grounding,
+    settings: DialogueSettings = DialogueSettings(),
+) -> tuple[str, ...]:
     """The one candidate that fits every color, thing, room and person in ``answer``; empty if there is not just one."""
-    fitting = left_by(answer, candidates, lexicon, grounding)
+    fitting = described(answer, candidates, lexicon, grounding, settings)
     return fitting if len(fitting) == 1 else ()
 
 
-def left_by(answer: str, candidates: Sequence[str], lexicon: Lexicon, grounding: Grounding) -> tuple[str, ...]:
+def described(
+    answer: str,
+    candidates: Sequence[str],
+    lexicon: Lexicon,
+    grounding: Grounding,
+    settings: DialogueSettings = DialogueSettings(),
+) -> tuple[str, ...]:
     """All candidates that fit every color, thing, room and person in ``answer``.
 
     An answer that acts, denies, joins or asks chooses nothing; nor does one that speaks of nothing that is known.
     """
     words = re.findall(r"[a-z']+", answer.casefold().replace("’", "'"))
-    if len(words) > MAX_WORDS or _UNDECIDED & set(words) or _ACTING & set(words):
+    if len(words) > settings.choice_words or _UNDECIDED & set(words) or _ACTING & set(words):
         return ()
     telling = [word for word in words if word not in _EMPTY and _tells(word, lexicon)]
     return tuple(i for i in candidates if all(_fits(word, i, grounding) for word in telling)) if telling else ()

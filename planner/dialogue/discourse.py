@@ -6,11 +6,12 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
 from planner.answers.answers import Answer, Answers
-from planner.dialogue.interpretation import Meant
 from planner.dialogue.meaning import Meaning
-from planner.grounding.grounding import Ambiguous, Context, Grounding, NoReferent
+from planner.dialogue.semantics import Semantics
+from planner.dialogue.settings import DialogueSettings
+from planner.grounding.context import Ambiguous, Context, NoReferent, Trouble
+from planner.grounding.grounding import Grounding
 from planner.grounding.phrasing import phrase_text, which_question
-from planner.grounding.sets import Trouble
 from planner.language.grammar.parser import Background, Choice, ParsedStep, Refrain, Understood
 from planner.language.grammar.syntax import Ask, Mention, NounPhrase, Pronoun, Quantity
 from scene_graph.nodes import RoomNode
@@ -31,19 +32,19 @@ class Stuck:
 class Discourse:
     """Grounds the steps of one request on one graph."""
 
-    def __init__(self, grounding: Grounding, context: Context) -> None:
+    def __init__(self, grounding: Grounding, context: Context, settings: DialogueSettings = DialogueSettings()) -> None:
         self._grounding, self._context = grounding, context
-        self._meaning, self._answers = Meaning(grounding), Answers(grounding)
+        self._semantics, self._answers = Semantics(grounding, settings), Answers(grounding, settings.answers)
 
-    def meanings(self, steps: Sequence[ParsedStep]) -> list[Meant] | Stuck:
+    def meanings(self, steps: Sequence[ParsedStep]) -> list[Meaning] | Stuck:
         """What every step means; a branch that is not taken means nothing."""
-        found: list[Meant] = []
+        found: list[Meaning] = []
         forbidden: list[Refrain] = []
         for step in steps:
             match step:
                 case Understood():
-                    outcome = self._meaning.of(step.readings, self._context)
-                    if not isinstance(outcome, Meant):
+                    outcome = self._semantics.of(step.readings, self._context)
+                    if not isinstance(outcome, Meaning):
                         return Stuck(step=step, trouble=outcome)
                     found.append(outcome)
                     self._context = carried_on(self._context, outcome)
@@ -64,20 +65,20 @@ class Discourse:
         trouble: Trouble | None = None
         context = self._context
         for is_place, readings in step.spoken:
-            outcomes = [self._meaning.of((reading,), context) for reading in readings]
-            meant = next((outcome for outcome in outcomes if isinstance(outcome, Meant)), None)
+            outcomes = [self._semantics.of((reading,), context) for reading in readings]
+            meant = next((outcome for outcome in outcomes if isinstance(outcome, Meaning)), None)
             if meant is not None and meant.things and not is_place:
                 things.append(meant.things)
                 context = replace(context, focus=self._room(meant.things) or context.focus)
             elif meant is not None:
                 context = carried_on(context, replace(meant, things=(), places=(*meant.places, *meant.things)))
-            elif outcomes and not isinstance(outcomes[0], Meant) and not is_place and _is_definite(readings):
+            elif outcomes and not isinstance(outcomes[0], Meaning) and not is_place and _is_definite(readings):
                 trouble = trouble or outcomes[0]
         if trouble is not None:
             return replace(context, unsettled=trouble)
         carried = [found for found in things if self._can_be_carried(found)] or things
         if len(carried) == 1:
-            return carried_on(context, Meant(things=carried[0]))
+            return carried_on(context, Meaning(things=carried[0]))
         if carried:
             found = tuple(i for each in carried for i in each)
             question = which_question("Which one do you mean", "it", found, self._grounding.snapshot)
@@ -93,7 +94,7 @@ class Discourse:
         things = self._grounding.state.world.things
         return all(i in things and things[i].graspable for i in found)
 
-    def _chosen(self, choice: Choice) -> list[Meant] | Stuck:
+    def _chosen(self, choice: Choice) -> list[Meaning] | Stuck:
         if choice.condition is None:
             before = self._context
             first = self.meanings(choice.then)
@@ -121,7 +122,7 @@ class Discourse:
             self._mention(choice.then)
         if branch:
             return self.meanings(branch)
-        return [Meant(answer=f"{_statement(answer.text)} So I do nothing.", query=answer.query)]
+        return [Meaning(answer=f"{_statement(answer.text)} So I do nothing.", query=answer.query)]
 
     def _settled(self, choice: Choice, answer: Answer) -> bool | Ambiguous:
         """Whether a condition holds; one on what nobody has seen lately is asked about."""
@@ -176,13 +177,13 @@ class Discourse:
         stated = (asked.place, *(thing.restrictions if isinstance(thing, NounPhrase) else ()))
         places = [i for where in stated if where is not None for i in self._grounding.targets(where, self._context)]
         if len(places) == 1:
-            self._context = carried_on(self._context, Meant(places=tuple(places)))
+            self._context = carried_on(self._context, Meaning(places=tuple(places)))
         if asked.things and isinstance(asked.things[0], NounPhrase):
             found = found or self._grounding.matches(asked.things[0], self._context)
             near = self._grounding.nearest(found) if asked.things[0].quantity in ("a", "bare") else found
-            self._context = carried_on(self._context, Meant(things=near, noun=nouns[-1] if nouns else ""))
+            self._context = carried_on(self._context, Meaning(things=near, noun=nouns[-1] if nouns else ""))
 
-    def _breach(self, step: Refrain, meanings: Sequence[Meant]) -> Stuck | None:
+    def _breach(self, step: Refrain, meanings: Sequence[Meaning]) -> Stuck | None:
         """What is forbidden is left undone; a rule about the way, or one that is broken, is asked about."""
         objects = {i for meant in meanings for goal in meant.goals for i in goal.args[:1]}
         for reading in step.readings:
@@ -201,7 +202,7 @@ def _is_definite(readings: Sequence[Mention]) -> bool:
     return any(isinstance(reading.thing, NounPhrase) and reading.thing.quantity in definite for reading in readings)
 
 
-def carried_on(context: Context, meant: Meant) -> Context:
+def carried_on(context: Context, meant: Meaning) -> Context:
     """The context for the next step."""
     moved = {i: place for i, place in meant.origins.items() if i not in context.fresh}
     return replace(

@@ -4,21 +4,30 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from planner.answers.reports import ABILITIES
 from planner.dialogue.discourse import Discourse, Stuck
 from planner.dialogue.follow_up import continued, place_asked
-from planner.dialogue.interpretation import Meant, without_steps_between
+from planner.dialogue.meaning import Meaning, without_steps_between
 from planner.dialogue.note_form import spelled_out
+from planner.dialogue.replies import (
+    Reading,
+    did_you_mean,
+    is_open,
+    not_understood_reply,
+    reply,
+    reply_to_trouble,
+    reply_when_stuck,
+    unable_reply,
+)
 from planner.dialogue.revision import Reviser, Revision, is_place, repair, restated, revision, thing_meant
-from planner.grounding.grounding import Ambiguous, Context, Grounding, NoReferent
+from planner.dialogue.settings import DialogueSettings
+from planner.grounding.context import Context
+from planner.grounding.grounding import Grounding
 from planner.grounding.matching import nouns_of
-from planner.grounding.naming import aim_phrase, listed, name_of
-from planner.grounding.sets import Trouble
 from planner.language.grammar.parser import (
     Background,
-    Choice,
     CommandGrammar,
     NotUnderstood,
     ParsedStep,
@@ -30,6 +39,7 @@ from planner.language.grammar.syntax import Ask, Perhaps, Wanted
 from planner.language.lexicon.lexicon import Lexicon
 from planner.language.lexicon.vocabulary import normal
 from planner.language.sentences.tokens import text_flaw
+from planner.naming import listed, name_of
 from planner.plan import Dialogue, Exchange, Interpretation, Kind
 from planner.skill_planner.flaws import shut_doors
 from planner.skill_planner.verifier import Verifier
@@ -47,24 +57,13 @@ DOUBT = "did you mean"
 """The phrase that is settled by *yes*."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class Reading:
-    """An interpretation, and what else is known of it.
-
-    ``wholly``: every word was understood, so that no language model needs to be asked. ``asked``: the phrase that the
-    question is about, when there are candidates for it.
-    """
-
-    interpretation: Interpretation
-    wholly: bool = True
-    asked: str = ""
-
-
 class Interpreter:
     """Interprets requests on a graph. Pure: the same text, graph and dialogue give the same interpretation."""
 
-    def __init__(self, grammar: CommandGrammar, verifier: Verifier) -> None:
-        self._grammar, self._verifier = grammar, verifier
+    def __init__(
+        self, grammar: CommandGrammar, verifier: Verifier, settings: DialogueSettings = DialogueSettings()
+    ) -> None:
+        self._grammar, self._verifier, self.settings = grammar, verifier, settings
         self._verbs = door_verbs(verifier.skills)
         self._lexicon: tuple[Snapshot, Lexicon] | None = None
         self._grounding: tuple[Snapshot, Grounding] | None = None
@@ -81,13 +80,13 @@ class Interpreter:
         """What ``text`` means; ``choices`` settles phrases that were asked about before; ``verbless`` as in _whole."""
         flaw = text_flaw(text)
         if flaw is not None:
-            return _reading(Kind.REFUSE, flaw)
-        about = revision(text)
+            return reply(Kind.REFUSE, flaw)
+        about = revision(text, self.settings)
         if about is not None and dialogue.earlier:
             revised = self._revised(about, snapshot, dialogue, choices or {})
             if revised is not None:
                 return revised
-        slip = repair(text)
+        slip = repair(text, self.settings)
         if slip is not None:
             repaired = self._repaired(*slip, snapshot, dialogue, choices or {})
             if repaired is not None:
@@ -109,17 +108,17 @@ class Interpreter:
         """
         steps = self._grammar.parse(text, self.lexicon(snapshot))
         if not verbless and not steps:
-            return _reading(Kind.CLARIFY, "Can you say it differently?", wholly=False)
+            return reply(Kind.CLARIFY, "Can you say it differently?", wholly=False)
         if not verbless and any(_is_verbless(step) for step in steps):
-            return _reading(Kind.CLARIFY, _not_understood_reply(list(flattened(steps))), wholly=False)
+            return reply(Kind.CLARIFY, not_understood_reply(list(flattened(steps))), wholly=False)
         if not steps:
-            return _reading(Kind.ANSWER, f"What can I do for you? {ABILITIES}")
+            return reply(Kind.ANSWER, f"What can I do for you? {ABILITIES}")
         every = list(flattened(steps))
         unable = [step for step in every if isinstance(step, Unable)]
         if unable:
-            return _reading(Kind.REFUSE, _unable_reply(unable, len(every)))
-        if any(isinstance(step, NotUnderstood) or _is_open(step) for step in every):
-            return _reading(Kind.CLARIFY, _not_understood_reply(every), wholly=False)
+            return reply(Kind.REFUSE, unable_reply(unable, len(every)))
+        if any(isinstance(step, NotUnderstood) or is_open(step) for step in every):
+            return reply(Kind.CLARIFY, not_understood_reply(every), wholly=False)
         choices = dict(choices or {})
         asked = [step for step in steps if not isinstance(step, Background)]
         if _PLEASE.search(text.casefold()) and all(map(_is_wish, asked)):
@@ -129,7 +128,10 @@ class Interpreter:
     def grounding(self, snapshot: Snapshot) -> Grounding:
         """References on ``snapshot``; those of the last graph asked for are kept."""
         if self._grounding is None or self._grounding[0] is not snapshot:
-            self._grounding = (snapshot, Grounding(snapshot, self._verifier.state(snapshot)))
+            self._grounding = (
+                snapshot,
+                Grounding(snapshot, self._verifier.state(snapshot), settings=self.settings.grounding),
+            )
         return self._grounding[1]
 
     def lexicon(self, snapshot: Snapshot) -> Lexicon:
@@ -150,7 +152,7 @@ class Interpreter:
                 return again
             return self.read(about.rest, snapshot, replace(dialogue, earlier=())) if about.how == "correct" else None
         about = replace(about, rest=thing_meant(about.rest))
-        reviser = Reviser(self.grounding(snapshot), _context(dialogue, choices, snapshot))
+        reviser = Reviser(self.grounding(snapshot), _context(dialogue, choices, snapshot), self.settings)
         if about.how == "again":
             return self.checked([reviser.again(earlier)], snapshot, choices)
         phrases = self._grammar.phrase(about.rest, lexicon) or self._grammar.phrase(f"the {about.rest} one", lexicon)
@@ -168,7 +170,7 @@ class Interpreter:
                 same = self._whole(f"{verb} {about.rest}", snapshot, dialogue, choices)
                 return same if same.interpretation.kind is Kind.PLAN else alone
             return self._restated(earlier.request, about.rest, snapshot, dialogue, choices) or alone
-        return self.checked([outcome], snapshot, choices) if isinstance(outcome, Meant) else _troubled(outcome)
+        return self.checked([outcome], snapshot, choices) if isinstance(outcome, Meaning) else reply_to_trouble(outcome)
 
     def _asked_again(
         self, request: str, rest: str, snapshot: Snapshot, dialogue: Dialogue, choices: Choices
@@ -209,7 +211,7 @@ class Interpreter:
     def _restated(
         self, said: str, rest: str, snapshot: Snapshot, dialogue: Dialogue, choices: Choices
     ) -> Reading | None:
-        for wording in restated(said, rest):
+        for wording in restated(said, rest, self.settings):
             reading = self._whole(wording, snapshot, dialogue, choices)
             asked = reading.interpretation.kind is Kind.ANSWER and reading.interpretation.query is not None
             if reading.interpretation.kind is Kind.PLAN or asked:
@@ -219,24 +221,24 @@ class Interpreter:
     def _ground(self, steps: Sequence[ParsedStep], snapshot: Snapshot, dialogue: Dialogue, choices: Choices) -> Reading:
         context = _context(dialogue, choices, snapshot)
         steps = spelled_out(steps, self.grounding(snapshot), context)
-        meanings = Discourse(self.grounding(snapshot), context).meanings(steps)
+        meanings = Discourse(self.grounding(snapshot), context, self.settings).meanings(steps)
         if isinstance(meanings, Stuck):
-            return _stuck(meanings, steps)
+            return reply_when_stuck(meanings, steps)
         return self.checked(meanings, snapshot, choices)
 
-    def checked(self, meanings: list[Meant], snapshot: Snapshot, choices: Choices) -> Reading:
+    def checked(self, meanings: list[Meaning], snapshot: Snapshot, choices: Choices) -> Reading:
         """What steps mean together, if the verifier finds no flaw; what was not said as a request is asked about."""
         found = self._checked(meanings, snapshot)
         if meanings and all(meant.told for meant in meanings):
             said = listed([name_of(i, snapshot) for meant in meanings for i in meant.things or meant.places])
-            return _reading(Kind.CLARIFY, f"What shall I do with {said}?")
+            return reply(Kind.CLARIFY, f"What shall I do with {said}?")
         doubtful = found.kind is Kind.PLAN or found.lessons
         if doubtful and any(meant.doubt for meant in meanings) and DOUBT not in choices:
-            asked = Interpretation(kind=Kind.CLARIFY, reply=_did_you_mean(found, snapshot), mentioned=found.mentioned)
+            asked = Interpretation(kind=Kind.CLARIFY, reply=did_you_mean(found, snapshot), mentioned=found.mentioned)
             return Reading(interpretation=asked, asked=DOUBT)
         return Reading(interpretation=found)
 
-    def _checked(self, meanings: list[Meant], snapshot: Snapshot) -> Interpretation:
+    def _checked(self, meanings: list[Meaning], snapshot: Snapshot) -> Interpretation:
         goals = without_steps_between(meanings, self._verifier.state(snapshot))
         answers = " ".join([*(meant.answer for meant in meanings if meant.answer), *_waiting(meanings)])
         mentioned = tuple(dict.fromkeys(i for meant in reversed(meanings) for i in (*meant.things, *meant.places)))
@@ -264,7 +266,7 @@ def door_verbs(skills: Mapping[str, Skill]) -> frozenset[str]:
     return frozenset(verb for verb in found if verb.isalpha())
 
 
-def _waiting(meanings: Sequence[Meant]) -> list[str]:
+def _waiting(meanings: Sequence[Meaning]) -> list[str]:
     """What is said of *wait there*: it is done at the end, and declined between other things."""
     told = [meant.waiting for meant in meanings if meant.waiting]
     last = bool(meanings) and bool(meanings[-1].waiting)
@@ -291,10 +293,6 @@ def _is_verbless(step: ParsedStep) -> bool:
     )
 
 
-def _is_open(step: ParsedStep) -> bool:
-    return isinstance(step, Choice) and step.condition == ()
-
-
 def _context(dialogue: Dialogue, choices: Choices, snapshot: Snapshot) -> Context:
     spoken = [node for i in dialogue.mentioned if isinstance(node := snapshot.get(i), ObjectNode)]
     return Context(
@@ -307,70 +305,3 @@ def _context(dialogue: Dialogue, choices: Choices, snapshot: Snapshot) -> Contex
         last=dialogue.last,
         displaced=dialogue.displaced,
     )
-
-
-def _stuck(stuck: Stuck, steps: Sequence[ParsedStep]) -> Reading:
-    trouble = stuck.trouble
-    if isinstance(trouble, NoReferent):
-        reason = _whole(trouble.reason, stuck.step, steps)
-        trouble = replace(trouble, reason=reason, sought=trouble.sought if _is_deed(stuck.step) else "")
-    return _troubled(trouble)
-
-
-def _is_deed(step: ParsedStep) -> bool:
-    """Whether something is to be done, and not only to be told."""
-    return isinstance(step, Understood) and not any(isinstance(reading, Ask) for reading in step.readings)
-
-
-def _troubled(trouble: Trouble) -> Reading:
-    """A question or a refusal."""
-    if isinstance(trouble, Ambiguous):
-        question, candidates, asked = trouble.question, trouble.candidates, trouble.phrase
-        found = Interpretation(kind=Kind.CLARIFY, reply=question, candidates=candidates, asked=asked)
-        return Reading(interpretation=found, asked=asked)
-    kind = Kind.CLARIFY if trouble.asks else Kind.REFUSE
-    found = Interpretation(kind=kind, reply=trouble.reason, sought=trouble.sought if kind is Kind.REFUSE else "")
-    return Reading(interpretation=found, wholly=not trouble.unknown)
-
-
-def _did_you_mean(found: Interpretation, snapshot: Snapshot) -> str:
-    if found.lessons:
-        lesson = found.lessons[0]
-        return f"Shall I call {name_of(lesson.node, snapshot)} “{lesson.label or lesson.name}” from now on?"
-    return f"Did you mean: {listed([aim_phrase(goal, snapshot) for goal in found.goals])}?"
-
-
-def _reading(kind: Kind, reply: str, *, wholly: bool = True) -> Reading:
-    return Reading(interpretation=Interpretation(kind=kind, reply=reply), wholly=wholly)
-
-
-def _unable_reply(unable: Sequence[Unable], count: int) -> str:
-    verbs = listed(list(dict.fromkeys(step.verb for step in unable)))
-    words = listed([f"“{_short(step.text)}”" for step in unable])
-    rest = " I have not started on the rest either." if count > len(unable) else ""
-    return f"I cannot {verbs}, so I cannot do {words}.{rest} {ABILITIES}"
-
-
-def _not_understood_reply(steps: Sequence[ParsedStep]) -> str:
-    clear = [f"“{step.text}”" for step in steps if isinstance(step, Understood)]
-    unclear = [
-        f"“{_short(step.text)}”{_at(step)}" for step in steps if isinstance(step, NotUnderstood) or _is_open(step)
-    ]
-    lead = (
-        f"I understood {listed(clear)}, but not {listed(unclear)}."
-        if clear
-        else f"I do not understand {listed(unclear)}."
-    )
-    return f"{lead} I have done nothing. Can you say it differently?"
-
-
-def _at(step: ParsedStep) -> str:
-    return f" because of “{step.at}”" if isinstance(step, NotUnderstood) and step.at else ""
-
-
-def _short(text: str) -> str:
-    return text if len(text) <= 120 else f"{text[:117]}..."
-
-
-def _whole(reason: str, step: ParsedStep, steps: Sequence[ParsedStep]) -> str:
-    return reason if len(steps) == 1 else f"{reason} So I cannot do “{_short(step.text)}”, and have not started."

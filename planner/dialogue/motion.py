@@ -2,23 +2,23 @@
 
 from __future__ import annotations
 
-from planner.dialogue.interpretation import Meant
+from planner.dialogue.meaning import Meaning
 from planner.goals import Goal, Predicate
-from planner.grounding.grounding import Ambiguous, Context, Grounding, NoReferent
-from planner.grounding.naming import at, name_of
+from planner.grounding.context import Ambiguous, Context, NoReferent, Trouble
+from planner.grounding.grounding import Grounding
 from planner.grounding.phrasing import parts_unseen
-from planner.grounding.sets import Trouble
 from planner.language.grammar.syntax import Go, Operate
+from planner.naming import at, name_of
 from scene_graph.nodes import DoorNode, ObjectNode, RegionNode, RoomNode
 
 
-class Going:
+class Motion:
     """Gives steps about the robot's own place, and about doors, their meaning on one graph."""
 
     def __init__(self, grounding: Grounding) -> None:
         self._grounding, self._snapshot, self._state = grounding, grounding.snapshot, grounding.state
 
-    def to(self, step: Go, context: Context) -> Meant | Trouble:
+    def to(self, step: Go, context: Context) -> Meaning | Trouble:
         """Being at a place, and what comes of waiting there."""
         before = context.places[:1] or ((self._state.robot_room,) if self._state.robot_room is not None else ())
         found = self._grounding.place(step.target, context) if step.target is not None else before
@@ -35,7 +35,7 @@ class Going:
         stays_on = step.stays and context.places[:1] == (place,)
         goals = () if stays_on else (Goal(predicate=Predicate.ROBOT_AT, args=(place,)),)
         waiting = self._waiting(place) if step.stays else ""
-        return Meant(goals=goals, places=(place,), things=things, focus=focus, waiting=waiting)
+        return Meaning(goals=goals, places=(place,), things=things, focus=focus, waiting=waiting)
 
     def _waiting(self, place: str) -> str:
         """What comes of *wait there*: nothing takes the robot away but exploring, if that is not over."""
@@ -44,7 +44,7 @@ class Going:
             return f"I cannot wait {where}: there is more of the building to explore, and I go on with that."
         return f"I stay {where} until I am asked for something else."
 
-    def operated(self, step: Operate, context: Context) -> Meant | Trouble:
+    def operated(self, step: Operate, context: Context) -> Meaning | Trouble:
         """A door that is open, by the skill of an installed package."""
         found = self._grounding.place(step.thing, context)
         if not isinstance(found, tuple):
@@ -52,7 +52,7 @@ class Going:
         other = next((i for i in found if not isinstance(self._snapshot.get(i), DoorNode)), None)
         if other is not None:
             return NoReferent(reason=f"I can {step.verb} doors only, and not {name_of(other, self._snapshot)}.")
-        return Meant(goals=tuple(Goal(predicate=Predicate.OPEN, args=(i,)) for i in found), places=found)
+        return Meaning(goals=tuple(Goal(predicate=Predicate.OPEN, args=(i,)) for i in found), places=found)
 
     def _rooms_of(self, node_id: str) -> tuple[str, ...]:
         """A region's rooms; any other node itself."""

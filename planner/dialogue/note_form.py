@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from planner.grounding.grounding import Context, Grounding
+from planner.grounding.context import Context
+from planner.grounding.grounding import Grounding
 from planner.language.grammar.parser import ParsedStep, Understood
 from planner.language.grammar.syntax import Carry, Destination, NounPhrase, Perhaps, Reference, Wanted
 

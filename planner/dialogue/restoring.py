@@ -2,28 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
-from planner.dialogue.interpretation import Meant
-from planner.goals import Goal, Predicate
-from planner.grounding.grounding import Ambiguous, Context, Grounding, NoReferent
-from planner.grounding.naming import name_of
-from planner.grounding.plural_pronouns import moved
-from planner.grounding.sets import Gathering, Trouble
+from planner.dialogue.carrying import placing_predicate
+from planner.dialogue.meaning import Meaning
+from planner.goals import Goal
+from planner.grounding.context import Ambiguous, Context, Grounded, NoReferent, Trouble
+from planner.grounding.grounding import Grounding
+from planner.grounding.pronouns import moved
+from planner.grounding.sets import ReferenceSets
 from planner.language.grammar.syntax import Pronoun, PutBack, Reference
+from planner.naming import name_of
 
 
-class Returning:
-    """Gives ``PutBack`` its meaning; ``predicate`` says what putting something to a place means there."""
+class Restoring:
+    """Gives ``PutBack`` its meaning."""
 
-    def __init__(self, grounding: Grounding, gathering: Gathering, predicate: Callable[[str, str], Predicate]) -> None:
-        self._snapshot, self._state = grounding.snapshot, grounding.state
-        self._gathering, self._predicate = gathering, predicate
+    def __init__(self, grounding: Grounding, sets: ReferenceSets) -> None:
+        self._grounding, self._snapshot, self._sets = grounding, grounding.snapshot, sets
 
-    def of(self, step: PutBack, context: Context) -> Meant | Trouble:
+    def of(self, step: PutBack, context: Context) -> Meaning | Trouble:
         """The things at the places that they were moved from."""
         things = _moved_last(step.things, context) or self._moved_before(
-            self._gathering.to_carry(step.things, context), context
+            self._sets.to_carry(step.things, context), context
         )
         if not isinstance(things, tuple):
             return things
@@ -33,21 +32,12 @@ class Returning:
             return NoReferent(reason=f"I do not remember that I moved {name}. Tell me where to put it.")
         places = tuple(context.origins[i] for i in things)
         goals = tuple(
-            Goal(predicate=self._predicate("to", place), args=(i, place))
+            Goal(predicate=placing_predicate("to", place, self._grounding), args=(i, place))
             for i, place in zip(things, places, strict=True)
         )
-        return Meant(goals=goals, things=things, places=places)
+        return Meaning(goals=goals, things=things, places=places)
 
-    def among(
-        self, places: Ambiguous, things: tuple[str, ...] | Trouble, context: Context
-    ) -> tuple[str, ...] | Ambiguous:
-        """*Back on the shelf*: of several shelves, the one that the things were on, or of several rooms, were in."""
-        origins = {context.origins.get(i) for i in things} if isinstance(things, tuple) else set()
-        rooms = {self._state.room_of(origin) for origin in origins if origin is not None}
-        before = tuple(i for i in places.candidates if i in origins or i in rooms)
-        return before if len(before) == 1 and None not in origins else places
-
-    def _moved_before(self, found: tuple[str, ...] | Trouble, context: Context) -> tuple[str, ...] | Trouble:
+    def _moved_before(self, found: Grounded, context: Context) -> Grounded:
         """Of several that are asked about, the one that was moved is what is put back."""
         if not isinstance(found, Ambiguous):
             return found

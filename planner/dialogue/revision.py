@@ -6,10 +6,13 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from planner.dialogue.interpretation import Meant
-from planner.dialogue.meaning import Meaning, Outcome
+from planner.dialogue.carrying import placing_predicate
+from planner.dialogue.meaning import Meaning
+from planner.dialogue.semantics import Outcome, Semantics
+from planner.dialogue.settings import DialogueSettings
 from planner.goals import PLACING, Goal, Predicate
-from planner.grounding.grounding import Context, Grounding
+from planner.grounding.context import Context
+from planner.grounding.grounding import Grounding
 from planner.language.grammar.syntax import Carry, NounPhrase, Pronoun, Step
 from planner.language.lexicon.vocabulary import COLORS, normal
 from planner.language.lexicon.words import NUMBERS
@@ -145,13 +148,10 @@ _COLORED = re.compile(
 """*The red cup, sorry, the blue one, to Ben*: only the color is taken back."""
 _RENAMED = re.compile(r"^(?:the|my|an?|his|her) (?:\w+ ){1,2}(?P<noun>\w+)$")
 """*The green folder to Victor, correction, the red folder*: the thing of that name is another one."""
-MAX_REPLACED = 5
 _WHERE = frozenset({"to", "on", "onto", "in", "into", "at", "under", "beside", "near", "next", "by", "for"})
 """Words that a remark may stand for."""
 _DETERMINERS = frozenset({"the", "a", "an", "my", "our", "your", "his", "her", "their", "this", "that", "these",
                           "those", "all", "both", "every", "each", "some", "any", "another"})  # fmt: skip
-MAX_CHARACTERS = 200
-"""Remarks are short."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -162,10 +162,10 @@ class Revision:
     rest: str = ""
 
 
-def revision(text: str) -> Revision | None:
+def revision(text: str, settings: DialogueSettings = DialogueSettings()) -> Revision | None:
     """The remark that ``text`` is, if it is one; ``rest`` may still turn out to be a request of its own."""
     said = _THANKED.sub("", " ".join(text.casefold().replace("’", "'").split()))
-    if len(said) > MAX_CHARACTERS:
+    if len(said) > settings.remark_characters:
         return None
     if _AGAIN.match(said):
         return Revision(how="again")
@@ -181,12 +181,12 @@ def revision(text: str) -> Revision | None:
     return None
 
 
-def repair(text: str) -> tuple[str, str] | None:
+def repair(text: str, settings: DialogueSettings = DialogueSettings()) -> tuple[str, str] | None:
     """What was said and what was meant instead, in one request: *bring me the cup, no sorry, the book*."""
     said = " ".join(text.casefold().replace("’", "'").split())
     found = (
         next(filter(None, (p.match(said) for p in (_BARE, _REPAIR, _NAMED_LAST, _RESUMED))), None)
-        if len(said) <= MAX_CHARACTERS
+        if len(said) <= settings.remark_characters
         else None
     )
     if found is None:
@@ -205,7 +205,7 @@ def is_place(rest: str) -> bool:
     return rest.split(maxsplit=1)[0] in _WHERE
 
 
-def restated(said: str, rest: str) -> Iterator[str]:
+def restated(said: str, rest: str, settings: DialogueSettings = DialogueSettings()) -> Iterator[str]:
     """``said`` with its last words replaced by ``rest``, the fewest first; *just* begins anew."""
     words = said.split()
     if rest in NUMBERS or rest.isdecimal():
@@ -226,7 +226,7 @@ def restated(said: str, rest: str) -> Iterator[str]:
     counted = _COUNTED.match(rest)
     if counted:
         yield re.sub(_AMOUNT, counted["amount"], said, count=1) + counted["more"].replace(",", "", 1)
-    for kept in range(len(words) - 1, max(len(words) - MAX_REPLACED - 1, -1), -1):
+    for kept in range(len(words) - 1, max(len(words) - settings.most_replaced - 1, -1), -1):
         if _sort_of(words[kept]) == _sort_of(rest.split(maxsplit=1)[0]):
             yield " ".join([*words[:kept], rest])
 
@@ -241,11 +241,11 @@ def _sort_of(word: str) -> str:
 class Reviser:
     """Applies remarks to an earlier request on one graph."""
 
-    def __init__(self, grounding: Grounding, context: Context) -> None:
+    def __init__(self, grounding: Grounding, context: Context, settings: DialogueSettings = DialogueSettings()) -> None:
         self._grounding, self._context = grounding, context
-        self._snapshot, self._meaning = grounding.snapshot, Meaning(grounding)
+        self._snapshot, self._semantics = grounding.snapshot, Semantics(grounding, settings)
 
-    def again(self, earlier: Exchange) -> Meant:
+    def again(self, earlier: Exchange) -> Meaning:
         """The same goals once more."""
         return self._meant(earlier.goals)
 
@@ -265,7 +265,7 @@ class Reviser:
             for phrase in phrases:
                 if phrase.words == ("one",) or self._alike(phrase, old[0]):
                     outcome = self._replaced(phrase, old, earlier, context, as_object=old is objects)
-                    if isinstance(outcome, Meant):
+                    if isinstance(outcome, Meaning):
                         return outcome
                     troubles.append(outcome)
         return troubles[0] if troubles else None
@@ -280,7 +280,7 @@ class Reviser:
         )
         if len(objects) != 1 or not fitting:
             return None
-        return self._meaning.of(fitting, replace(self._context, fresh=objects))
+        return self._semantics.of(fitting, replace(self._context, fresh=objects))
 
     def _replaced(
         self, phrase: NounPhrase, old: tuple[str, ...], earlier: Exchange, context: Context, *, as_object: bool
@@ -299,7 +299,7 @@ class Reviser:
 
     def _changed(self, goal: Goal, old: str, new: str, *, as_object: bool) -> Goal:
         placed = goal.predicate in PLACING and not as_object
-        predicate = self._meaning.predicate("to", new) if placed else goal.predicate
+        predicate = placing_predicate("to", new, self._grounding) if placed else goal.predicate
         return Goal(predicate=predicate, args=tuple(new if arg == old else arg for arg in goal.args))
 
     def _alike(self, phrase: NounPhrase, old: str) -> bool:
@@ -317,7 +317,7 @@ class Reviser:
             return "person"
         return normal(node.label) if isinstance(node, ObjectNode | RoomNode) else "thing"
 
-    def _meant(self, goals: tuple[Goal, ...]) -> Meant:
+    def _meant(self, goals: tuple[Goal, ...]) -> Meaning:
         things = tuple(dict.fromkeys(goal.args[0] for goal in goals if goal.object_id is not None))
         places = tuple(dict.fromkeys(goal.args[-1] for goal in goals if goal.object_id is None or len(goal.args) > 1))
-        return Meant(goals=goals, things=things, places=places)
+        return Meaning(goals=goals, things=things, places=places)

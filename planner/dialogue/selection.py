@@ -5,9 +5,9 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from planner.dialogue.disambiguation import spoken_for
+from planner.dialogue.disambiguation import the_one_described
 from planner.dialogue.interpreter import Interpreter
-from planner.grounding.grounding import Context
+from planner.grounding.context import Context
 from planner.language.grammar.parser import CommandGrammar
 from planner.language.grammar.syntax import Quantity
 from planner.language.sentences.tokens import words_of
@@ -188,7 +188,7 @@ def select(
             return chosen
     chosen = _chosen(answer, candidates, snapshot, interpreter, grammar)
     known = tuple(i for i in candidates if i in snapshot)
-    return chosen or spoken_for(answer, known, interpreter.lexicon(snapshot), interpreter.grounding(snapshot))
+    return chosen or the_one_described(answer, known, interpreter.lexicon(snapshot), interpreter.grounding(snapshot))
 
 
 def _chosen(

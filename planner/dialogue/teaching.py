@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from planner.dialogue.interpretation import Meant
-from planner.grounding.grounding import Ambiguous, Context, Grounding, NoReferent
-from planner.grounding.naming import name_of
+from planner.dialogue.meaning import Meaning
+from planner.grounding.context import Ambiguous, Context, Grounded, NoReferent, Trouble
+from planner.grounding.grounding import Grounding
 from planner.language.grammar.syntax import NounPhrase, Pronoun, Teach
 from planner.language.lexicon.vocabulary import is_known, is_room_label, words_for
+from planner.naming import name_of
 from planner.plan import Lesson
 from scene_graph.nodes import ObjectNode, PersonNode, RoomNode
 
@@ -17,7 +18,7 @@ class Teaching:
     def __init__(self, grounding: Grounding) -> None:
         self._grounding, self._snapshot = grounding, grounding.snapshot
 
-    def of(self, step: Teach, context: Context) -> Meant | NoReferent | Ambiguous:
+    def of(self, step: Teach, context: Context) -> Meaning | Trouble:
         """The lesson, or a question about which node is meant and whether this is meant to be its name."""
         said = " ".join(step.words)
         found = self._target(step, said, context)
@@ -29,9 +30,9 @@ class Teaching:
             return NoReferent(reason=f"I can give names to rooms, things and people only, not to {said}.")
         lesson, reply = self._lesson(found[0], said, step)
         doubt = (not step.named and not is_known(said)) or self._is_remark(found[0], said, step, context)
-        return Meant(answer=reply, lessons=(lesson,), things=found, doubt=doubt)
+        return Meaning(answer=reply, lessons=(lesson,), things=found, doubt=doubt)
 
-    def _target(self, step: Teach, said: str, context: Context) -> tuple[str, ...] | NoReferent | Ambiguous:
+    def _target(self, step: Teach, said: str, context: Context) -> Grounded:
         if isinstance(step.target, NounPhrase):
             place = step.target.words[-1] in ("room", "thing", "object")
             resolve = self._grounding.place if place else self._grounding.things

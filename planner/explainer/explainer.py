@@ -9,8 +9,8 @@ from collections.abc import Sequence
 
 from planner.explainer.recovery import RECOVERIES
 from planner.goals import Goal, goal
-from planner.grounding.naming import aim_phrase, goal_phrase, humanize, listed, name_of, places_phrase, step_phrase
 from planner.language.lexicon.vocabulary import PERSON
+from planner.naming import aim_phrase, goal_phrase, humanize, listed, name_of, places_phrase, step_phrase
 from planner.plan import Plan, Step
 from planner.tasks.tasks import FailureReport, StepStatus, Task
 from scene_graph.nodes import ObjectNode, PersonNode

@@ -6,8 +6,8 @@ import logging
 from collections.abc import Iterable
 from dataclasses import replace
 
-from planner.grounding.naming import listed, name_of
 from planner.language.grammar.syntax import Ask, NounPhrase, Restriction
+from planner.naming import listed, name_of
 from scene_graph.edges import TASK_AGENT
 from scene_graph.edits import PutNode
 from scene_graph.memory import WorkingMemory

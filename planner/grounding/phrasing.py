@@ -5,14 +5,17 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
+from planner.grounding.context import Ambiguous, Context, Grounded
 from planner.grounding.matching import nodes_of, similar
-from planner.grounding.naming import at, bare_name, listed, name_of
 from planner.language.grammar.syntax import NounPhrase, Pronoun, Quantity, Reference, Spot
 from planner.language.lexicon.vocabulary import ALWAYS_PLURAL, is_known, is_plural, normal, singular
+from planner.naming import at, bare_name, listed, name_of
 from scene_graph.nodes import CrossingStatus, DoorNode, ObjectNode, ObjectState, PersonNode, RoomNode, RoomStatus
 from scene_graph.snapshot import Snapshot
 
 MAX_LISTED = 5
+AMONG = "among "
+"""Before a phrase: the candidates that an answer left, when it did not leave one."""
 
 
 def phrase_text(phrase: NounPhrase) -> str:
@@ -88,6 +91,15 @@ def which_question(ask: str, text: str, candidates: Sequence[str], snapshot: Sna
     more = f", or one of {len(candidates) - MAX_LISTED} more" if len(candidates) > MAX_LISTED else ""
     lead = f"“{text}” could be several things. " if text != "you" else ""
     return f"{lead}{ask}: {_ored(options)}{more}?"
+
+
+def ambiguous(text: str, found: tuple[str, ...], context: Context, ask: str, snapshot: Snapshot) -> Grounded:
+    """The one that an earlier answer has chosen, else the question which of ``found`` is meant."""
+    chosen = tuple(i for i in context.choices.get(text, ()) if i in found)
+    if chosen:
+        return chosen
+    found = tuple(i for i in context.choices.get(f"{AMONG}{text}", ()) if i in found) or found
+    return Ambiguous(question=which_question(ask, text, found, snapshot), phrase=text, candidates=found)
 
 
 def told_apart(candidates: Sequence[str], snapshot: Snapshot) -> list[str]:

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from planner.grounding.grounding import Ambiguous, Context, Grounding, NoReferent
+from planner.grounding.context import Ambiguous, Context, Grounded, NoReferent
+from planner.grounding.grounding import Grounding
 from planner.language.grammar.syntax import NounPhrase, Quantity, Reference
 from planner.language.lexicon.vocabulary import singular
 
-Trouble = NoReferent | Ambiguous
 
-
-class Gathering:
+class ReferenceSets:
     """Resolves lists of references on one graph."""
 
     def __init__(self, grounding: Grounding) -> None:
@@ -19,7 +18,7 @@ class Gathering:
 
     def to_carry(
         self, references: tuple[Reference, ...], context: Context, *, avoid: frozenset[str] = frozenset()
-    ) -> tuple[str, ...] | Trouble:
+    ) -> Grounded:
         """As ``all_of``, but no question is asked about things that cannot be carried anyway."""
         found = self.all_of(references, context, avoid=avoid)
         if isinstance(found, Ambiguous) and found.candidates:
@@ -30,7 +29,7 @@ class Gathering:
 
     def all_of(
         self, references: tuple[Reference, ...], context: Context, *, avoid: frozenset[str] = frozenset()
-    ) -> tuple[str, ...] | Trouble:
+    ) -> Grounded:
         """Everything the references mean, each once. A last restriction may be meant for all of them."""
         references = _same_noun(_same_quantity(references))
         shared = _shared(references)
@@ -40,9 +39,7 @@ class Gathering:
                 return found
         return self._each(references, context, avoid)
 
-    def _each(
-        self, references: tuple[Reference, ...], context: Context, avoid: frozenset[str]
-    ) -> tuple[str, ...] | Trouble:
+    def _each(self, references: tuple[Reference, ...], context: Context, avoid: frozenset[str]) -> Grounded:
         found: dict[str, None] = {}
         for reference in references:
             here = replace(context, noun=noun_of((reference,), context) or context.noun)

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from planner.grounding.grounding import Ambiguous, Context, Grounding, NoReferent
-from planner.grounding.naming import at, name_of
-from planner.grounding.sets import Trouble
+from planner.grounding.context import Ambiguous, Context, NoReferent, Trouble
+from planner.grounding.grounding import Grounding
 from planner.language.grammar.syntax import Destination, NounPhrase, Quantity
+from planner.naming import at, name_of
 
 SIDES = frozenset(
     {"between", "left of", "right of", "to the left of", "to the right of", "on the left of", "on the right of",

@@ -9,15 +9,11 @@ from __future__ import annotations
 from math import hypot
 
 from planner.goals import gap_m
+from planner.grounding.settings import GroundingSettings
 from scene_graph.errors import FramesNotConnected
 from scene_graph.nodes import ROBOT_ID, ROOT_ID
 from scene_graph.snapshot import Snapshot
 
-NEIGHBOR_M = 1.5
-"""Farther apart than this, nothing is said to be *left of* or *behind* something."""
-ASIDE_M = 0.05
-BETWEEN_M = 0.3
-"""*Between* allows this distance from the straight line, and more on longer lines."""
 SPATIAL = {
     "under": ("under", "below", "beneath", "underneath"),
     "behind": ("behind",),
@@ -36,7 +32,9 @@ def relation_name(words: str) -> str:
     return next((name for name, same in SPATIAL.items() if words in same), words)
 
 
-def is_related(node_id: str, words: str, target: str, snapshot: Snapshot) -> bool:
+def is_related(
+    node_id: str, words: str, target: str, snapshot: Snapshot, *, settings: GroundingSettings = GroundingSettings()
+) -> bool:
     """Whether a node is *under*, *left of*, *behind* … a target."""
     name = relation_name(words)
     if any(snapshot.relations(node_id, other, target) for other in SPATIAL.get(name, (words,))):
@@ -45,7 +43,7 @@ def is_related(node_id: str, words: str, target: str, snapshot: Snapshot) -> boo
         return False
     if name in ("under", "over"):
         return _is_above(target, node_id, snapshot) if name == "under" else _is_above(node_id, target, snapshot)
-    return name in VIEWED and is_in_view(target, snapshot) and _is_beside(node_id, name, target, snapshot)
+    return name in VIEWED and is_in_view(target, snapshot) and _is_beside(node_id, name, target, snapshot, settings)
 
 
 def is_in_view(node_id: str, snapshot: Snapshot) -> bool:
@@ -53,7 +51,9 @@ def is_in_view(node_id: str, snapshot: Snapshot) -> bool:
     return snapshot.current_room is not None and snapshot.room_of(node_id) == snapshot.current_room
 
 
-def is_between(node_id: str, one: str, other: str, snapshot: Snapshot) -> bool:
+def is_between(
+    node_id: str, one: str, other: str, snapshot: Snapshot, *, settings: GroundingSettings = GroundingSettings()
+) -> bool:
     """Whether a node lies between two others in its room."""
     if len({node_id, one, other}) < 3 or len({snapshot.room_of(i) for i in (node_id, one, other)}) > 1:
         return False
@@ -66,7 +66,7 @@ def is_between(node_id: str, one: str, other: str, snapshot: Snapshot) -> bool:
         return False
     along = ((x - ax) * (bx - ax) + (y - ay) * (by - ay)) / length_m**2
     aside_m = abs((bx - ax) * (y - ay) - (by - ay) * (x - ax)) / length_m
-    return 0.0 < along < 1.0 and aside_m <= max(BETWEEN_M, length_m / 4)
+    return 0.0 < along < 1.0 and aside_m <= max(settings.between_m, length_m * settings.between_share)
 
 
 def leftwards_m(node_id: str, among: tuple[str, ...], snapshot: Snapshot) -> float:
@@ -86,18 +86,18 @@ def _is_above(high: str, low: str, snapshot: Snapshot) -> bool:
     return above and not supported and gap_m(snapshot, high, low) == 0.0
 
 
-def _is_beside(node_id: str, name: str, target: str, snapshot: Snapshot) -> bool:
+def _is_beside(node_id: str, name: str, target: str, snapshot: Snapshot, settings: GroundingSettings) -> bool:
     try:
         x, y, _ = _at(node_id, snapshot)
         tx, ty, _ = _at(target, snapshot)
         ahead_m, left_m = _frame((tx, ty), (x, y), snapshot)
     except FramesNotConnected:
         return False
-    if gap_m(snapshot, node_id, target) > NEIGHBOR_M:
+    if gap_m(snapshot, node_id, target) > settings.beside_m:
         return False
     toward = {"left of": left_m, "right of": -left_m, "behind": ahead_m, "in front of": -ahead_m}[name]
     across = ahead_m if name in ("left of", "right of") else left_m
-    return toward > ASIDE_M and toward >= abs(across)
+    return toward > settings.aside_m and toward >= abs(across)
 
 
 def _frame(origin: tuple[float, float], point: tuple[float, float], snapshot: Snapshot) -> tuple[float, float]:

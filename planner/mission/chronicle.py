@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from planner.explainer.explainer import explain, failure_sentence, success_sentence
-from planner.grounding.naming import name_of, whereabouts
 from planner.mission.ledger import Ledger
 from planner.mission.resources import Crew
+from planner.naming import name_of, whereabouts
 from planner.plan import Step
 from planner.skill_planner.replanner import Hunt
 from planner.tasks.tasks import TaskStatus

@@ -6,18 +6,17 @@ from collections.abc import Callable
 from enum import StrEnum
 from functools import partial
 
-from planner.controller.taken_for import TakenFor
+from planner.controller.identity_check import IdentityCheck
 from planner.executor.job import Job, Watch, actions_or_refusal
 from planner.explainer.explainer import give_up_reason, unseen_sentence
 from planner.explainer.recovery import Recoveries
-from planner.grounding.naming import humanize
-from planner.grounding.whereabouts import capital
 from planner.mission.chronicle import Chronicle, Ending
 from planner.mission.intake import Ready
 from planner.mission.ledger import Ledger
 from planner.mission.monitoring import Lookout
 from planner.mission.progress import Progress
 from planner.mission.resources import Crew
+from planner.naming import capital, humanize
 from planner.plan import Impossible, Reread, Step
 from planner.skill_planner.replanner import Hunt
 from planner.tasks.tasks import TaskStatus
@@ -65,7 +64,7 @@ class Errand:
         self._progress = Progress(task_id, goals, ready.plan, crew.queue, building)
         self._lookout = Lookout(crew, self._progress, ready.replanner)
         self._chronicle = Chronicle(task_id, self._ledger, crew)
-        self._taken_for = TakenFor(crew.queue.task(task_id).request, goals, building)
+        self._identity = IdentityCheck(crew.queue.task(task_id).request, goals, building)
         self._job: Job | None = None
         self._phase, self._phase_s, self._wait_s = Phase.READY, 0.0, 0.0
         self._looked, self._after_look = False, Phase.READY
@@ -86,10 +85,10 @@ class Errand:
         snapshot = context.building
         if self._hunt is not None and self._hunt.found(snapshot) and self._phase is not Phase.WAITING:
             return self._replan(snapshot, "found")
-        mistake = self._taken_for.mistake(snapshot)
+        mistake = self._identity.mistake(snapshot)
         if mistake is not None and not self._sought:
             return self._admit(mistake, snapshot)
-        refuted = mistake or self._taken_for.refuted(snapshot)
+        refuted = mistake or self._identity.refuted(snapshot)
         if refuted is not None:
             return self._think_again(refuted, snapshot)
         ending = self._handlers[self._phase](context, snapshot)
@@ -204,10 +203,10 @@ class Errand:
         if not open_goals:
             if self._looks_at_shaken(context, snapshot):
                 return None
-            mistake = self._taken_for.mistake(snapshot, at_last=True)
+            mistake = self._identity.mistake(snapshot, at_last=True)
             if mistake is not None:
                 return self._admit(mistake, snapshot)
-            refuted = self._taken_for.refuted(snapshot, at_last=True)
+            refuted = self._identity.refuted(snapshot, at_last=True)
             if refuted is not None:
                 return self._think_again(refuted, snapshot)
             return self._chronicle.success(snapshot, self._stamp_s)
@@ -259,7 +258,7 @@ class Errand:
         self._progress.fail()
         if failure.code in LOST_GRIP:
             for node_id in failure.evidence.nodes:
-                self._taken_for.fell(node_id)
+                self._identity.fell(node_id)
         skipping = self._hunt is not None and failure.code in PLACE_CODES
         recovery = self._recoveries.after(failure.code, str(step)) if not skipping else None
         hopeless = recovery is None and not skipping

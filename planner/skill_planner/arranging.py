@@ -1,8 +1,8 @@
 """The order of goals whose order was left open: the one in which the robot has the least to drive.
 
 *Put the cups on the table* leaves it open, *first the cup, then the plate* does not. With one gripper things are
-carried one by one, so this is a shortest path through all of them: exact for up to ``EXACT`` (Held and Karp, 1962),
-else improved from the cheapest insertion until no exchange helps or ``TRIES`` are spent.
+carried one by one, so this is a shortest path through all of them: exact for a few (Held and Karp, 1962),
+else improved from the cheapest insertion until no exchange helps or a number of tries are spent.
 """
 
 from __future__ import annotations
@@ -13,19 +13,18 @@ from itertools import chain, pairwise, permutations, product
 from math import factorial, prod
 
 from planner.goals import PLACING, Goal, holds
+from planner.skill_planner.settings import OrderSettings, SkillPlanningSettings
 from skills.state.state import PlanState
 
-EXACT = 8
-TRIES = 20_000
-FEW = 24
-"""So many orders are all tried by the search itself: legs do not tell what can be left on the way."""
 Leg = Callable[[str, str], float]
 """Cost of going from one node to another."""
 _Paths = dict[frozenset[int], dict[int, tuple[float, tuple[int, ...]]]]
 """For each set of goals that are done, and the last of them: cost, order."""
 
 
-def orders(goals: Sequence[Goal], state: PlanState, leg: Leg) -> Iterator[tuple[Goal, ...]]:
+def orders(
+    goals: Sequence[Goal], state: PlanState, leg: Leg, settings: SkillPlanningSettings = SkillPlanningSettings()
+) -> Iterator[tuple[Goal, ...]]:
     """The orders worth trying, each once: the cheapest by its legs, the one that was told, and all others of few.
 
     Of orders that differ only in which of several things alike comes first, such as glasses of a size from one table,
@@ -33,12 +32,12 @@ def orders(goals: Sequence[Goal], state: PlanState, leg: Leg) -> Iterator[tuple[
     """
     runs = _runs(goals)
     few: Iterator[tuple[Goal, ...]] = iter(())
-    if prod(factorial(len(run)) for run in runs) <= FEW:
+    if prod(factorial(len(run)) for run in runs) <= settings.order.few:
         few = (tuple(chain(*order)) for order in product(*(permutations(run) for run in runs)))
     spoken = Counter(arg for goal in goals for arg in goal.args)
     kinds = {goal: _kind(goal, spoken, state) for goal in goals}
     tried: set[tuple[Hashable, ...]] = set()
-    for order in chain((arranged(goals, state, leg), tuple(goals)), few):
+    for order in chain((arranged(goals, state, leg, settings), tuple(goals)), few):
         kind = tuple(kinds[goal] for goal in order)
         if kind not in tried:
             tried.add(kind)
@@ -63,14 +62,16 @@ def _kind(goal: Goal, spoken: Mapping[str, int], state: PlanState) -> Hashable:
     )
 
 
-def arranged(goals: Sequence[Goal], state: PlanState, leg: Leg) -> tuple[Goal, ...]:
+def arranged(
+    goals: Sequence[Goal], state: PlanState, leg: Leg, settings: SkillPlanningSettings = SkillPlanningSettings()
+) -> tuple[Goal, ...]:
     """``goals`` with every run of them that may come in any order in its cheapest one."""
     found: list[Goal] = []
     here = state.robot_at
     for run in _runs(goals):
-        found += (goal for goal in run if holds(goal, state))
-        open_goals = [goal for goal in run if not holds(goal, state)]
-        best = _Tour(open_goals, state, leg, here).best() if len(open_goals) > 1 else tuple(open_goals)
+        found += (goal for goal in run if holds(goal, state, settings.goals))
+        open_goals = [goal for goal in run if not holds(goal, state, settings.goals)]
+        best = _Tour(open_goals, state, leg, here, settings.order).best() if len(open_goals) > 1 else tuple(open_goals)
         found += best
         here = best[-1].args[-1] if best else here
     return tuple(found)
@@ -94,8 +95,8 @@ class _Tour:
     hand to it, before that.
     """
 
-    def __init__(self, goals: Sequence[Goal], state: PlanState, leg: Leg, start: str) -> None:
-        self._goals, self._state = tuple(goals), state
+    def __init__(self, goals: Sequence[Goal], state: PlanState, leg: Leg, start: str, settings: OrderSettings) -> None:
+        self._goals, self._state, self._settings = tuple(goals), state, settings
         count = range(len(goals))
         self._first = [self._to(start, goal, leg) + self._carry(start, goal, leg) for goal in goals]
         self._next = [
@@ -105,7 +106,7 @@ class _Tour:
 
     def best(self) -> tuple[Goal, ...]:
         """The goals in the cheapest order found; as they are, when the rules forbid every order."""
-        order = self._exact() if len(self._goals) <= EXACT else self._improved(self._inserted())
+        order = self._exact() if len(self._goals) <= self._settings.exact else self._improved(self._inserted())
         return tuple(self._goals[i] for i in order) if order is not None else self._goals
 
     def _to(self, here: str, goal: Goal, leg: Leg) -> float:
@@ -160,7 +161,7 @@ class _Tour:
 
     def _improved(self, order: list[int]) -> list[int] | None:
         best, tries, better = self._cost(order), 0, True
-        while better and tries < TRIES:
+        while better and tries < self._settings.tries:
             better = False
             for changed in _exchanges(order):
                 tries += 1

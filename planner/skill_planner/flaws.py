@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from difflib import get_close_matches
 
-from planner.goals import PLACING, Goal, Predicate, lasting
-from planner.grounding.naming import listed, name_of
+from planner.goals import PLACING, Goal, GoalSettings, Predicate, lasting
+from planner.naming import listed, name_of
 from planner.plan import Flaw
 from planner.surfaces import surfaces_near
 from scene_graph.identifiers import natural_key
@@ -16,10 +16,18 @@ from skills.failures import FailureCode
 from skills.state.state import PlanState, Thing
 
 
-def goal_flaws(goals: Sequence[Goal], snapshot: Snapshot, state: PlanState, *, opens_doors: bool = False) -> list[Flaw]:
+def goal_flaws(
+    goals: Sequence[Goal],
+    snapshot: Snapshot,
+    state: PlanState,
+    *,
+    opens_doors: bool = False,
+    near_m: float = GoalSettings.near_m,
+) -> list[Flaw]:
     """Everything wrong with ``goals``: unknown or unfit nodes, places out of reach, contradictions.
 
     ``opens_doors``: a skill may do something about closed doors, so that only the search can tell.
+    ``near_m``: as in ``GoalSettings``.
     """
     found: list[Flaw] = []
     for goal in goals:
@@ -27,7 +35,7 @@ def goal_flaws(goals: Sequence[Goal], snapshot: Snapshot, state: PlanState, *, o
         if goal.predicate is Predicate.OPEN and not opens_doors and not unknown:
             found.append(Flaw(message="I cannot open doors.", nodes=goal.args))
             continue
-        found += unknown or [*_unfit(goal, snapshot, state), *_unreachable(goal, snapshot, state, opens_doors)]
+        found += unknown or [*_unfit(goal, snapshot, state, near_m), *_unreachable(goal, snapshot, state, opens_doors)]
     found += _contradictions(goals, snapshot)
     return list({flaw.message: flaw for flaw in found}.values())
 
@@ -60,7 +68,7 @@ def _alternatives(arg: str, state: PlanState) -> str:
     return f": choose one of {', '.join(close[:6])}" if close else ": choose an identifier from the graph"
 
 
-def _unfit(goal: Goal, snapshot: Snapshot, state: PlanState) -> Iterator[Flaw]:
+def _unfit(goal: Goal, snapshot: Snapshot, state: PlanState, near_m: float) -> Iterator[Flaw]:
     first, last = (state.world.things[arg] for arg in (goal.args[0], goal.args[-1]))
     if goal.predicate is Predicate.ROBOT_AT:
         return
@@ -81,10 +89,10 @@ def _unfit(goal: Goal, snapshot: Snapshot, state: PlanState) -> Iterator[Flaw]:
             message=f"{_name(first.id, snapshot)} cannot be put at itself: choose another place.", nodes=(first.id,)
         )
     elif goal.predicate in PLACING:
-        yield from _unfit_place(goal, last, snapshot, state)
+        yield from _unfit_place(goal, last, snapshot, state, near_m)
 
 
-def _unfit_place(goal: Goal, place: Thing, snapshot: Snapshot, state: PlanState) -> Iterator[Flaw]:
+def _unfit_place(goal: Goal, place: Thing, snapshot: Snapshot, state: PlanState, near_m: float) -> Iterator[Flaw]:
     name = _name(place.id, snapshot)
     surface = place.kind == "object" and (place.support or place.container)
     if goal.predicate is Predicate.ON and not surface:
@@ -95,14 +103,14 @@ def _unfit_place(goal: Goal, place: Thing, snapshot: Snapshot, state: PlanState)
         yield Flaw(message=f"I can give things to people only, and {name} is a {place.kind}.", nodes=(place.id,))
     elif goal.predicate is Predicate.NEAR and place.kind in ("room", "door"):
         yield Flaw(message=f"I cannot put things near {name}: choose an object or a person.", nodes=(place.id,))
-    elif goal.predicate is Predicate.NEAR and place.kind == "object" and _has_no_surface(place, state):
+    elif goal.predicate is Predicate.NEAR and place.kind == "object" and _has_no_surface(place, state, near_m):
         message = f"There is no surface near {name} to put things on: choose another place."
         yield Flaw(message=message, nodes=(place.id,))
 
 
-def _has_no_surface(place: Thing, state: PlanState) -> bool:
+def _has_no_surface(place: Thing, state: PlanState, near_m: float) -> bool:
     """Only for what stays where it is: what is carried may come to a surface before its turn."""
-    return not place.graspable and not surfaces_near(place.id, state)
+    return not place.graspable and not surfaces_near(place.id, state, near_m)
 
 
 def _unreachable(goal: Goal, snapshot: Snapshot, state: PlanState, opens_doors: bool) -> Iterator[Flaw]:

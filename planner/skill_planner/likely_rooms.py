@@ -5,17 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from planner.language.lexicon.vocabulary import kind_labels, normal, words_for
+from planner.skill_planner.settings import ObjectSearchSettings
 from scene_graph.nodes import ObjectNode, ObjectState, RoomNode
 from scene_graph.snapshot import Snapshot
-
-USUAL = 4.0
-"""How many times likelier a thing is in a room where its kind usually lies than in any other."""
-LAST = 8.0
-"""The same for the room where it was last known: what is not in its place most often was put down nearby."""
-LIKE = 2.0
-"""The same for a room in which something of that name is known to lie."""
-LARGE_M2 = 12.0
-"""Area of a room of middling size: twice as large, twice as likely."""
 
 _KITCHEN = frozenset({"kitchen", "dining room", "pantry", "canteen", "break room"})
 _DESK = frozenset({"office", "library", "meeting room"})
@@ -40,13 +32,19 @@ _USUAL_ROOMS: tuple[tuple[frozenset[str], frozenset[str]], ...] = (
 """Kinds of things, or names of them, and rooms where people usually keep them."""
 
 
-def room_weights(called: Iterable[str], last_room: str | None, snapshot: Snapshot) -> dict[str, float]:
+def room_weights(
+    called: Iterable[str],
+    last_room: str | None,
+    snapshot: Snapshot,
+    settings: ObjectSearchSettings = ObjectSearchSettings(),
+) -> dict[str, float]:
     """How likely each room is to hold the thing, up to a common factor.
 
     Args:
         called: what the thing is called: labels, and words for its kind.
         last_room: where it was last known to be, if anywhere.
         snapshot: the building.
+        settings: how much each hint counts.
     """
     names = {normal(word) for word in called}
     words = names.union(*(words_for(name) for name in names))
@@ -57,10 +55,10 @@ def room_weights(called: Iterable[str], last_room: str | None, snapshot: Snapsho
         if node.state is ObjectState.PRESENT and normal(node.label) in words
     }
     return {
-        room.id: _area_share(room)
-        * (USUAL if usual & (words_for(normal(room.label)) | {normal(room.label)}) else 1.0)
-        * (LIKE if room.id in like else 1.0)
-        * (LAST if room.id == last_room else 1.0)
+        room.id: _area_share(room, settings.large_m2)
+        * (settings.usual if usual & (words_for(normal(room.label)) | {normal(room.label)}) else 1.0)
+        * (settings.like if room.id in like else 1.0)
+        * (settings.last if room.id == last_room else 1.0)
         for room in snapshot.of_type(RoomNode)
     }
 
@@ -69,10 +67,10 @@ def _is_of(words: frozenset[str] | set[str], kinds: frozenset[str]) -> bool:
     return any(kind in words or not words.isdisjoint(kind_labels(kind)) for kind in kinds)
 
 
-def _area_share(room: RoomNode) -> float:
+def _area_share(room: RoomNode, large_m2: float) -> float:
     """Area over that of a middling room, within bounds; 1 where the shape is not known."""
     corners = room.polygon_m
     if len(corners) < 3:
         return 1.0
     twice_m2 = sum(a[0] * b[1] - b[0] * a[1] for a, b in zip(corners, (*corners[1:], corners[0]), strict=True))
-    return min(max(abs(twice_m2) / 2.0 / LARGE_M2, 0.5), 2.0)
+    return min(max(abs(twice_m2) / 2.0 / large_m2, 0.5), 2.0)

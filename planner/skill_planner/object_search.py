@@ -7,23 +7,24 @@ from dataclasses import replace
 from math import inf
 
 from planner.goals import goal
-from planner.grounding.naming import name_of
 from planner.language.lexicon.vocabulary import PERSON, words_for
+from planner.naming import name_of
 from planner.plan import Impossible, Plan, Source, Step
 from planner.skill_planner.likely_rooms import room_weights
+from planner.skill_planner.settings import ObjectSearchSettings
 from scene_graph.identifiers import natural_key
 from scene_graph.nodes import UNKNOWN_LABEL, ObjectNode, ObjectState, RoomNode
 from scene_graph.snapshot import Snapshot
 from skills.state.state import PlanState, Thing
 
-LOOK_S = 6.0
-"""Expected time to look at a place."""
-SPEED_MPS = 0.4
-"""Expected average speed of driving."""
 
-
-def seeking_plan(
-    object_id: str, snapshot: Snapshot, state: PlanState, since_s: float, already_looked: Collection[str]
+def lost_object_plan(
+    object_id: str,
+    snapshot: Snapshot,
+    state: PlanState,
+    since_s: float,
+    already_looked: Collection[str],
+    settings: ObjectSearchSettings = ObjectSearchSettings(),
 ) -> Plan | Impossible:
     """A tour of the places where ``object_id`` may be.
 
@@ -40,19 +41,24 @@ def seeking_plan(
     places = (
         each.id
         for each in snapshot.of_type(ObjectNode)
-        if each.support or (_is_nameless(each) and each.first_seen_s > seen_s)
+        if each.support or (_is_unlabeled(each) and each.first_seen_s > seen_s)
     )
     reachable = _reachable((*rooms, *places), {object_id, *already_looked}, snapshot, state, since_s)
     if not reachable:
         name = name_of(object_id, snapshot)
         return Impossible(reason=f"I have looked everywhere I can get to and did not find {name}.", nodes=(object_id,))
     called = (node.label, *node.categories) if isinstance(node, ObjectNode) else ()
-    plan = _plan(reachable, room_weights(called, last_room, snapshot), snapshot, state)
+    plan = _plan(reachable, room_weights(called, last_room, snapshot, settings), snapshot, state, settings)
     return replace(plan, goals=(goal("found", object_id),), seeking=object_id)
 
 
 def scouting_plan(
-    kind: str, snapshot: Snapshot, state: PlanState, since_s: float, already_looked: Collection[str]
+    kind: str,
+    snapshot: Snapshot,
+    state: PlanState,
+    since_s: float,
+    already_looked: Collection[str],
+    settings: ObjectSearchSettings = ObjectSearchSettings(),
 ) -> Plan | None:
     """A tour of the places where a thing of a ``kind`` may be of which none was ever seen; None when none is left.
 
@@ -61,11 +67,12 @@ def scouting_plan(
     """
     rooms = (room.id for room in snapshot.of_type(RoomNode))
     nodes = snapshot.of_type(ObjectNode) if PERSON not in words_for(kind) else ()
-    things = (node.id for node in nodes if node.support or _is_nameless(node))
+    things = (node.id for node in nodes if node.support or _is_unlabeled(node))
     reachable = _reachable((*rooms, *things), set(already_looked), snapshot, state, since_s)
     if not reachable:
         return None
-    return replace(_plan(reachable, room_weights((kind,), None, snapshot), snapshot, state), seeking=kind)
+    weights = room_weights((kind,), None, snapshot, settings)
+    return replace(_plan(reachable, weights, snapshot, state, settings), seeking=kind)
 
 
 def _reachable(
@@ -76,19 +83,25 @@ def _reachable(
     return [thing for thing in there if _distance_m(state, state.robot_at, thing.id) < inf]
 
 
-def _plan(places: list[Thing], weights: Mapping[str, float], snapshot: Snapshot, state: PlanState) -> Plan:
-    tour, length_m = _tour(places, weights, snapshot, state)
+def _plan(
+    places: list[Thing],
+    weights: Mapping[str, float],
+    snapshot: Snapshot,
+    state: PlanState,
+    settings: ObjectSearchSettings,
+) -> Plan:
+    tour, length_m = _tour(places, weights, snapshot, state, settings)
     return Plan(
         source=Source.SEARCH,
         revision=snapshot.revision,
         goals=(),
         steps=tuple(Step(skill="GOTO", args=(place,)) for place in tour),
-        expected_s=length_m / SPEED_MPS + LOOK_S * len(tour),
+        expected_s=length_m / settings.speed_mps + settings.look_s * len(tour),
         expected_m=length_m,
     )
 
 
-def _is_nameless(node: ObjectNode) -> bool:
+def _is_unlabeled(node: ObjectNode) -> bool:
     return node.graspable and node.label == UNKNOWN_LABEL and node.state is ObjectState.PRESENT
 
 
@@ -96,7 +109,7 @@ def _may_hold(thing: Thing, snapshot: Snapshot, since_s: float) -> bool:
     if thing.kind == "room":
         return True
     node = snapshot.get(thing.id)
-    if isinstance(node, ObjectNode) and _is_nameless(node):
+    if isinstance(node, ObjectNode) and _is_unlabeled(node):
         return True
     if not isinstance(node, ObjectNode) or not thing.support or thing.graspable:
         return False
@@ -104,14 +117,19 @@ def _may_hold(thing: Thing, snapshot: Snapshot, since_s: float) -> bool:
 
 
 def _tour(
-    places: list[Thing], weights: Mapping[str, float], snapshot: Snapshot, state: PlanState
+    places: list[Thing],
+    weights: Mapping[str, float],
+    snapshot: Snapshot,
+    state: PlanState,
+    settings: ObjectSearchSettings,
 ) -> tuple[list[str], float]:
     """The places in the order in which to look at them, and the length of the way."""
     tour: list[str] = []
     here, length_m = state.robot_at, 0.0
     rooms = _by_room(places)
     while rooms:
-        room = min(rooms, key=lambda room: (-_worth(room, rooms[room], weights, here, state), natural_key(room)))
+        worth = {room: _worth(room, there, weights, here, state, settings) for room, there in rooms.items()}
+        room = min(worth, key=lambda room: (-worth[room], natural_key(room)))
         left = rooms.pop(room)
         while left:
             best = min(left, key=lambda thing: (*_rank(thing, snapshot), _distance_m(state, here, thing.id), thing.id))
@@ -129,10 +147,17 @@ def _by_room(places: Iterable[Thing]) -> dict[str, list[Thing]]:
     return rooms
 
 
-def _worth(room: str, places: Sequence[Thing], weights: Mapping[str, float], here: str, state: PlanState) -> float:
+def _worth(
+    room: str,
+    places: Sequence[Thing],
+    weights: Mapping[str, float],
+    here: str,
+    state: PlanState,
+    settings: ObjectSearchSettings,
+) -> float:
     """Likelihood per second: looking in that order finds a thing in the least time on the average."""
     way_m = min(_distance_m(state, here, thing.id) for thing in places)
-    return weights.get(room, 1.0) / (way_m / SPEED_MPS + LOOK_S * len(places))
+    return weights.get(room, 1.0) / (way_m / settings.speed_mps + settings.look_s * len(places))
 
 
 def _rank(thing: Thing, snapshot: Snapshot) -> tuple[bool, bool]:

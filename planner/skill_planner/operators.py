@@ -11,6 +11,7 @@ from math import inf
 
 from planner.goals import PLACING, Goal, Predicate
 from planner.plan import Step
+from planner.skill_planner.settings import SkillPlanningSettings
 from planner.skill_planner.stops import Stops
 from planner.surfaces import surfaces_near
 from skills.skill import Skill, Unmet
@@ -28,13 +29,21 @@ class Operators:
     on its way, and in any room of the request.
     """
 
-    def __init__(self, skills: Mapping[str, Skill], goals: Sequence[Goal], start: PlanState) -> None:
-        self._skills = skills
+    def __init__(
+        self,
+        skills: Mapping[str, Skill],
+        goals: Sequence[Goal],
+        start: PlanState,
+        *,
+        settings: SkillPlanningSettings = SkillPlanningSettings(),
+    ) -> None:
+        self._skills, self._near_m = skills, settings.goals.near_m
         others = (skill for name, skill in skills.items() if name not in (GOTO, PICK, PLACE))
         self._on_doors = tuple(s.name for s in others if len(s.parameters) == 1 and "door" in s.parameters[0].kinds)
         self._legs_s: dict[tuple[World, str, str], float] = {}
         self._needed = frozenset(arg for goal in goals for arg in goal.args)
-        self._stops = Stops((node for goal in goals for node in (*goal.args, *self.places(goal, start))), start)
+        spoken_of = (node for goal in goals for node in (*goal.args, *self.places(goal, start)))
+        self._stops = Stops(spoken_of, start, most=settings.most_stops)
 
     def applicable(
         self, goal: Goal, state: PlanState, unmet: dict[Unmet, None], later: Sequence[Goal] = ()
@@ -143,7 +152,7 @@ class Operators:
         if goal.predicate is not Predicate.NEAR:
             return goal.args[1:] if goal.predicate in PLACING else ()
         handed = state.world.things[goal.args[1]].kind == "person"
-        return (goal.args[1],) if handed else surfaces_near(goal.args[1], state)
+        return (goal.args[1],) if handed else surfaces_near(goal.args[1], state, self._near_m)
 
     def _put(self, state: PlanState, object_id: str, places: Sequence[str]) -> Iterator[Step]:
         for place in places:
@@ -156,7 +165,7 @@ class Operators:
         object, if that is to be near it.
         """
         if goal.predicate is Predicate.NEAR and object_id == goal.args[1]:
-            yield from self._put(state, object_id, surfaces_near(goal.args[0], state))
+            yield from self._put(state, object_id, surfaces_near(goal.args[0], state, self._near_m))
             return
         room = state.robot_room
         if room is not None and self._stops.may_lie_in(object_id, room, later):

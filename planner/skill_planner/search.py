@@ -16,6 +16,7 @@ from math import inf
 from planner.goals import Goal, holds, lasting
 from planner.plan import Step
 from planner.skill_planner.operators import Operators
+from planner.skill_planner.settings import SkillPlanningSettings
 from skills.skill import Skill, Unmet
 from skills.state.state import PlanState
 
@@ -65,15 +66,22 @@ class Search:
         skills: by name; at least GOTO, PICK and PLACE.
         start: the state that the plan starts from.
         budget: states that may be expanded.
+        settings: what goals mean, and how much is tried.
     """
 
     def __init__(
-        self, goals: Sequence[Goal], skills: Mapping[str, Skill], start: PlanState, *, budget: int = 20_000
+        self,
+        goals: Sequence[Goal],
+        skills: Mapping[str, Skill],
+        start: PlanState,
+        *,
+        budget: int = 20_000,
+        settings: SkillPlanningSettings = SkillPlanningSettings(),
     ) -> None:
         self._goals = tuple(goals)
         self._lasting = lasting(goals)
-        self._start = start
-        self._operators = Operators(skills, goals, start)
+        self._start, self._meaning = start, settings.goals
+        self._operators = Operators(skills, goals, start, settings=settings)
         self._budget = budget
 
     def run(self, *, below_s: float = inf) -> Found | Exhausted:
@@ -103,19 +111,19 @@ class Search:
 
     def tick(self, state: PlanState, ticked: int) -> int:
         """How many goals are ticked off in ``state`` when ``ticked`` were before."""
-        while ticked < len(self._goals) and holds(self._goals[ticked], state):
+        while ticked < len(self._goals) and holds(self._goals[ticked], state, self._meaning):
             ticked += 1
         return ticked
 
     def done(self, state: PlanState, ticked: int) -> bool:
         """Whether nothing is left to do."""
-        return ticked == len(self._goals) and all(holds(goal, state) for goal in self._lasting)
+        return ticked == len(self._goals) and all(holds(goal, state, self._meaning) for goal in self._lasting)
 
     def pending(self, state: PlanState, ticked: int) -> tuple[Goal, ...]:
         """The goals to work on: the next in order; when all had their turn, every lasting one that was undone."""
         if ticked < len(self._goals):
             return (self._goals[ticked],)
-        return tuple(goal for goal in self._lasting if not holds(goal, state))
+        return tuple(goal for goal in self._lasting if not holds(goal, state, self._meaning))
 
     def at_least_s(self, state: PlanState, ticked: int) -> float:
         """Seconds that the remaining goals take at least: admissible, zero at the end.
@@ -123,7 +131,7 @@ class Search:
         A goal that holds before its turn may cost nothing.
         """
         left = self._goals[ticked:] or self._lasting
-        return self._operators.at_least_s([goal for goal in left if not holds(goal, state)], state)
+        return self._operators.at_least_s([goal for goal in left if not holds(goal, state, self._meaning)], state)
 
     def _successors(self, node: _Node, unmet: dict[Unmet, None]) -> Iterator[_Node]:
         later = self._goals[node.ticked + 1 :]
@@ -133,7 +141,12 @@ class Search:
 
 
 def one_by_one(
-    goals: Sequence[Goal], skills: Mapping[str, Skill], start: PlanState, *, budget: int
+    goals: Sequence[Goal],
+    skills: Mapping[str, Skill],
+    start: PlanState,
+    *,
+    budget: int,
+    settings: SkillPlanningSettings,
 ) -> Found | Exhausted:
     """Steps that achieve one goal after the other, each as cheaply as it can be from where the last one leaves off.
 
@@ -142,7 +155,7 @@ def one_by_one(
     steps: list[Step] = []
     state, cost_s, expanded = start, 0.0, 0
     for goal in goals:
-        found = Search([goal], skills, state, budget=budget).run()
+        found = Search([goal], skills, state, budget=budget, settings=settings).run()
         expanded += found.expanded
         if isinstance(found, Exhausted):
             return replace(found, expanded=expanded)

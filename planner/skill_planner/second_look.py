@@ -6,8 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from planner.goals import Goal
-from planner.grounding.naming import name_of
-from planner.grounding.whereabouts import capital
+from planner.naming import capital, name_of
 from planner.plan import Flaw, Impossible, Plan, Reread, Source, Step
 from planner.skill_planner.replanner import Hunt, Verifier
 from scene_graph.edits import PutNode

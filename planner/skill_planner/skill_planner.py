@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from planner.plan import Step
+from planner.skill_planner.settings import SkillPlanningSettings
 from scene_graph.snapshot import Snapshot
 from skills.action import Action, RobotContext
 from skills.errors import SkillNotFound
@@ -14,16 +15,12 @@ from skills.failures import Failure
 from skills.skill import Skill
 from skills.state.state import PlanState
 
-LEAST_TIMEOUT_S = 90.0
-TIMEOUT_FACTOR = 4.0
-"""A step may take this many times the expected time before it counts as stuck."""
-
 
 class SkillPlanner:
     """Looks skills up by name and asks them for actions, confirmation, cost and description."""
 
-    def __init__(self, skills: Mapping[str, Skill]) -> None:
-        self._skills = dict(skills)
+    def __init__(self, skills: Mapping[str, Skill], settings: SkillPlanningSettings = SkillPlanningSettings()) -> None:
+        self._skills, self._settings = dict(skills), settings
 
     def skill(self, name: str) -> Skill:
         """The skill of this name.
@@ -47,7 +44,7 @@ class SkillPlanner:
     def timeout_s(self, step: Step, snapshot: Snapshot) -> float:
         """How long a step may act before it counts as stuck."""
         expected_s = self.skill(step.skill).cost_s(PlanState.from_snapshot(snapshot), step.args)
-        return max(LEAST_TIMEOUT_S, TIMEOUT_FACTOR * expected_s)
+        return max(self._settings.least_timeout_s, self._settings.timeout_factor * expected_s)
 
     def describe(self) -> list[dict[str, Any]]:
         """Name, parameters, schema and docstring of every skill, by name."""

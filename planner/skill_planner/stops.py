@@ -8,10 +8,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from planner.goals import Goal, Predicate
+from planner.skill_planner.settings import SkillPlanningSettings
 from skills.state.state import PlanState
-
-MOST = 16
-"""With more stops than these, only those of the goal in turn are considered for leaving something on the way."""
 
 
 class Stops:
@@ -20,15 +18,16 @@ class Stops:
     Args:
         nodes: what the request speaks of, and where its things can be put.
         start: the state that the plan starts from.
+        most: as in ``SkillPlanningSettings.most_stops``.
     """
 
-    def __init__(self, nodes: Iterable[str], start: PlanState) -> None:
+    def __init__(self, nodes: Iterable[str], start: PlanState, *, most: int = SkillPlanningSettings.most_stops) -> None:
         held = [start.holding] if start.holding is not None else []
         spoken_of = dict.fromkeys([*nodes, *held])
         fixed = dict.fromkeys(start.anchor(node) for node in spoken_of if node not in start.missing)
         rooms = dict.fromkeys(room for node in (*spoken_of, *fixed) if (room := start.room_of(node)) is not None)
         here = [start.robot_room] if start.robot_room is not None else []
-        self._start = start
+        self._start, self._most = start, most
         self._carried = tuple(
             dict.fromkeys(link for node in spoken_of for link in start.chain(node) if link not in fixed)
         )
@@ -44,7 +43,7 @@ class Stops:
 
     def to_leave(self, object_id: str, goal: Goal, state: PlanState) -> tuple[str, ...]:
         """Where to go with a held object that is in the way of ``goal``, before it is put down."""
-        if len(self.all) <= MOST:
+        if len(self.all) <= self._most:
             return (*self.all, *self._on_floor(None, state))
         return tuple(dict.fromkeys(state.anchor(node) for node in goal.args if node != object_id))
 

@@ -11,13 +11,14 @@ from math import inf
 
 from planner.forecast import forecast
 from planner.goals import Goal, holds, lasting
-from planner.grounding.naming import goal_phrase, humanize
+from planner.naming import goal_phrase, humanize
 from planner.plan import Flaw, Impossible, Plan, Source, Step
 from planner.skill_planner.arranging import Leg, orders
 from planner.skill_planner.flaws import goal_flaws
-from planner.skill_planner.object_search import scouting_plan, seeking_plan
+from planner.skill_planner.object_search import lost_object_plan, scouting_plan
 from planner.skill_planner.operators import GOTO
 from planner.skill_planner.search import Exhausted, Found, Search, one_by_one
+from planner.skill_planner.settings import SkillPlanningSettings
 from scene_graph.snapshot import Snapshot
 from skills.skill import Skill
 from skills.state.state import PlanState
@@ -29,10 +30,17 @@ class Verifier:
     Args:
         skills: by name; at least GOTO, PICK and PLACE.
         budget: states that one search may expand.
+        settings: by what numbers plans are made.
     """
 
-    def __init__(self, skills: Mapping[str, Skill], *, budget: int = 20_000) -> None:
-        self._skills = skills
+    def __init__(
+        self,
+        skills: Mapping[str, Skill],
+        *,
+        budget: int = 20_000,
+        settings: SkillPlanningSettings = SkillPlanningSettings(),
+    ) -> None:
+        self._skills, self._settings = skills, settings
         self._budget = budget
         others = (skill for name, skill in skills.items() if name != GOTO)
         self._opens_doors = any("door" in parameter.kinds for skill in others for parameter in skill.parameters)
@@ -45,7 +53,13 @@ class Verifier:
 
     def verify_goals(self, goals: Sequence[Goal], snapshot: Snapshot) -> list[Flaw]:
         """What is wrong with ``goals`` on this graph; empty when they make sense. Missing objects are no flaw."""
-        return goal_flaws(goals, snapshot, self.state(snapshot), opens_doors=self._opens_doors)
+        return goal_flaws(
+            goals,
+            snapshot,
+            self.state(snapshot),
+            opens_doors=self._opens_doors,
+            near_m=self._settings.goals.near_m,
+        )
 
     def plan_for(
         self, goals: Sequence[Goal], snapshot: Snapshot, *, source: Source = Source.GRAMMAR
@@ -57,7 +71,8 @@ class Verifier:
         state = self.state(snapshot)
         found = self._searched(goals, state)
         if isinstance(found, Exhausted):
-            return _impossible(goals, found, snapshot, state)
+            left = next((goal for goal in goals if not holds(goal, state, self._settings.goals)), goals[0])
+            return _impossible(left, found, snapshot)
         length_m, end = self._carried_out(found.steps, state)
         plan = Plan(
             source=source,
@@ -81,14 +96,16 @@ class Verifier:
         """
         best: Found | Exhausted | None = None
         expanded = 0
-        for order in orders(goals, state, self._leg_s(state)):
+        for order in orders(goals, state, self._leg_s(state), self._settings):
             if best is not None and expanded >= self._budget:
                 break
             below_s = best.cost_s if isinstance(best, Found) else inf
-            found = Search(order, self._skills, state, budget=self._budget).run(below_s=below_s)
+            found = Search(order, self._skills, state, budget=self._budget, settings=self._settings).run(
+                below_s=below_s
+            )
             expanded += found.expanded
             if isinstance(found, Exhausted) and found.out_of_budget and not isinstance(best, Found):
-                found = one_by_one(order, self._skills, state, budget=self._budget)
+                found = one_by_one(order, self._skills, state, budget=self._budget, settings=self._settings)
             if isinstance(found, Found) or not isinstance(best, Found):
                 best = found
         return best if best is not None else Exhausted(expanded=0, out_of_budget=False, unmet=())
@@ -122,7 +139,7 @@ class Verifier:
         return [
             Flaw(message=f"The plan does not make it so that {goal_phrase(goal, snapshot)}.", nodes=goal.args)
             for goal in lasting(plan.goals)
-            if not holds(goal, state)
+            if not holds(goal, state, self._settings.goals)
         ]
 
     def search_plan(
@@ -131,13 +148,17 @@ class Verifier:
         """Places to look for ``object_id``, most likely first; Impossible when all were looked at since ``since_s``."""
         if object_id not in snapshot:
             return Impossible(reason=f"{object_id} is not in the scene graph.")
-        return seeking_plan(object_id, snapshot, self.state(snapshot), since_s, already_looked)
+        return lost_object_plan(
+            object_id, snapshot, self.state(snapshot), since_s, already_looked, self._settings.object_search
+        )
 
     def scouting_plan(
         self, kind: str, snapshot: Snapshot, since_s: float, already_looked: Collection[str] = ()
     ) -> Plan | None:
         """Places to look for a thing of a ``kind`` of which none was ever seen; None when no place is left."""
-        return scouting_plan(kind, snapshot, self.state(snapshot), since_s, already_looked)
+        return scouting_plan(
+            kind, snapshot, self.state(snapshot), since_s, already_looked, self._settings.object_search
+        )
 
     def state(self, snapshot: Snapshot) -> PlanState:
         """The facts of ``snapshot``; those of the last one asked for are kept."""
@@ -155,8 +176,8 @@ class Verifier:
         return length_m, state
 
 
-def _impossible(goals: Sequence[Goal], exhausted: Exhausted, snapshot: Snapshot, state: PlanState) -> Impossible:
-    left = next((goal for goal in goals if not holds(goal, state)), goals[0])
+def _impossible(left: Goal, exhausted: Exhausted, snapshot: Snapshot) -> Impossible:
+    """Why there is no plan; ``left``: the first goal that does not hold."""
     if exhausted.out_of_budget:
         reason = f"I found no plan within {exhausted.expanded} steps of thought: ask for less at once."
     elif exhausted.unmet:

@@ -12,9 +12,9 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 from planner.grounding.matching import is_first_of_pair
-from planner.grounding.naming import name_of
 from planner.language.lexicon.spelling import closest
 from planner.language.lexicon.vocabulary import coarser_labels, kind_labels, normal, singular, words_for
+from planner.naming import name_of
 from scene_graph.identifiers import natural_key
 from scene_graph.nodes import DoorNode, DoorState, ObjectNode, ObjectState, PersonNode, RoomNode, RoomStatus
 from scene_graph.snapshot import Snapshot

@@ -13,12 +13,13 @@ from dataclasses import replace
 from itertools import zip_longest
 from typing import Any
 
-from planner.dialogue.disambiguation import left_by
+from planner.dialogue.disambiguation import described
 from planner.dialogue.discourse import NOT_SO, SO, WHETHER
-from planner.dialogue.interpreter import DOUBT, Choices, Interpreter, Reading
+from planner.dialogue.interpreter import DOUBT, Choices, Interpreter
+from planner.dialogue.replies import Reading
 from planner.dialogue.revision import revision
 from planner.dialogue.selection import NOTHING_THEN, agrees, confirms, declines, left_out, select
-from planner.grounding.grounding import AMONG
+from planner.grounding.phrasing import AMONG
 from planner.language.grammar.parser import CommandGrammar
 from planner.language.sentences.tokens import text_flaw
 from planner.models.protocol import CORRECTABLE, FailureKind, LanguageModel, ModelFailure
@@ -141,7 +142,7 @@ class TaskPlanner:
         chosen = select(answer, candidates, snapshot, interpreter, self._grammar)
         if chosen:
             return {reading.asked: chosen}
-        left = left_by(answer, candidates, interpreter.lexicon(snapshot), interpreter.grounding(snapshot))
+        left = described(answer, candidates, interpreter.lexicon(snapshot), interpreter.grounding(snapshot))
         return {f"{AMONG}{reading.asked}": left} if reading.asked and 1 < len(left) < len(candidates) else {}
 
     def _restated(

@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
-from planner.language.grammar.references import ORDINALS, SUPERLATIVE, Children, PhraseReader, tokens_of, values_of
+from planner.language.grammar.children import Children, tokens_of, values_of
+from planner.language.grammar.references import ORDINALS, SUPERLATIVE, PhraseReader
 from planner.language.grammar.syntax import Ask, NounPhrase, Pronoun, Quantity, Reference, Restriction
 from planner.plan import QueryKind
 

@@ -7,7 +7,7 @@ from typing import Any
 
 from planner.language.grammar.agreement import apposed, generic, is_definite
 from planner.language.grammar.asking import QuestionReader
-from planner.language.grammar.references import Children, tokens_of, values_of
+from planner.language.grammar.children import Children, tokens_of, values_of
 from planner.language.grammar.syntax import (
     Carry,
     Destination,

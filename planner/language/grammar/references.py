@@ -1,17 +1,18 @@
-"""From parse trees to references: noun phrases, pronouns and restrictions of ``commands.lark``."""
+"""From parse trees to references: noun phrases and pronouns of ``commands.lark``."""
 
 from __future__ import annotations
 
 from dataclasses import replace
 from typing import Any
 
-from lark import Token, Transformer
+from lark import Token
 
 from planner.language.grammar.agreement import apposed, may_except, may_follow
+from planner.language.grammar.children import Children, has_word, number_of, tokens_of, values_of
+from planner.language.grammar.restrictions import RestrictionReader
 from planner.language.grammar.syntax import NounPhrase, Pronoun, Quantity, Reference, Restriction, Spot
 from planner.language.lexicon.vocabulary import is_plural, singular
 
-Children = list[Any]
 _SIZE = {"BIG": "big", "SMALL": "small"}
 SUPERLATIVE = {
     "NEAREST": "nearest",
@@ -21,7 +22,7 @@ SUPERLATIVE = {
     "LEFTMOST": "leftmost",
     "RIGHTMOST": "rightmost",
 }
-_COMPARATIVE = {
+COMPARATIVE = {
     "bigger": "largest",
     "larger": "largest",
     "taller": "largest",
@@ -33,17 +34,7 @@ ORDINALS = {
 }  # fmt: skip
 
 
-def values_of(children: Children) -> Children:
-    """What has been read already, without the words."""
-    return [child for child in children if not isinstance(child, Token)]
-
-
-def tokens_of(children: Children) -> list[Token]:
-    """The words, without what has been read already."""
-    return [child for child in children if isinstance(child, Token)]
-
-
-class PhraseReader(Transformer[Token, Any]):
+class PhraseReader(RestrictionReader):
     """One method a rule: how references are read."""
 
     def np(self, children: Children) -> NounPhrase:
@@ -89,7 +80,7 @@ class PhraseReader(Transformer[Token, Any]):
         return {"quantity": Quantity.BOTH, "count": 2}
 
     def some(self, children: Children) -> dict[str, Any]:
-        return {"quantity": Quantity.SOME, "count": _number(children)}
+        return {"quantity": Quantity.SOME, "count": number_of(children)}
 
     def half(self, _: Children) -> dict[str, Any]:
         return {"quantity": Quantity.SOME, "share": "half"}
@@ -99,12 +90,12 @@ class PhraseReader(Transformer[Token, Any]):
         return {"quantity": Quantity.SOME, "share": f"all but {'1' if left.type == 'ONE' else left}"}
 
     def exactly(self, children: Children) -> dict[str, Any]:
-        return {"quantity": Quantity.EXACTLY, "count": _number(children)}
+        return {"quantity": Quantity.EXACTLY, "count": number_of(children)}
 
     def modifier(self, children: Children) -> dict[str, Any]:
         (token,) = children
         if token.type in _SIZE:
-            return {"sizes": (str(token) if str(token) in _COMPARATIVE else _SIZE[token.type],)}
+            return {"sizes": (str(token) if str(token) in COMPARATIVE else _SIZE[token.type],)}
         if token.type in SUPERLATIVE:
             return {"superlative": SUPERLATIVE[token.type]}
         if token.type == "ORDINAL":
@@ -120,7 +111,7 @@ class PhraseReader(Transformer[Token, Any]):
 
     def modifier_either(self, children: Children) -> dict[str, Any]:
         colors = tuple(str(token) for token in children if token.type == "COLOR")
-        return {"colors": colors, "either": True, **({} if _has(children, "NOR") else {"quantity": Quantity.ALL})}
+        return {"colors": colors, "either": True, **({} if has_word(children, "NOR") else {"quantity": Quantity.ALL})}
 
     def one_head(self, children: Children) -> dict[str, Any]:
         return {"words": (str(children[0]),)}
@@ -138,7 +129,7 @@ class PhraseReader(Transformer[Token, Any]):
         return phrase
 
     def headless(self, children: Children) -> NounPhrase:
-        phrase = NounPhrase(words=("one",), quantity=Quantity.A if _has(children, "A") else Quantity.THE)
+        phrase = NounPhrase(words=("one",), quantity=Quantity.A if has_word(children, "A") else Quantity.THE)
         parts = values_of(children) or [{"other": True}]
         for part in parts:
             phrase = replace(phrase, **_merged(phrase, part))
@@ -156,7 +147,7 @@ class PhraseReader(Transformer[Token, Any]):
             phrase = replace(phrase, quantity=Quantity.ALL)
         for part in parts:
             phrase = replace(phrase, **_merged(phrase, part))
-        if _has(children, "AND"):
+        if has_word(children, "AND"):
             color = Restriction(relation="color", word=str(tokens_of(children)[-1]))
             phrase = replace(phrase, restrictions=(*phrase.restrictions, color))
         return phrase
@@ -182,108 +173,8 @@ class PhraseReader(Transformer[Token, Any]):
     def held(self, _: Children) -> NounPhrase:
         return NounPhrase(words=("thing",), quantity=Quantity.THE, restrictions=(Restriction(relation="held"),))
 
-    def relation(self, children: Children) -> str:
-        token = children[0]
-        names: dict[str, str] = {"ONTO": "on", "INTO": "in", "OFF": "from", "BESIDE": str(token)}
-        if str(token) == "out of":
-            return "out of"
-        return names.get(token.type, str(token.type).lower())
-
-    def restriction(self, children: Children) -> Restriction:
-        relation, reference = values_of(children)
-        return Restriction(relation=relation, reference=reference)
-
-    def told(self, children: Children) -> Restriction:
-        """*the book Ben left on the desk*: who left it there says nothing about where it is."""
-        relation = str(tokens_of(children)[-1].type).lower()
-        return Restriction(relation=relation, reference=values_of(children)[0])
-
-    def things_two(self, children: Children) -> tuple[Reference, Reference]:
-        one, other = values_of(children)
-        return one, other
-
-    def restricted_between(self, children: Children) -> Restriction:
-        relation, (one, other) = values_of(children)
-        return Restriction(relation=relation, reference=one, other=other)
-
-    def restricted_not(self, children: Children) -> Restriction:
-        return replace(self.restriction(children), negated=True)
-
-    def restricted_nor(self, children: Children) -> dict[str, Any]:
-        """*that is not on the counter or in the box*."""
-        relations = [value for value in values_of(children) if isinstance(value, str)]
-        references = [value for value in values_of(children) if not isinstance(value, str)]
-        pairs = zip((relations[0], relations[-1]), references, strict=True)
-        return {"restrictions": tuple(Restriction(relation=r, reference=x, negated=True) for r, x in pairs)}
-
-    def restricted_and_color(self, children: Children) -> dict[str, Any]:
-        """*that is on the desk and red*."""
-        color = Restriction(relation="color", word=str(tokens_of(children)[-1]))
-        return {"restrictions": (self.restriction(children), color)}
-
-    def restricted_color(self, children: Children) -> Restriction:
-        token = next(child for child in children if child.type in ("COLOR", "ORANGE"))
-        return Restriction(relation="color", word=str(token))
-
-    def restricted_not_color(self, children: Children) -> Restriction:
-        return replace(self.restricted_color(children), negated=True)
-
-    def restricted_state(self, children: Children) -> Restriction:
-        return Restriction(relation="state", word=str(children[-1]), negated=_has(children, "NOT"))
-
-    def restricted_with(self, children: Children) -> Restriction:
-        return Restriction(relation="with", reference=values_of(children)[0])
-
-    def restricted_without(self, children: Children) -> Restriction:
-        """*The bedroom where Ben is not*."""
-        return replace(self.restricted_with(children), negated=True)
-
-    def restricted_same_room(self, children: Children) -> Restriction:
-        return Restriction(relation="same room", reference=values_of(children)[0])
-
-    def restricted_here(self, _: Children) -> Restriction:
-        return Restriction(relation="here")
-
-    def restricted_there(self, _: Children) -> Restriction:
-        return Restriction(relation="there")
-
-    def restricted_held(self, _: Children) -> Restriction:
-        return Restriction(relation="held")
-
-    def restricted_floor(self, _: Children) -> Restriction:
-        return Restriction(relation="floor")
-
-    def restricted_farthest(self, children: Children) -> Restriction:
-        return Restriction(relation="farthest", reference=values_of(children)[0])
-
     def owner(self, children: Children) -> Reference:
         return self.recipient(children)
-
-    def restricted_owned(self, children: Children) -> Restriction:
-        return Restriction(relation="of person", reference=values_of(children)[0])
-
-    def restricted_is(self, children: Children) -> Restriction:
-        return Restriction(relation="is", reference=values_of(children)[0])
-
-    def restricted_is_not(self, children: Children) -> Restriction:
-        return replace(self.restricted_is(children), negated=True)
-
-    def sort(self, children: Children) -> NounPhrase:
-        return NounPhrase(words=tuple(str(token) for token in children if token.type != "A"))
-
-    def restricted_sort(self, children: Children) -> Restriction:
-        """*Everything that is a can*, *a fruit that is not a banana*."""
-        return Restriction(relation="sort", reference=values_of(children)[0], negated=_has(children, "NOT"))
-
-    def restricted_kind(self, children: Children) -> Restriction:
-        return Restriction(relation="kind", reference=values_of(children)[0])
-
-    def restricted_neither(self, children: Children) -> dict[str, Any]:
-        colors = [str(token) for token in tokens_of(children) if token.type in ("COLOR", "ORANGE")]
-        return {"restrictions": tuple(Restriction(relation="color", word=c, negated=True) for c in colors)}
-
-    def restricted_nearest(self, children: Children) -> Restriction:
-        return Restriction(relation="nearest", reference=values_of(children)[0])
 
     def pronoun(self, children: Children) -> Pronoun:
         several = str(children[0]) in ("them", "they", "those ones", "these ones")
@@ -302,13 +193,13 @@ class PhraseReader(Transformer[Token, Any]):
         number = next((int(token) for token in tokens_of(children) if token.type == "NUMBER"), None)
         if number is not None:
             return replace(several, count=number)
-        if _has(children, "HALF"):
+        if has_word(children, "HALF"):
             return replace(several, share="half")
         return replace(several, words=("thing",), quantity=Quantity.A, count=1)
 
     def it(self, children: Children) -> Pronoun:
         if len(children) > 1:
-            return Pronoun(word="both" if _has(children, "BOTH") else "them")
+            return Pronoun(word="both" if has_word(children, "BOTH") else "them")
         if children[0].type == "IT":
             return self.pronoun(children)
         return Pronoun(word={"THIS": "that", "BOTH": "both", "ALL": "all"}.get(children[0].type, "it"))
@@ -332,14 +223,10 @@ class PhraseReader(Transformer[Token, Any]):
         return NounPhrase(words=tuple(map(str, children)), quantity=Quantity.THE, person=True)
 
 
-def _has(children: Children, kind: str) -> bool:
-    return any(isinstance(child, Token) and child.type == kind for child in children)
-
-
 def _of_several(phrase: NounPhrase) -> dict[str, Any]:
     """*The bigger of the two cups*: one of them; of a comparative, the one at that end."""
     one = {"words": (*phrase.words[:-1], singular(phrase.words[-1]))} if phrase.words else {}
-    comparative = {"big": "largest", "small": "smallest", **_COMPARATIVE}
+    comparative = {"big": "largest", "small": "smallest", **COMPARATIVE}
     ends = [comparative[size] for size in phrase.sizes if size in comparative]
     return one | ({"superlative": ends[0], "sizes": ()} if ends else {})
 
@@ -354,7 +241,3 @@ def _merged(phrase: NounPhrase, part: Any) -> dict[str, Any]:
         if name in merged:
             merged[name] = (*getattr(phrase, name), *merged[name])
     return merged
-
-
-def _number(children: Children) -> int:
-    return next(int(token) for token in tokens_of(children) if token.type == "NUMBER")

@@ -7,12 +7,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from grammar_home import home
+from planner.answers.whereabouts import age_phrase
 from planner.dialogue.interpreter import Interpreter
 from planner.doubles.sketch import Sketch, flat
-from planner.grounding.naming import name_of
 from planner.grounding.phrasing import article
-from planner.grounding.whereabouts import age_phrase
 from planner.language.grammar.parser import CommandGrammar
+from planner.naming import name_of
 from planner.plan import Dialogue, Kind, QueryKind
 from planner.skill_planner.verifier import Verifier
 from scene_graph.nodes import UNKNOWN_LABEL, DoorState, ObjectState

@@ -19,7 +19,7 @@ from planner.explainer.explainer import (
     success_sentence,
 )
 from planner.goals import goal
-from planner.grounding.naming import aim_phrase, goal_phrase, humanize, name_of, places_phrase, whereabouts
+from planner.naming import aim_phrase, goal_phrase, humanize, name_of, places_phrase, whereabouts
 from planner.plan import Plan, Source, Step
 from planner.tasks.tasks import PlanReport, StepReport, StepStatus, Task, TaskTimes
 from scene_graph.edits import PutNode

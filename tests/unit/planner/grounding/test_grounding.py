@@ -6,11 +6,11 @@ from dataclasses import replace
 
 import pytest
 
-from planner.controller.taken_for import TakenFor
+from planner.controller.identity_check import IdentityCheck
 from planner.dialogue.interpreter import Interpreter
 from planner.doubles.sketch import Sketch, flat
-from planner.grounding.naming import name_of
 from planner.language.grammar.parser import CommandGrammar
+from planner.naming import name_of
 from planner.plan import Dialogue, Kind
 from planner.skill_planner.verifier import Verifier
 from planner.task_planner.task_planner import TaskPlanner
@@ -184,7 +184,7 @@ def test_so_is_a_place_without_a_name():
 def test_what_has_no_name_and_was_taken_for_a_ball_must_not_turn_out_to_be_something_else(label, mistaken):
     request = "bring me the ball"
     before = nameless(flat(), "unknown_1", "desk_1", unknown=0.45, ball=0.4, orange=0.15)
-    taken = TakenFor(request, read(request, in_hall(before)).goals, in_hall(before))
+    taken = IdentityCheck(request, read(request, in_hall(before)).goals, in_hall(before))
     after = flat().thing("unknown_1", label, on="desk_1", label_distribution=((label, 0.95),))
     assert (taken.mistake(at_desk(after)) is not None) == mistaken
 
@@ -201,7 +201,7 @@ def test_what_has_no_name_and_was_taken_for_a_ball_must_not_turn_out_to_be_somet
 )
 def test_what_a_thing_looks_like_from_afar_waits_until_the_robot_is_there(label, where, doubted):
     request, before = "bring me the ball", flat().thing("ball_1", "ball", on="desk_1")
-    taken = TakenFor(request, read(request, in_hall(before)).goals, in_hall(before))
+    taken = IdentityCheck(request, read(request, in_hall(before)).goals, in_hall(before))
     after = flat().thing("ball_1", label, on="desk_1", label_distribution=((label, 0.95),)).snapshot(**where)
     assert ((taken.mistake(after) or taken.refuted(after)) is not None) == doubted
     assert (taken.mistake(after, at_last=True) or taken.refuted(after, at_last=True)) is not None
@@ -215,7 +215,7 @@ def test_what_slipped_from_the_hand_is_what_it_was_until_all_is_done_however_it_
     def doubt(**last):
         return taken.mistake(after, **last) or taken.refuted(after, **last)
 
-    taken = TakenFor(request, read(request, in_hall(before)).goals, in_hall(before))
+    taken = IdentityCheck(request, read(request, in_hall(before)).goals, in_hall(before))
     assert doubt() is not None
     taken.fell("ball_1")
     assert doubt() is None

@@ -13,8 +13,9 @@ from planner.doubles.sketch import Sketch, flat
 from planner.goals import Goal, Predicate, goal, lasting
 from planner.language.grammar.parser import CommandGrammar
 from planner.plan import Dialogue, Plan
-from planner.skill_planner.arranging import EXACT, arranged, orders
+from planner.skill_planner.arranging import arranged, orders
 from planner.skill_planner.search import Found, Search
+from planner.skill_planner.settings import OrderSettings
 from planner.skill_planner.verifier import Verifier
 from random_problems import random_problem
 from skills.registry import load_registry
@@ -126,7 +127,7 @@ def test_twelve_things_have_a_good_plan_at_once():
 
 def test_many_things_go_no_farther_than_by_the_exact_way():
     places = [(float(x), float(y)) for x in (-6, 0, 6) for y in (-6, 0, 6)]
-    state = PlanState.from_snapshot(row(places[: EXACT + 1]))
+    state = PlanState.from_snapshot(row(places[: OrderSettings.exact + 1]))
     goals = free(*(goal("on", f"cup_{k}", f"table_{(k + 3) % 9 + 1}") for k in range(1, 10)))
 
     def leg(here, there):

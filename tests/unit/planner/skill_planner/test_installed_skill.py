@@ -9,8 +9,8 @@ import pytest
 from paths import PACKAGES
 from planner.doubles.sketch import Sketch
 from planner.goals import goal, holds_in
-from planner.grounding.naming import step_phrase
 from planner.language.grammar.parser import CommandGrammar
+from planner.naming import step_phrase
 from planner.plan import Dialogue, Impossible, Plan
 from planner.skill_planner.skill_planner import SkillPlanner, skill_lines
 from planner.skill_planner.verifier import Verifier

@@ -160,6 +160,11 @@ def listed(phrases: list[str]) -> str:
     return f"{', '.join(phrases[:-1])} and {phrases[-1]}"
 
 
+def capital(text: str) -> str:
+    """With a capital first letter; the rest as it is."""
+    return text[:1].upper() + text[1:]
+
+
 def _door_name(door: DoorNode, snapshot: Snapshot) -> str:
     near, far = door.rooms
     if far is None:

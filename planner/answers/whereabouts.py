@@ -2,23 +2,21 @@
 
 from __future__ import annotations
 
-from planner.grounding.naming import name_of
+from planner.answers.settings import AnswerSettings
 from planner.grounding.openness import not_known, undecided
 from planner.grounding.phrasing import place_phrase
 from planner.language.lexicon.vocabulary import ALWAYS_PLURAL, is_plural
+from planner.naming import capital, name_of
 from scene_graph.nodes import ROBOT_ID, DoorNode, ObjectNode, ObjectState, RoomNode
 from scene_graph.snapshot import Snapshot
 from skills.state.state import PlanState
-
-NOW_S = 5.0
-"""What was seen this long ago or less is seen now."""
 
 
 class Whereabouts:
     """Sentences about where nodes of one graph are."""
 
-    def __init__(self, snapshot: Snapshot, state: PlanState) -> None:
-        self._snapshot, self._state = snapshot, state
+    def __init__(self, snapshot: Snapshot, state: PlanState, settings: AnswerSettings) -> None:
+        self._snapshot, self._state, self._settings = snapshot, state, settings
 
     def sentence(self, node_id: str, *, rooms_only: bool, speaker: str | None = None) -> str:
         """*The red cup is on the table in the kitchen; I saw it 3 minutes ago.*"""
@@ -54,7 +52,7 @@ class Whereabouts:
         return "where I know of no open way to" if distance_m is None else f"about {distance_m:.0f} m from me"
 
     def _age(self, node: ObjectNode) -> str:
-        return age_phrase(self._snapshot.stamp_s - node.last_seen_s)
+        return age_phrase(self._snapshot.stamp_s - node.last_seen_s, self._settings)
 
 
 def _is_several(node: ObjectNode) -> bool:
@@ -63,9 +61,9 @@ def _is_several(node: ObjectNode) -> bool:
     return not node.name and (last in ALWAYS_PLURAL or is_plural(last))
 
 
-def age_phrase(seconds: float) -> str:
+def age_phrase(seconds: float, settings: AnswerSettings = AnswerSettings()) -> str:
     """*just now*, *20 seconds ago*, *3 minutes ago*, *2 hours ago*, *4 days ago*."""
-    if seconds < NOW_S:
+    if seconds < settings.now_s:
         return "just now"
     for limit, size, unit in ((60, 1, "second"), (3600, 60, "minute"), (86400, 3600, "hour")):
         if seconds < limit:
@@ -75,8 +73,3 @@ def age_phrase(seconds: float) -> str:
 
 def _ago(count: int, unit: str) -> str:
     return f"{count} {unit}{'' if count == 1 else 's'} ago"
-
-
-def capital(text: str) -> str:
-    """With a capital first letter; the rest as it is."""
-    return text[:1].upper() + text[1:]

@@ -34,7 +34,7 @@ from app.views.metrics import Standing, metrics_text
 from app.views.scene_documents import robot_document, scene_document
 from client.documents import Trace
 from planner.language.sentences.control import Control, control_word
-from planner.mission.control_words import obey
+from planner.mission.control_words import apply_control
 from planner.models.protocol import LanguageModel
 from planner.tasks.approval import Approval
 from planner.tasks.queue import TaskQueue
@@ -180,7 +180,7 @@ class Runtime:
             self.stop_robot()
         elif control is Control.RESUME and self._stack is not None and self._stack.stopped:
             self.release_stop()
-        return obey(control, task, self.queue, self.now_s)
+        return apply_control(control, task, self.queue, self.now_s)
 
     def stop_robot(self) -> None:
         """Latch the stop; never waits for anything."""

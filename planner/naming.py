@@ -15,7 +15,7 @@ from skills.furniture.containers import is_container
 _NUMBERED = frozenset({"room", "region", "door", "wall", "corner"})
 """What has no name but its number."""
 MOST_LISTED = 5
-"""More places than this are counted, not named: nobody listens to the end of such a list."""
+"""More than this are counted, not named: nobody listens to the end of such a list."""
 IDENTIFIER = re.compile(r"[a-z][a-z0-9_]*_\d+(?:_pre)?\b")
 
 

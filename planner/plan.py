@@ -67,7 +67,7 @@ class Impossible:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Reread:
+class Reinterpret:
     """No plan yet: the request is to be understood again, since what it speaks of may have been seen by now.
 
     ``displaced``: what was lost, and what turned up since and looks like it.

@@ -23,7 +23,7 @@ from planner.executor.executor import Executor
 from planner.executor.exploration import explore, look_at
 from planner.goals import Goal
 from planner.mission.mission import Mission
-from planner.mission.resources import Crew
+from planner.mission.resources import Resources
 from planner.plan import Interpretation, Kind
 from planner.skill_planner.skill_planner import SkillPlanner
 from planner.skill_planner.verifier import Verifier
@@ -66,8 +66,8 @@ class MissionStage(Stage):
         return
 
     async def ask(self, *goals: Goal, body: Any = None, silent: tuple[type[Exception], ...] = (OSError,)) -> None:
-        """Set the crew to work on a request that means these goals. ``body``: stands between skills and the robot."""
-        self.crew = Crew(
+        """Set to work on a request that means these goals. ``body``: stands between skills and the robot."""
+        self.resources = Resources(
             memory=self.memory,
             queue=self.queue,
             verifier=Verifier(SKILLS),
@@ -85,7 +85,7 @@ class MissionStage(Stage):
             on_event=self.events.append,
         )
         meaning = Interpretation(kind=Kind.PLAN, goals=goals)
-        self.mission = Mission(self.crew, ScriptedInterpreter({"do it": meaning}))
+        self.mission = Mission(self.resources, ScriptedInterpreter({"do it": meaning}))
         self.arbiter = Arbiter(self.memory, stopped=lambda: self.robot.stopped, exploration_enabled=False)
         self.queue.submit("do it", stamp_s=self.now_s)
         self._due_s = 0.0
@@ -162,7 +162,7 @@ class MissionStage(Stage):
             self._due_s = self.now_s + 0.099
             await self.arbiter.step(self.now_s)
             await self.mission.step(self.now_s)
-        await self.crew.executor.step(self.now_s)
+        await self.resources.executor.step(self.now_s)
         self.now_s = await self.robot.advance(0.05)
 
     def _localize(self) -> None:

@@ -13,7 +13,7 @@ from planner.executor.arbiter import Arbiter
 from planner.executor.executor import Executor
 from planner.language.grammar.parser import CommandGrammar
 from planner.mission.mission import Mission
-from planner.mission.resources import Crew
+from planner.mission.resources import Resources
 from planner.skill_planner.skill_planner import SkillPlanner
 from planner.skill_planner.verifier import Verifier
 from planner.task_planner.task_planner import TaskPlanner
@@ -46,7 +46,7 @@ class RehearsalStack:
         self._started = time.monotonic()
         skills, look = scripted_skills(self.stage, script), scripted_look(self.stage, script)
         executor = Executor(self.memory, self.body, self.body, explore=lambda edge, context: look(edge.target, context))
-        crew = Crew(
+        resources = Resources(
             memory=self.memory,
             queue=queue,
             verifier=Verifier(skills),
@@ -56,7 +56,7 @@ class RehearsalStack:
             sensor_ages=lambda: {"lidar": 0.0, "camera": 0.0},
             on_event=lambda event: log.write(event["stamp_s"], "mission", event),
         )
-        mission = Mission(crew, TaskPlanner(CommandGrammar(), crew.verifier, None))
+        mission = Mission(resources, TaskPlanner(CommandGrammar(), resources.verifier, None))
         arbiter = Arbiter(self.memory, stopped=lambda: self.body.stopped, exploration_enabled=False)
         self.agents: Sequence[Agent] = [Perception(self.stage), arbiter, mission, executor]
 

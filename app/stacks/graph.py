@@ -13,7 +13,7 @@ from app.scheduler import Agent
 from app.views.camera import CameraWindow, Gaze
 from planner.executor.executor import OnEvent
 from planner.language.grammar.parser import CommandGrammar
-from planner.mission.offline import PaperMission
+from planner.mission.offline import OfflineMission
 from planner.models.protocol import LanguageModel
 from planner.skill_planner.verifier import Verifier
 from planner.task_planner.task_planner import TaskPlanner
@@ -48,7 +48,7 @@ class GraphStack:
             journal=lambda entry: self._log.write(self.now(), "model", entry),
         )
         on_event: OnEvent = lambda event: self._log.write(event["stamp_s"], "mission", event)  # noqa: E731
-        self.agents: Sequence[Agent] = [PaperMission(memory, queue, planner, verifier, on_event=on_event)]
+        self.agents: Sequence[Agent] = [OfflineMission(memory, queue, planner, verifier, on_event=on_event)]
 
     @classmethod
     def load(cls, path: Path, queue: TaskQueue, model: LanguageModel | None, log: EventLog | None = None) -> GraphStack:

@@ -37,7 +37,7 @@ from planner.executor.executor import Executor
 from planner.executor.exploration import explore, look_at
 from planner.language.grammar.parser import CommandGrammar
 from planner.mission.mission import Mission
-from planner.mission.resources import Crew
+from planner.mission.resources import Resources
 from planner.models.protocol import LanguageModel
 from planner.skill_planner.skill_planner import SkillPlanner
 from planner.skill_planner.verifier import Verifier
@@ -98,7 +98,7 @@ class RobotStack:
         self._buffer = buffer
         skills = load_registry()
         verifier = Verifier(skills)
-        crew = Crew(
+        resources = Resources(
             memory=self.memory,
             queue=queue,
             verifier=verifier,
@@ -120,7 +120,7 @@ class RobotStack:
             *mapping_agents(self.memory, buffer),
             *seeing,
             Arbiter(self.memory, stopped=lambda: self.stopped, exploration_enabled=settings.explore),
-            Mission(crew, planner),
+            Mission(resources, planner),
             self._executor,
             *([remembering] if remembering is not None else []),
         ]

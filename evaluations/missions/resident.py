@@ -12,7 +12,7 @@ from evaluations.missions.inventing import room_name
 from evaluations.missions.mission import Mission
 from evaluations.missions.outcome import Scene
 from evaluations.perception.inventory import GraphContents, graph_contents
-from planner.mission.taught import teach
+from planner.mission.teaching import teach
 from planner.tasks.tasks import Task
 from simulation.houses.house import House
 

@@ -10,6 +10,7 @@ from planner.models.scripted import ScriptedModel
 from planner.plan import Dialogue, Kind
 from planner.skill_planner.verifier import Verifier
 from planner.task_planner.model_rounds import ModelRounds
+from planner.task_planner.settings import TaskPlannerSettings
 from planner.task_planner.task_planner import no_journal
 from scene_graph.snapshot import Snapshot
 from skills.registry import load_registry
@@ -40,7 +41,9 @@ async def prompt_tokens(text: str, snapshot: Snapshot) -> tuple[int, int]:
     """Estimated tokens of what a model would read of a first turn: the prompt, and the prompt with its schema."""
     down = ModelFailure(kind=FailureKind.ENDPOINT_DOWN, message="nobody is asked")
     recorder = ScriptedModel(lambda _: down)
-    await ModelRounds(recorder, Verifier(load_registry()), no_journal, 60.0).run(text, snapshot, Dialogue())
+    await ModelRounds(recorder, Verifier(load_registry()), no_journal, TaskPlannerSettings(deadline_s=60.0)).run(
+        text, snapshot, Dialogue()
+    )
     request = recorder.requests[0]
     prompt = sum(len(message.text.encode("utf-8", "replace")) for message in request.messages)
     return math.ceil(prompt / BYTES_PER_TOKEN), tokens_needed(request) - request.max_tokens

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from planner.answers.comparing import COMPARING, Comparing
+from planner.answers.comparison import COMPARING, Comparison
 from planner.answers.inventory import Inventory
 from planner.answers.reports import ABILITIES, REPORTED, Report, Reports
 from planner.answers.settings import AnswerSettings
@@ -42,7 +42,7 @@ class Answers:
         self._grounding, self._settings = grounding, settings
         self._snapshot, self._state = grounding.snapshot, grounding.state
         self._subjects, self._inventory = Subjects(grounding), Inventory(grounding.snapshot, grounding.state, settings)
-        self._reports, self._comparing = Reports(grounding, settings), Comparing(grounding)
+        self._reports, self._comparison = Reports(grounding, settings), Comparison(grounding)
         self._told = Whereabouts(grounding.snapshot, grounding.state, settings)
 
     def of(self, ask: Ask, context: Context) -> Answer | Trouble:
@@ -73,7 +73,7 @@ class Answers:
         return Answer(text=text, query=query, holds=self._subjects.holds(ask, nodes, context))
 
     def _reported(self, ask: Ask, context: Context) -> Answer | Trouble:
-        told = (self._comparing if ask.kind in COMPARING else self._reports).of(ask, context)
+        told = (self._comparison if ask.kind in COMPARING else self._reports).of(ask, context)
         if not isinstance(told, Report):
             return told
         holds = told.text.startswith("Yes") if ask.kind is QueryKind.CAPABLE else None

@@ -11,6 +11,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from math import hypot, inf
 
+from planner.executor.settings import ExecutorSettings
 from scene_graph.edges import HasIntentionEdge, IntentionAction, IntentionStatus, Priority
 from scene_graph.edits import PutEdge
 from scene_graph.errors import FramesNotConnected, NodeNotFound
@@ -18,9 +19,6 @@ from scene_graph.memory import WorkingMemory
 from scene_graph.nodes import ROBOT_ID, AffordanceNode
 from scene_graph.queries.topology import Topology
 from scene_graph.snapshot import Snapshot
-
-DOORWAY_M = 1.0
-"""A robot this close to the door it crosses finishes crossing before anything but the stop."""
 
 
 class Arbiter:
@@ -30,6 +28,7 @@ class Arbiter:
         memory: the graph that holds the intentions.
         stopped: whether the software stop is latched.
         exploration_enabled: what ``exploration_enabled`` starts as; while it is false, only requests are granted.
+        settings: among them what counts as standing in a doorway.
     """
 
     name = "mission_monitoring"
@@ -41,7 +40,9 @@ class Arbiter:
         stopped: Callable[[], bool],
         exploration_enabled: bool = True,
         period_s: float = 0.1,
+        settings: ExecutorSettings = ExecutorSettings(),
     ) -> None:
+        self._settings = settings
         self.period_s = period_s
         self.exploration_enabled = exploration_enabled
         self._memory = memory
@@ -56,15 +57,25 @@ class Arbiter:
             self._memory.commit(edits, agent=self.name, stamp_s=stamp_s)
 
     def _choose(self, snapshot: Snapshot) -> HasIntentionEdge | None:
-        return choose(snapshot, exploration_enabled=self.exploration_enabled, building=self._memory.building)
+        return choose(
+            snapshot,
+            exploration_enabled=self.exploration_enabled,
+            building=self._memory.building,
+            doorway_m=self._settings.doorway_m,
+        )
 
 
 def choose(
-    snapshot: Snapshot, *, exploration_enabled: bool = True, building: Callable[[], Snapshot] | None = None
+    snapshot: Snapshot,
+    *,
+    exploration_enabled: bool = True,
+    building: Callable[[], Snapshot] | None = None,
+    doorway_m: float = ExecutorSettings.doorway_m,
 ) -> HasIntentionEdge | None:
     """The intention that should have the robot, ``None`` if there is none.
 
     ``building`` gives everything known when the way to several equal ones must be compared; ``snapshot`` by default.
+    ``doorway_m``: as in ``ExecutorSettings``.
     """
     robot = snapshot.robot
     lost = robot is not None and not robot.localized
@@ -78,7 +89,7 @@ def choose(
     top = max(edge.priority for edge in candidates)
     granted = [edge for edge in candidates if edge.status is IntentionStatus.GRANTED]
     for edge in sorted(granted, key=_age):
-        if edge.priority >= top or _in_doorway(snapshot, edge):
+        if edge.priority >= top or _in_doorway(snapshot, edge, doorway_m):
             return edge
     best = [edge for edge in candidates if edge.priority == top]
     return best[0] if len(best) == 1 else min(best, key=_Ways(building() if building else snapshot).rank)
@@ -111,10 +122,10 @@ def _age(edge: HasIntentionEdge) -> tuple[float, str, str]:
     return edge.proposed_s, edge.agent, edge.target
 
 
-def _in_doorway(snapshot: Snapshot, edge: HasIntentionEdge) -> bool:
+def _in_doorway(snapshot: Snapshot, edge: HasIntentionEdge, doorway_m: float) -> bool:
     if edge.action is not IntentionAction.CROSS:
         return False
-    return _straight_m(snapshot, edge.target) < DOORWAY_M
+    return _straight_m(snapshot, edge.target) < doorway_m
 
 
 def place_of(snapshot: Snapshot, target: str) -> str:

@@ -12,6 +12,7 @@ from dataclasses import replace
 from typing import Any
 
 from planner.executor.job import Job, JobState, actions_or_refusal
+from planner.executor.settings import ExecutorSettings
 from scene_graph.edges import HasIntentionEdge, IntentionAction, IntentionStatus
 from scene_graph.edits import PutEdge
 from scene_graph.memory import WorkingMemory
@@ -24,7 +25,6 @@ logger = logging.getLogger(__name__)
 
 OnEvent = Callable[[dict[str, Any]], None]
 ActionsFor = Callable[[HasIntentionEdge, RobotContext], list[Action]]
-EXPLORATION_TIMEOUT_S = 180.0
 STILL = (0.0, 0.0)
 
 
@@ -43,6 +43,7 @@ class Executor:
         explore: makes the actions of an exploration intention.
         on_event: told what starts, ends and is interrupted, as plain data with robot time.
         silent: what the body port raises when the body does not answer.
+        settings: among them how long exploration may act.
     """
 
     name = "robot_body"
@@ -57,7 +58,9 @@ class Executor:
         on_event: OnEvent = ignore_event,
         silent: tuple[type[Exception], ...] = (OSError, EOFError),
         period_s: float = 0.05,
+        settings: ExecutorSettings = ExecutorSettings(),
     ) -> None:
+        self._settings = settings
         self.period_s = period_s
         self.context: RobotContext | None = None
         self.body_silent = False
@@ -136,7 +139,7 @@ class Executor:
         if granted.action is not IntentionAction.TASK:
             name = f"{granted.action} {granted.target}"
             actions = actions_or_refusal(lambda: self._explore(granted, context), context)
-            self._job = Job(name, actions, timeout_s=EXPLORATION_TIMEOUT_S)
+            self._job = Job(name, actions, timeout_s=self._settings.exploration_timeout_s)
 
     def _take_over_offer(self, granted: HasIntentionEdge) -> None:
         if granted.action is not IntentionAction.TASK or self._offered is None:

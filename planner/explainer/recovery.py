@@ -49,7 +49,7 @@ RECOVERIES: Mapping[FailureCode, Recovery] = MappingProxyType(
 """One row for each code; a test keeps it complete."""
 
 
-class Recoveries:
+class RecoveryPolicy:
     """Counts a task's failures and says when to stop trying."""
 
     def __init__(self, *, max_failures: int) -> None:

@@ -9,11 +9,10 @@ from planner.grounding.context import Ambiguous, Context, Grounded
 from planner.grounding.matching import nodes_of, similar
 from planner.language.grammar.syntax import NounPhrase, Pronoun, Quantity, Reference, Spot
 from planner.language.lexicon.vocabulary import ALWAYS_PLURAL, is_known, is_plural, normal, singular
-from planner.naming import at, bare_name, listed, name_of
+from planner.naming import MOST_LISTED, at, bare_name, listed, name_of
 from scene_graph.nodes import CrossingStatus, DoorNode, ObjectNode, ObjectState, PersonNode, RoomNode, RoomStatus
 from scene_graph.snapshot import Snapshot
 
-MAX_LISTED = 5
 AMONG = "among "
 """Before a phrase: the candidates that an answer left, when it did not leave one."""
 
@@ -87,8 +86,8 @@ def place_phrase(object_id: str, snapshot: Snapshot) -> str:
 
 def which_question(ask: str, text: str, candidates: Sequence[str], snapshot: Snapshot) -> str:
     """A question that lists the candidates as a person would tell them apart; they can be answered by number, too."""
-    options = told_apart(candidates[:MAX_LISTED], snapshot)
-    more = f", or one of {len(candidates) - MAX_LISTED} more" if len(candidates) > MAX_LISTED else ""
+    options = told_apart(candidates[:MOST_LISTED], snapshot)
+    more = f", or one of {len(candidates) - MOST_LISTED} more" if len(candidates) > MOST_LISTED else ""
     lead = f"“{text}” could be several things. " if text != "you" else ""
     return f"{lead}{ask}: {_ored(options)}{more}?"
 

@@ -10,7 +10,7 @@ from planner.tasks.tasks import Task, TaskStatus
 _OPEN = frozenset({TaskStatus.AWAITING_ANSWER, TaskStatus.AWAITING_APPROVAL, TaskStatus.QUEUED, TaskStatus.PLANNING})
 
 
-def obey(control: Control, task: Task, queue: TaskQueue, stamp_s: float) -> Task:
+def apply_control(control: Control, task: Task, queue: TaskQueue, stamp_s: float) -> Task:
     """Act on the other tasks at once; ``task``, whose words these were, ends with what was done.
 
     *Stop* is the robot's own: who calls this latches the stop, and releases it for *go on*.

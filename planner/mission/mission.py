@@ -5,17 +5,15 @@ from __future__ import annotations
 from dataclasses import replace
 
 from planner.explainer.explainer import holding_sentence
-from planner.mission.errand import Errand, agent_of
-from planner.mission.intake import Intake, Interpreter
-from planner.mission.resources import Crew
+from planner.mission.request_handler import Interpreter, RequestHandler
+from planner.mission.resources import Resources
+from planner.mission.task_execution import TaskExecution, agent_of
 from planner.plan import Kind
 from planner.tasks.tasks import Task, TaskStatus
 from scene_graph.edges import EdgeKey, EdgeType, HasIntentionEdge, IntentionAction, IntentionStatus, Priority
 from scene_graph.edits import PutEdge, RemoveEdge
 from scene_graph.nodes import ROBOT_ID
 
-LOST_PATIENCE_S = 120.0
-"""How long what is to be done waits for a robot that does not know where it is; then it is turned down."""
 LOST = "I wait until I have found out where I am."
 
 
@@ -30,19 +28,19 @@ class Mission:
 
     name = "mission"
 
-    def __init__(self, crew: Crew, interpreter: Interpreter, *, period_s: float = 0.1) -> None:
+    def __init__(self, resources: Resources, interpreter: Interpreter, *, period_s: float = 0.1) -> None:
         self.period_s = period_s
-        self._crew, self._queue = crew, crew.queue
-        self._intake = Intake(
-            crew.memory,
-            crew.queue,
+        self._resources, self._queue = resources, resources.queue
+        self._requests = RequestHandler(
+            resources.memory,
+            resources.queue,
             interpreter,
-            crew.verifier,
-            on_event=crew.on_event,
-            interpret_s=crew.settings.interpret_s,
-            recognizable=crew.recognizable,
+            resources.verifier,
+            on_event=resources.on_event,
+            settings=resources.settings,
+            recognizable=resources.recognizable,
         )
-        self._errand: tuple[str, Errand] | None = None
+        self._execution: tuple[str, TaskExecution] | None = None
         self._stamp_s: float | None = None
         self._lost_since_s: float | None = None
 
@@ -65,13 +63,13 @@ class Mission:
 
     def _finds_its_place(self, stamp_s: float) -> bool:
         """Whether the robot is still about to find out where it is."""
-        robot = self._crew.memory.snapshot().robot
+        robot = self._resources.memory.snapshot().robot
         if robot is None or robot.localized:
             self._lost_since_s = None
             return False
         if self._lost_since_s is None:
             self._lost_since_s = stamp_s
-        return stamp_s - self._lost_since_s < LOST_PATIENCE_S
+        return stamp_s - self._lost_since_s < self._resources.settings.lost_patience_s
 
     async def _talk(self, stamp_s: float, *, lost: bool) -> None:
         """Answer, refuse or ask back at once what is asked while another task has the robot, or waits for it."""
@@ -80,35 +78,35 @@ class Mission:
             return
         if current.status in (TaskStatus.RUNNING, TaskStatus.PAUSED) or lost:
             self._queue.move(unread.id, TaskStatus.PLANNING, stamp_s=stamp_s)
-            await self._intake.take(self._queue.task(unread.id), stamp_s, busy=True)
+            await self._requests.take(self._queue.task(unread.id), stamp_s, busy=True)
 
     async def _prepare(self, task: Task, stamp_s: float, *, lost: bool) -> None:
-        ready = await self._intake.take(task, stamp_s, busy=lost)
+        ready = await self._requests.take(task, stamp_s, busy=lost)
         if lost and self._queue.task(task.id).status is TaskStatus.QUEUED:
             self._queue.amend(task.id, explanation=LOST)
         if ready is not None:
             self._queue.move(task.id, TaskStatus.RUNNING, stamp_s=stamp_s, explanation=ready.intent)
-            self._errand = (task.id, Errand(ready, self._crew, stamp_s))
+            self._execution = (task.id, TaskExecution(ready, self._resources, stamp_s))
 
     def _run(self, task: Task, stamp_s: float, dt_s: float) -> None:
-        """Let the errand go on while the arbiter grants its intention and the stop is not latched."""
-        if self._errand is None or self._errand[0] != task.id:
-            self._intake.end(task, TaskStatus.FAILED, "I was restarted while I worked on this.", stamp_s)
+        """Let the task go on while the arbiter grants its intention and the stop is not latched."""
+        if self._execution is None or self._execution[0] != task.id:
+            self._requests.end(task, TaskStatus.FAILED, "I was restarted while I worked on this.", stamp_s)
             return
-        edge = self._crew.memory.snapshot().edges.get(_intention_key(task.id))
-        needs = self._errand[1].needs
+        edge = self._resources.memory.snapshot().edges.get(_intention_key(task.id))
+        needs = self._execution[1].needs
         if not isinstance(edge, HasIntentionEdge):
             self._propose(task, needs, stamp_s)
         elif edge.needs != needs:
-            self._crew.memory.commit([PutEdge(replace(edge, needs=needs))], agent=self.name, stamp_s=stamp_s)
-        elif edge.status is IntentionStatus.GRANTED and not self._crew.executor.stopped:
-            ending = self._errand[1].advance(stamp_s, dt_s)
+            self._resources.memory.commit([PutEdge(replace(edge, needs=needs))], agent=self.name, stamp_s=stamp_s)
+        elif edge.status is IntentionStatus.GRANTED and not self._resources.executor.stopped:
+            ending = self._execution[1].advance(stamp_s, dt_s)
             if ending is not None and ending.status is TaskStatus.PLANNING:
-                self._intake.displace(task.id, ending.displaced)
+                self._requests.displace(task.id, ending.displaced)
                 self._queue.move(task.id, TaskStatus.PLANNING, stamp_s=stamp_s)
                 self._clear_away(stamp_s)
             elif ending is not None:
-                self._intake.end(task, ending.status, ending.explanation, stamp_s)
+                self._requests.end(task, ending.status, ending.explanation, stamp_s)
                 self._clear_away(stamp_s)
 
     def _propose(self, task: Task, needs: tuple[str, ...], stamp_s: float) -> None:
@@ -121,23 +119,23 @@ class Mission:
             proposed_s=stamp_s,
             needs=needs,
         )
-        self._crew.memory.commit([PutEdge(edge)], agent=self.name, stamp_s=stamp_s)
+        self._resources.memory.commit([PutEdge(edge)], agent=self.name, stamp_s=stamp_s)
 
     def _clear_away(self, stamp_s: float) -> None:
-        """When the errand's task has ended, by itself or by a person, or is to be planned anew: stop its job and
+        """When the task under way has ended, by itself or by a person, or is to be planned anew: stop its job and
         withdraw its intention.
         """
-        if self._errand is None:
+        if self._execution is None:
             return
-        task_id, errand = self._errand
+        task_id, execution = self._execution
         task = self._queue.task(task_id)
         if not task.status.ended and task.status is not TaskStatus.PLANNING:
             return
-        errand.close()
-        self._errand = None
-        snapshot = self._crew.memory.snapshot()
+        execution.close()
+        self._execution = None
+        snapshot = self._resources.memory.snapshot()
         if _intention_key(task_id) in snapshot.edges:
-            self._crew.memory.commit([RemoveEdge(_intention_key(task_id))], agent=self.name, stamp_s=stamp_s)
+            self._resources.memory.commit([RemoveEdge(_intention_key(task_id))], agent=self.name, stamp_s=stamp_s)
         held = holding_sentence(snapshot)
         if task.status is TaskStatus.CANCELLED and held:
             self._queue.amend(task_id, explanation=f"{task.explanation} {held}")

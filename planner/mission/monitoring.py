@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from planner.controller.situation import Situation
 from planner.executor.job import Job, Watch
-from planner.mission.progress import Progress
-from planner.mission.resources import Crew
+from planner.mission.plan_progress import PlanProgress
+from planner.mission.resources import Resources
 from planner.plan import Step
 from planner.skill_planner.replanner import PlanMaker
 from scene_graph.snapshot import Snapshot
@@ -13,11 +13,11 @@ from skills.action import RobotContext
 from skills.failures import Evidence, Failure, FailureCode
 
 
-class Lookout:
+class Monitoring:
     """Asks the Controller before a step begins and at every tick of its job."""
 
-    def __init__(self, crew: Crew, progress: Progress, replanner: PlanMaker) -> None:
-        self._crew, self._progress, self._replanner = crew, progress, replanner
+    def __init__(self, resources: Resources, progress: PlanProgress, replanner: PlanMaker) -> None:
+        self._resources, self._progress, self._replanner = resources, progress, replanner
         self._before: Snapshot | None = None
 
     def before(self, step: Step, context: RobotContext) -> Failure | None:
@@ -25,16 +25,16 @@ class Lookout:
         snapshot = context.building
         self._before = None
         self._progress.expect(snapshot)
-        return self._crew.controller.check(self._situation(step, context)) or self._flaw(snapshot)
+        return self._resources.controller.check(self._situation(step, context)) or self._flaw(snapshot)
 
     def now(self, step: Step, context: RobotContext) -> Failure | None:
         """What is amiss while perception is asked to confirm a step; it says more than that it does not."""
         self._before = None
-        return self._crew.controller.check(self._situation(step, context))
+        return self._resources.controller.check(self._situation(step, context))
 
     def during(self, step: Step, context: RobotContext) -> Watch:
         """The watch for the job of a step."""
-        return lambda job: self._crew.controller.check(self._situation(step, context, job))
+        return lambda job: self._resources.controller.check(self._situation(step, context, job))
 
     def _situation(self, step: Step, context: RobotContext, job: Job | None = None) -> Situation:
         snapshot, before = context.building, self._before
@@ -47,7 +47,7 @@ class Lookout:
             step=step,
             expected=self._progress.expected,
             gripping=context.grip.object_id if context.grip is not None else None,
-            sensor_ages_s=self._crew.sensor_ages(),
+            sensor_ages_s=self._resources.sensor_ages(),
             **times,
         )
 

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from planner.executor.executor import OnEvent, ignore_event
-from planner.mission.intake import Intake, Interpreter
+from planner.mission.request_handler import Interpreter, RequestHandler
 from planner.skill_planner.replanner import Verifier
 from planner.tasks.queue import TaskQueue
 from planner.tasks.tasks import TaskStatus
 from scene_graph.memory import WorkingMemory
 
 
-class PaperMission:
+class OfflineMission:
     """Takes the place of ``Mission`` where there is no body: every task ends with its plan."""
 
     name = "mission"
@@ -27,7 +27,7 @@ class PaperMission:
     ) -> None:
         self.period_s = period_s
         self._queue = queue
-        self._intake = Intake(memory, queue, interpreter, verifier, on_event=on_event, paper=True)
+        self._requests = RequestHandler(memory, queue, interpreter, verifier, on_event=on_event, offline=True)
 
     async def step(self, stamp_s: float) -> None:
         """Plan for the next task, if there is one."""
@@ -36,4 +36,4 @@ class PaperMission:
             return
         if task.status is TaskStatus.QUEUED:
             task = self._queue.move(task.id, TaskStatus.PLANNING, stamp_s=stamp_s)
-        await self._intake.take(task, stamp_s)
+        await self._requests.take(task, stamp_s)

@@ -1,4 +1,4 @@
-"""What every task under way works with, and its limits."""
+"""What every task under way works with."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from typing import Any
 
 from planner.controller.controller import Controller
 from planner.executor.executor import Executor, OnEvent, ignore_event
+from planner.mission.settings import MissionSettings
 from planner.skill_planner.replanner import Verifier
 from planner.skill_planner.skill_planner import SkillPlanner
 from planner.tasks.queue import TaskQueue
@@ -17,28 +18,13 @@ from skills.action import Action, RobotContext
 LookAt = Callable[[str, RobotContext], list[Action]]
 
 
-@dataclass(frozen=True, kw_only=True)
-class MissionSettings:
-    """Limits of a mission.
-
-    ``max_failures``: a task that meets more than this many failures on its way ends. ``confirm_s``: how long perception
-    has to confirm a step before the robot looks again, and again after that. ``settle_s``: how long perception has, at
-    a place that is searched, to notice the object. ``interpret_s``: deadline for understanding a request, wall time.
-    """
-
-    max_failures: int = 5
-    confirm_s: float = 3.0
-    settle_s: float = 1.0
-    interpret_s: float = 60.0
-
-
 def no_ages() -> Mapping[str, float]:
     """Sensor ages of a robot that reports none."""
     return {}
 
 
 @dataclass(frozen=True, kw_only=True)
-class Crew:
+class Resources:
     """The parts that carry out a task together.
 
     ``look_at`` makes actions that approach a node and look at it. ``sensor_ages`` gives the seconds since each sensor's
@@ -55,7 +41,7 @@ class Crew:
     controller: Controller = field(default_factory=Controller)
     sensor_ages: Callable[[], Mapping[str, float]] = no_ages
     on_event: OnEvent = ignore_event
-    settings: MissionSettings = MissionSettings()
+    settings: MissionSettings = field(default_factory=MissionSettings)
     recognizable: frozenset[str] = frozenset()
 
     def emit(self, stamp_s: float, event: str, **fields: Any) -> None:

@@ -11,7 +11,7 @@ from typing import Any, Protocol, Self
 import httpx
 
 from planner.models.budget import over_budget
-from planner.models.exchange import Answer, Exchange, RetrySettings
+from planner.models.exchange import Answer, Exchange, ExchangeSettings
 from planner.models.protocol import FailureKind, ModelFailure, ModelReply, ModelRequest
 
 HINTS = {
@@ -62,13 +62,13 @@ class HttpModel:
         http: httpx.AsyncClient,
         context_tokens: int,
         key: str = "",
-        retry: RetrySettings = RetrySettings(),
+        exchange: ExchangeSettings = ExchangeSettings(),
         clock: Callable[[], float] = time.monotonic,
         sleep: Callable[[float], Awaitable[None]] = asyncio.sleep,
     ) -> None:
         self._wire, self._context_tokens, self._clock = wire, context_tokens, clock
         self._exchange = Exchange(
-            wire.url(base_url), headers=wire.headers(key), http=http, retry=retry, clock=clock, sleep=sleep
+            wire.url(base_url), headers=wire.headers(key), http=http, settings=exchange, clock=clock, sleep=sleep
         )
 
     @property

@@ -14,24 +14,26 @@ import httpx
 
 from planner.models.protocol import FailureKind, ModelFailure
 
-MAX_ANSWER_BYTES = 2_000_000
-CONNECT_S = 5.0
-ERROR_WITHIN = 10_000
-"""An error is told in the first so many bytes."""
 PASSING = frozenset({FailureKind.ENDPOINT_DOWN, FailureKind.SERVER_ERROR, FailureKind.RATE_LIMITED})
 RETRIED_STATUSES = frozenset({408, 409, 425, 429, 500, 502, 503, 504, 529})
 
 
 @dataclass(frozen=True, kw_only=True)
-class RetrySettings:
-    """``attempts`` in all; the wait doubles from ``wait_s``, unless the server names a longer one (Retry-After).
-
-    A server that wants to be left alone for more than ``longest_wait_s`` is not waited for.
-    """
+class ExchangeSettings:
+    """How often and how long a server is asked."""
 
     attempts: int = 3
+    """In all. Chosen: what passes has mostly passed by then."""
     wait_s: float = 0.5
+    """Before the second attempt; doubled for each after it, unless the server names a longer one (Retry-After)."""
     longest_wait_s: float = 20.0
+    """A server that wants to be left alone for longer is not waited for. Chosen: half of what a request may take."""
+    connect_s: float = 5.0
+    """How long it may take to be connected. Chosen: a server that is there answers in less."""
+    most_bytes: int = 2_000_000
+    """Of an answer; a longer one is not read to its end. Chosen: a thousand times a plan."""
+    error_within_bytes: int = 10_000
+    """An error is told in the first so many bytes. Chosen: servers tell it in hundreds."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -62,11 +64,11 @@ class Exchange:
         *,
         headers: Mapping[str, str],
         http: httpx.AsyncClient,
-        retry: RetrySettings = RetrySettings(),
+        settings: ExchangeSettings = ExchangeSettings(),
         clock: Callable[[], float] = time.monotonic,
         sleep: Callable[[float], Awaitable[None]] = asyncio.sleep,
     ) -> None:
-        self._url, self._http, self._retry, self._clock, self._sleep = url, http, retry, clock, sleep
+        self._url, self._http, self._settings, self._clock, self._sleep = url, http, settings, clock, sleep
         self._headers = {**headers, "Content-Type": "application/json"}
 
     async def post(self, payload: Mapping[str, Any], deadline_s: float) -> Answer | ModelFailure:
@@ -81,10 +83,10 @@ class Exchange:
         attempt = 1
         while True:
             outcome = replace(await self._once(content), attempts=attempt)
-            if isinstance(outcome, Answer) or outcome.kind not in PASSING or attempt == self._retry.attempts:
+            if isinstance(outcome, Answer) or outcome.kind not in PASSING or attempt == self._settings.attempts:
                 return outcome
-            pause_s = max(outcome.wait_s, self._retry.wait_s * 2 ** (attempt - 1))
-            if pause_s > self._retry.longest_wait_s or self._clock() + pause_s >= end_s:
+            pause_s = max(outcome.wait_s, self._settings.wait_s * 2 ** (attempt - 1))
+            if pause_s > self._settings.longest_wait_s or self._clock() + pause_s >= end_s:
                 return outcome
             await self._sleep(pause_s)
             attempt += 1
@@ -95,32 +97,33 @@ class Exchange:
         except (httpx.RequestError, httpx.InvalidURL) as error:
             message = f"the server at {host_of(self._url)} cannot be reached ({type(error).__name__})"
             return ModelFailure(kind=FailureKind.ENDPOINT_DOWN, message=message)
-        if len(body) > MAX_ANSWER_BYTES:
-            message = f"the server's answer is longer than {MAX_ANSWER_BYTES // 1_000_000} MB"
+        if len(body) > self._settings.most_bytes:
+            message = f"the server's answer is longer than {self._settings.most_bytes // 1_000_000} MB"
             return ModelFailure(
                 kind=FailureKind.WRONG_SHAPE, message=message, text=body[:2000].decode(errors="replace")
             )
         if status == httpx.codes.OK:
-            status = status_within(body) or status
+            status = status_within(body, self._settings.error_within_bytes) or status
         answer = Answer(status=status, body=body)
         return _passing_failure(answer, _retry_after_s(headers)) if status in RETRIED_STATUSES else answer
 
     async def _send(self, content: bytes) -> tuple[int, Mapping[str, str], bytes]:
-        body, timeout = bytearray(), httpx.Timeout(None, connect=CONNECT_S)
+        body, timeout = bytearray(), httpx.Timeout(None, connect=self._settings.connect_s)
         sending = self._http.stream("POST", self._url, content=content, headers=self._headers, timeout=timeout)
         async with sending as response:
             async for chunk in response.aiter_bytes():
                 body += chunk
-                if len(body) > MAX_ANSWER_BYTES:
+                if len(body) > self._settings.most_bytes:
                     break
         return response.status_code, response.headers, bytes(body)
 
 
-def status_within(body: bytes) -> int | None:
+def status_within(body: bytes, within: int = ExchangeSettings.error_within_bytes) -> int | None:
     """The status that an error in the body stands for: gateways report some under the status of a success, ``{"error":
     {"code": 429, …}}``. ``None`` when there is no error; one without a code is taken for a fault of the server.
+    ``within``: the first so many bytes.
     """
-    if b'"error"' not in body[:ERROR_WITHIN]:
+    if b'"error"' not in body[:within]:
         return None
     try:
         document = json.loads(body)

@@ -10,7 +10,8 @@ from typing import Any
 _REASONING = re.compile(r"<(think|thinking|reasoning)>.*?(</\1>|\Z)", re.DOTALL | re.IGNORECASE)
 _REASONING_END = re.compile(r"</(think|thinking|reasoning)>", re.IGNORECASE)
 _DECODER = json.JSONDecoder(parse_constant=lambda name: name)
-MAX_TRIES = 200
+_MAX_TRIES = 200
+"""Opening braces that are tried: a bound on the time that a hostile text takes."""
 
 
 def json_object(text: str) -> Mapping[str, Any] | None:
@@ -27,7 +28,7 @@ def json_object(text: str) -> Mapping[str, Any] | None:
 def _largest_object(text: str) -> Mapping[str, Any] | None:
     best: tuple[int, Mapping[str, Any]] | None = None
     position, tries = text.find("{"), 0
-    while position != -1 and tries < MAX_TRIES:
+    while position != -1 and tries < _MAX_TRIES:
         tries += 1
         found, end = _object_at(text, position)
         if found is not None and (best is None or end - position > best[0]):

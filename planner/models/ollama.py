@@ -14,7 +14,6 @@ from planner.models.budget import tokens_needed
 from planner.models.ladder import Rung, lower, spoken
 from planner.models.protocol import ModelFailure, ModelReply, ModelRequest
 
-SMALLEST_CONTEXT = 8192
 KEEP_ALIVE = "30m"
 """Loading a model takes longer than most answers, and requests come with long pauses."""
 
@@ -32,10 +31,13 @@ class _Chat(reading.Body):
 
 @dataclass(frozen=True, kw_only=True)
 class OllamaWire:
-    """Chats with one model; ``context_tokens`` is the longest context that is asked for."""
+    """Chats with one model; ``context_tokens`` is the longest context that is asked for,
+    ``least_context_tokens`` the shortest: most prompts fit in it, so that the model is seldom loaded anew.
+    """
 
     model: str
     context_tokens: int
+    least_context_tokens: int = 8192
     rung: Rung = Rung.SCHEMA
 
     @property
@@ -93,7 +95,7 @@ class OllamaWire:
 
     def _context(self, request: ModelRequest) -> int:
         """A power of two, since a model is loaded anew whenever the context length changes."""
-        length = SMALLEST_CONTEXT
+        length = self.least_context_tokens
         while length < tokens_needed(request):
             length *= 2
         return min(length, self.context_tokens)

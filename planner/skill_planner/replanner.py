@@ -9,7 +9,7 @@ from typing import ClassVar, Protocol
 from planner.controller.situation import is_missing
 from planner.explainer.explainer import exhausted_reason
 from planner.goals import Goal
-from planner.plan import Flaw, Impossible, Plan, Reread, Source
+from planner.plan import Flaw, Impossible, Plan, Reinterpret, Source
 from scene_graph.nodes import ObjectNode, ObjectState
 from scene_graph.snapshot import Snapshot
 
@@ -39,7 +39,7 @@ class Verifier(Protocol):
 
 
 @dataclass(kw_only=True)
-class Hunt:
+class ObjectSearch:
     """The search for one object: since when, where the robot has looked, and where it could not get to.
 
     ``asked_s``: when the task was planned; ``by_looks``: what looks like it and turned up since then may be it, under
@@ -85,13 +85,13 @@ class Hunt:
 
 
 class PlanMaker(Protocol):
-    """What an errand asks for plans, until one is done or none is left."""
+    """What a task under way asks for plans, until one is done or none is left."""
 
-    def hunt(self, object_id: str) -> Hunt | None:
+    def search_for(self, object_id: str) -> ObjectSearch | None:
         """The search for an object, if one has begun."""
         ...
 
-    def plan(self, goals: Sequence[Goal], snapshot: Snapshot, stamp_s: float) -> Plan | Impossible | Reread:
+    def plan(self, goals: Sequence[Goal], snapshot: Snapshot, stamp_s: float) -> Plan | Impossible | Reinterpret:
         """The next plan to the goals."""
         ...
 
@@ -105,12 +105,12 @@ class Replanner:
 
     def __init__(self, verifier: Verifier, source: Source = Source.GRAMMAR) -> None:
         self._verifier, self._source = verifier, source
-        self._hunts: dict[str, Hunt] = {}
+        self._searches: dict[str, ObjectSearch] = {}
         self._asked_s = 0.0
 
-    def hunt(self, object_id: str) -> Hunt | None:
+    def search_for(self, object_id: str) -> ObjectSearch | None:
         """The search for an object, if one has begun."""
-        return self._hunts.get(object_id)
+        return self._searches.get(object_id)
 
     def first_plan(self, goals: Sequence[Goal], snapshot: Snapshot, stamp_s: float) -> Plan | Impossible:
         """The plan to begin with: where the words mean what is missing, that is looked for, whatever looks like it."""
@@ -118,23 +118,23 @@ class Replanner:
         missing = _missing(goals, snapshot)
         if missing is None:
             return self._direct(goals, snapshot)
-        hunt = self._begun(missing, stamp_s)
-        hunt.by_looks = not hunt.turned_up(snapshot)
-        return self._search(hunt, snapshot)
+        search = self._begun(missing, stamp_s)
+        search.by_looks = not search.turned_up(snapshot)
+        return self._plan_of(search, snapshot)
 
-    def plan(self, goals: Sequence[Goal], snapshot: Snapshot, stamp_s: float) -> Plan | Impossible | Reread:
+    def plan(self, goals: Sequence[Goal], snapshot: Snapshot, stamp_s: float) -> Plan | Impossible | Reinterpret:
         """A plan to the goals, or a plan to look for the first object that is missing; what looks like that and turned
         up later has the request understood anew.
         """
         missing = _missing(goals, snapshot)
         if missing is None:
             return self._direct(goals, snapshot)
-        hunt = self._begun(missing, stamp_s)
-        turned_up = hunt.look_alikes(snapshot)
-        return Reread(displaced=turned_up | {missing}) if turned_up else self._search(hunt, snapshot)
+        search = self._begun(missing, stamp_s)
+        turned_up = search.look_alikes(snapshot)
+        return Reinterpret(displaced=turned_up | {missing}) if turned_up else self._plan_of(search, snapshot)
 
     def _direct(self, goals: Sequence[Goal], snapshot: Snapshot) -> Plan | Impossible:
-        self._hunts.clear()
+        self._searches.clear()
         plan = self._verifier.plan_for(goals, snapshot)
         return replace(plan, source=self._source) if isinstance(plan, Plan) else plan
 
@@ -142,15 +142,17 @@ class Replanner:
         """What keeps the rest of a plan from being carried out."""
         return self._verifier.check_plan(plan, snapshot) if plan.revision != snapshot.revision else ()
 
-    def _begun(self, object_id: str, stamp_s: float) -> Hunt:
-        return self._hunts.setdefault(object_id, Hunt(object_id=object_id, since_s=stamp_s, asked_s=self._asked_s))
+    def _begun(self, object_id: str, stamp_s: float) -> ObjectSearch:
+        return self._searches.setdefault(
+            object_id, ObjectSearch(object_id=object_id, since_s=stamp_s, asked_s=self._asked_s)
+        )
 
-    def _search(self, hunt: Hunt, snapshot: Snapshot) -> Plan | Impossible:
-        object_id, been = hunt.object_id, (*hunt.looked, *hunt.skipped)
-        plan = self._verifier.search_plan(object_id, snapshot, hunt.since_s, been)
+    def _plan_of(self, search: ObjectSearch, snapshot: Snapshot) -> Plan | Impossible:
+        object_id, been = search.object_id, (*search.looked, *search.skipped)
+        plan = self._verifier.search_plan(object_id, snapshot, search.since_s, been)
         if isinstance(plan, Plan) and plan.steps:
             return plan
-        reason = exhausted_reason(object_id, hunt.looked, hunt.skipped, snapshot)
+        reason = exhausted_reason(object_id, search.looked, search.skipped, snapshot)
         return Impossible(reason=reason, nodes=(object_id,), lost=object_id)
 
 

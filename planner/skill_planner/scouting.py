@@ -11,8 +11,8 @@ from planner.explainer.explainer import scouted_sentence
 from planner.goals import Goal
 from planner.grounding.unlabeled import likely_label
 from planner.language.lexicon.vocabulary import PERSON, normal, words_for
-from planner.plan import Flaw, Impossible, Plan, Reread
-from planner.skill_planner.replanner import Hunt, Verifier
+from planner.plan import Flaw, Impossible, Plan, Reinterpret
+from planner.skill_planner.replanner import ObjectSearch, Verifier
 from scene_graph.nodes import ObjectNode, ObjectState, PersonNode
 from scene_graph.snapshot import Snapshot
 
@@ -25,7 +25,7 @@ def kinds_called(said: str) -> frozenset[str]:
 
 
 @dataclass(kw_only=True)
-class KindHunt(Hunt):
+class KindSearch(ObjectSearch):
     """The search for any thing of a kind; ``object_id`` is what people call it. ``known``: what was seen before."""
 
     known: frozenset[Sighting] = field(default_factory=frozenset)
@@ -42,30 +42,31 @@ class Scout:
 
     def __init__(self, kind: str, verifier: Verifier, stamp_s: float) -> None:
         self._verifier = verifier
-        self._hunt = KindHunt(object_id=kind, since_s=stamp_s)
+        self._search = KindSearch(object_id=kind, since_s=stamp_s)
 
     def tour(self, snapshot: Snapshot) -> Plan | None:
         """Places to look at next, given that what is known now is not what was asked for; None when none is left."""
-        hunt = self._hunt
-        hunt.known = sightings(hunt.object_id, snapshot)
-        return self._verifier.scouting_plan(hunt.object_id, snapshot, hunt.since_s, (*hunt.looked, *hunt.skipped))
+        search = self._search
+        search.known = sightings(search.object_id, snapshot)
+        looked = (*search.looked, *search.skipped)
+        return self._verifier.scouting_plan(search.object_id, snapshot, search.since_s, looked)
 
     def told(self, snapshot: Snapshot) -> str:
         """Where the robot has looked, as a sentence; nothing if nowhere."""
-        whom = "anybody" if PERSON in kinds_called(self._hunt.object_id) else "it"
-        return scouted_sentence(self._hunt.looked, self._hunt.skipped, snapshot, what=whom)
+        whom = "anybody" if PERSON in kinds_called(self._search.object_id) else "it"
+        return scouted_sentence(self._search.looked, self._search.skipped, snapshot, what=whom)
 
-    def hunt(self, object_id: str) -> Hunt:
+    def search_for(self, object_id: str) -> ObjectSearch:
         """The search itself."""
         del object_id
-        return self._hunt
+        return self._search
 
-    def plan(self, goals: Sequence[Goal], snapshot: Snapshot, stamp_s: float) -> Plan | Impossible | Reread:
+    def plan(self, goals: Sequence[Goal], snapshot: Snapshot, stamp_s: float) -> Plan | Impossible | Reinterpret:
         """The rest of the tour; nothing but understanding anew when something was found or no place is left."""
         del goals, stamp_s
-        if self._hunt.found(snapshot):
-            return Reread()
-        return self.tour(snapshot) or Reread()
+        if self._search.found(snapshot):
+            return Reinterpret()
+        return self.tour(snapshot) or Reinterpret()
 
     def flaws(self, plan: Plan, snapshot: Snapshot) -> Sequence[Flaw]:
         """What keeps the rest of a plan from being carried out."""

@@ -7,8 +7,8 @@ from dataclasses import replace
 
 from planner.goals import Goal
 from planner.naming import capital, name_of
-from planner.plan import Flaw, Impossible, Plan, Reread, Source, Step
-from planner.skill_planner.replanner import Hunt, Verifier
+from planner.plan import Flaw, Impossible, Plan, Reinterpret, Source, Step
+from planner.skill_planner.replanner import ObjectSearch, Verifier
 from scene_graph.edits import PutNode
 from scene_graph.memory import WorkingMemory
 from scene_graph.nodes import ObjectNode, ObjectState
@@ -16,11 +16,8 @@ from scene_graph.snapshot import Snapshot
 from skills.failures import FailureCode
 from skills.place.place_spot import stands_on
 
-FRESH_S = 30.0
-"""What was seen so long ago at most is still so."""
 
-
-class LookOnce(Hunt):
+class LookOnce(ObjectSearch):
     """A look at one support; nothing that is seen from farther away ends it early."""
 
     seen_there = "looked at what stands there"
@@ -36,7 +33,7 @@ class SecondLook:
 
     def __init__(self, support: str, verifier: Verifier, stamp_s: float) -> None:
         self._support, self._verifier = support, verifier
-        self._hunt = LookOnce(object_id=support, since_s=stamp_s)
+        self._search = LookOnce(object_id=support, since_s=stamp_s)
 
     def look(self, snapshot: Snapshot) -> Plan | None:
         """The way to the support, if there is one."""
@@ -54,15 +51,15 @@ class SecondLook:
         name = capital(name_of(self._support, snapshot))
         return f"{name} was full when I last saw it; I will look whether it still is."
 
-    def hunt(self, object_id: str) -> Hunt:
+    def search_for(self, object_id: str) -> ObjectSearch:
         """The look itself."""
         del object_id
-        return self._hunt
+        return self._search
 
-    def plan(self, goals: Sequence[Goal], snapshot: Snapshot, stamp_s: float) -> Plan | Impossible | Reread:
+    def plan(self, goals: Sequence[Goal], snapshot: Snapshot, stamp_s: float) -> Plan | Impossible | Reinterpret:
         """Nothing but planning anew: the robot has looked, or could not get there."""
         del goals, snapshot, stamp_s
-        return Reread()
+        return Reinterpret()
 
     def flaws(self, plan: Plan, snapshot: Snapshot) -> Sequence[Flaw]:
         """What keeps the rest of a plan from being carried out."""
@@ -70,18 +67,19 @@ class SecondLook:
 
 
 def perhaps_cleared(
-    why: Impossible, goals: Sequence[Goal], verifier: Verifier, snapshot: Snapshot, stamp_s: float
+    why: Impossible, goals: Sequence[Goal], verifier: Verifier, snapshot: Snapshot, stamp_s: float, *, fresh_s: float
 ) -> str | None:
     """The support that is why there is no plan to the goals, if there were one without what stood on it long ago.
 
     ``None`` where something else is why, or where the support is too small and stays so.
+    ``fresh_s``: what was seen so long ago at most is still so.
     """
     support = why.nodes[0] if why.code is FailureCode.SUPPORT_FULL else ""
     if not isinstance(snapshot.get(support), ObjectNode):
         return None
     needed = {arg for goal in goals for arg in goal.args}
     stand = [node for node in stands_on(snapshot, support, None) if node.id not in needed]
-    old = [node for node in stand if node.last_seen_s < stamp_s - FRESH_S]
+    old = [node for node in stand if node.last_seen_s < stamp_s - fresh_s]
     if not old:
         return None
     supposed = WorkingMemory(snapshot)

@@ -13,8 +13,8 @@ from planner.forecast import forecast
 from planner.goals import Goal, holds, lasting
 from planner.naming import goal_phrase, humanize
 from planner.plan import Flaw, Impossible, Plan, Source, Step
-from planner.skill_planner.arranging import Leg, orders
 from planner.skill_planner.flaws import goal_flaws
+from planner.skill_planner.goal_ordering import Leg, orders
 from planner.skill_planner.object_search import lost_object_plan, scouting_plan
 from planner.skill_planner.operators import GOTO
 from planner.skill_planner.search import Exhausted, Found, Search, one_by_one

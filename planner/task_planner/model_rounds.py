@@ -23,14 +23,13 @@ from planner.skill_planner.skill_planner import skill_lines
 from planner.skill_planner.verifier import Verifier
 from planner.task_planner.outline import Outline, outline
 from planner.task_planner.proposal import Proposal, goals_of, read_proposal, schema
+from planner.task_planner.settings import OutlineSettings, TaskPlannerSettings
 from prompts.templates import render
 from scene_graph.nodes import ObjectNode, ObjectState
 from scene_graph.snapshot import Snapshot
 
-MAX_ROUNDS = 5
 _PASSING = frozenset({FailureKind.REFUSAL, FailureKind.TIMEOUT})
 """What the same question may not meet again, as long as there is time."""
-_REPEATS = 2
 
 
 class ModelRounds:
@@ -41,25 +40,24 @@ class ModelRounds:
         model: LanguageModel,
         verifier: Verifier,
         journal: Callable[[dict[str, Any]], None],
-        deadline_s: float,
+        settings: TaskPlannerSettings = TaskPlannerSettings(),
         *,
-        rounds: int = MAX_ROUNDS,
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
         self._model, self._verifier, self._journal = model, verifier, journal
-        self._deadline_s, self._rounds, self._clock = deadline_s, rounds, clock
+        self._settings, self._clock = settings, clock
 
     async def run(self, text: str, snapshot: Snapshot, dialogue: Dialogue) -> Interpretation | ModelFailure:
         """A checked interpretation, or why there is none. The ``reply`` of an answer is the question."""
-        scene = _scene(text, snapshot, dialogue)
+        scene = _scene(text, snapshot, dialogue, self._settings.outline)
         messages = self._opening(text, scene, dialogue)
-        end_s, repeated = self._clock() + self._deadline_s, 0
+        end_s, repeated = self._clock() + self._settings.deadline_s, 0
         failure = ModelFailure(kind=FailureKind.TIMEOUT, message="there was no time to ask it")
-        for number in range(1, self._rounds + 1):
+        for number in range(1, self._settings.rounds + 1):
             left_s = end_s - self._clock()
             if left_s <= 0:
                 return ModelFailure(
-                    kind=FailureKind.TIMEOUT, message=f"no usable answer within {self._deadline_s:.0f} s"
+                    kind=FailureKind.TIMEOUT, message=f"no usable answer within {self._settings.deadline_s:.0f} s"
                 )
             request = ModelRequest(
                 messages=tuple(messages), schema=schema(scene.identifiers), schema_name="robot_request"
@@ -73,12 +71,12 @@ class ModelRounds:
             failure = outcome
             if failure.kind in CORRECTABLE:
                 messages += _correction(answer.text, failure)
-            elif failure.kind in _PASSING and repeated < _REPEATS:
+            elif failure.kind in _PASSING and repeated < self._settings.repeats:
                 repeated += 1
             else:
                 return failure
         return ModelFailure(
-            kind=failure.kind, message=f"after {self._rounds} rounds, {failure.message}", text=failure.text
+            kind=failure.kind, message=f"after {self._settings.rounds} rounds, {failure.message}", text=failure.text
         )
 
     def _opening(self, text: str, scene: Outline, dialogue: Dialogue) -> list[Message]:
@@ -147,9 +145,9 @@ def _is_missing(node_id: str, snapshot: Snapshot) -> bool:
     return isinstance(node, ObjectNode) and node.state is ObjectState.MISSING
 
 
-def _scene(text: str, snapshot: Snapshot, dialogue: Dialogue) -> Outline:
+def _scene(text: str, snapshot: Snapshot, dialogue: Dialogue, settings: OutlineSettings) -> Outline:
     """What the request may be about: *put it back* is about where that was, an answer about what was asked."""
     origins = [dialogue.origins[thing] for thing in dialogue.mentioned if thing in dialogue.origins]
     answered = [part for pair in dialogue.answers for part in pair]
     before = " ".join((*answered, *(exchange.request for exchange in dialogue.earlier[:1])))
-    return outline(snapshot, text, mentioned=(*dialogue.mentioned, *origins), before=before)
+    return outline(snapshot, text, mentioned=(*dialogue.mentioned, *origins), before=before, settings=settings)

@@ -15,15 +15,13 @@ from planner.grounding.matching import is_first_of_pair
 from planner.language.lexicon.spelling import closest
 from planner.language.lexicon.vocabulary import coarser_labels, kind_labels, normal, singular, words_for
 from planner.naming import name_of
+from planner.task_planner.settings import OutlineSettings
 from scene_graph.identifiers import natural_key
 from scene_graph.nodes import DoorNode, DoorState, ObjectNode, ObjectState, PersonNode, RoomNode, RoomStatus
 from scene_graph.snapshot import Snapshot
 
-MAX_OBJECTS = 64
-MAX_THERE = 24
-"""Of what is on or in what the request names, so that it leaves room for other things."""
-MAX_ROOMS = 60
 MAX_IDENTIFIERS = 250
+"""Values that servers take in the enumeration of a schema."""
 _WORD = re.compile(r"\w+")
 
 
@@ -36,14 +34,21 @@ class Outline:
     left_out: int
 
 
-def outline(snapshot: Snapshot, request: str, *, mentioned: Sequence[str] = (), before: str = "") -> Outline:
+def outline(
+    snapshot: Snapshot,
+    request: str,
+    *,
+    mentioned: Sequence[str] = (),
+    before: str = "",
+    settings: OutlineSettings = OutlineSettings(),
+) -> Outline:
     """The part of the graph that ``request`` may be about: what it names or ``mentioned`` identifiers, what is on that,
     what was spoken of ``before``, furniture, then the rest.
     """
     rooms = [room for room in snapshot.of_type(RoomNode) if room.status is not RoomStatus.TEMPORARY]
-    objects = _chosen(snapshot, request, mentioned, before)
+    objects = _chosen(snapshot, request, mentioned, before, settings)
     used = {snapshot.room_of(node.id) for node in objects} | {snapshot.current_room}
-    rooms = sorted(rooms, key=lambda room: (room.id not in used, natural_key(room.id)))[:MAX_ROOMS]
+    rooms = sorted(rooms, key=lambda room: (room.id not in used, natural_key(room.id)))[: settings.most_rooms]
     people = list(snapshot.of_type(PersonNode))[:20]
     lines = [_robot_line(snapshot)]
     for room in sorted(rooms, key=lambda room: natural_key(room.id)):
@@ -65,8 +70,10 @@ def outline(snapshot: Snapshot, request: str, *, mentioned: Sequence[str] = (), 
     )
 
 
-def _chosen(snapshot: Snapshot, request: str, mentioned: Sequence[str], before: str) -> list[ObjectNode]:
-    """At most ``MAX_OBJECTS``: what the request means best or mentioned, what that stands on, what else has a name in
+def _chosen(
+    snapshot: Snapshot, request: str, mentioned: Sequence[str], before: str, settings: OutlineSettings
+) -> list[ObjectNode]:
+    """At most ``most_objects``: what the request means best or mentioned, what that stands on, what else has a name in
     the request, what is on or in what it names, what was spoken of before, furniture, and the rest.
     """
     objects = snapshot.of_type(ObjectNode)
@@ -77,7 +84,7 @@ def _chosen(snapshot: Snapshot, request: str, mentioned: Sequence[str], before: 
     held = snapshot.robot.holding if snapshot.robot is not None else None
     below = {support for i in meant if i in snapshot and (support := snapshot.support_of(i)) is not None}
     others = {node.id for node in named}
-    there = _at(meant | _rooms(words, snapshot), objects, snapshot)
+    there = _at(meant | _rooms(words, snapshot), objects, snapshot, settings.most_there)
 
     def rank(node: ObjectNode) -> tuple[int, object]:
         tiers = (
@@ -90,14 +97,14 @@ def _chosen(snapshot: Snapshot, request: str, mentioned: Sequence[str], before: 
         )
         return next((tier for tier, fits in enumerate(tiers) if fits), len(tiers)), natural_key(node.id)
 
-    return sorted(sorted(objects, key=rank)[:MAX_OBJECTS], key=lambda node: natural_key(node.id))
+    return sorted(sorted(objects, key=rank)[: settings.most_objects], key=lambda node: natural_key(node.id))
 
 
-def _at(places: Collection[str], objects: Sequence[ObjectNode], snapshot: Snapshot) -> set[str]:
-    """What is on or in ``places``, at most ``MAX_THERE``; what may be carried from rooms comes last."""
+def _at(places: Collection[str], objects: Sequence[ObjectNode], snapshot: Snapshot, most: int) -> set[str]:
+    """What is on or in ``places``, at most so many; what may be carried from rooms comes last."""
     on = [node.id for node in objects if snapshot.support_of(node.id) in places]
     around = [node.id for node in objects if node.graspable and snapshot.room_of(node.id) in places]
-    return set((*sorted(on, key=natural_key), *sorted(around, key=natural_key))[:MAX_THERE])
+    return set((*sorted(on, key=natural_key), *sorted(around, key=natural_key))[:most])
 
 
 def _rooms(words: frozenset[str], snapshot: Snapshot) -> set[str]:

@@ -14,6 +14,7 @@ from planner.models.protocol import FailureKind, ModelFailure
 from planner.plan import Kind
 
 MAX_GOALS = 40
+"""What the schema of an answer admits."""
 
 
 class ProposedGoal(BaseModel):

@@ -26,11 +26,10 @@ from planner.models.protocol import CORRECTABLE, FailureKind, LanguageModel, Mod
 from planner.plan import Dialogue, Interpretation, Kind, Offer
 from planner.skill_planner.verifier import Verifier
 from planner.task_planner.model_rounds import ModelRounds
+from planner.task_planner.settings import TaskPlannerSettings
 from scene_graph.snapshot import Snapshot
 
 Journal = Callable[[dict[str, Any]], None]
-DEADLINE_S = 45.0
-"""For all rounds with a language model together, in wall time."""
 
 
 def no_journal(entry: dict[str, Any]) -> None:
@@ -46,6 +45,7 @@ class TaskPlanner:
         verifier: checks goals; holds the skills.
         model: takes what the grammar cannot parse; None for the grammar alone.
         journal: told every prompt and raw answer, as plain data.
+        settings: limits of the rounds with a model, and by what words are understood.
     """
 
     def __init__(
@@ -55,11 +55,11 @@ class TaskPlanner:
         model: LanguageModel | None = None,
         *,
         journal: Journal = no_journal,
-        deadline_s: float = DEADLINE_S,
+        settings: TaskPlannerSettings = TaskPlannerSettings(),
     ) -> None:
         self._grammar = grammar
-        self._interpreter = Interpreter(grammar, verifier)
-        self._rounds = ModelRounds(model, verifier, journal, deadline_s) if model is not None else None
+        self._interpreter = Interpreter(grammar, verifier, settings.dialogue)
+        self._rounds = ModelRounds(model, verifier, journal, settings) if model is not None else None
 
     async def interpret(self, text: str, snapshot: Snapshot, dialogue: Dialogue) -> Interpretation:
         """What ``text`` means on ``snapshot``, with the answers to earlier questions about it."""

@@ -16,7 +16,7 @@ from app.http.documents.requests import NodePatch, SceneQuery
 from app.runtime import Runtime
 from app.views.map_picture import map_svg
 from app.views.scene_documents import InvalidQuery, document_nodes, query_scene, scene_path
-from planner.mission.taught import NotTeachable, teach
+from planner.mission.teaching import NotTeachable, teach
 from scene_graph.errors import NodeNotFound, TransactionRejected, UnknownLayer, UnknownRegion, UnknownRoom
 from scene_graph.nodes import NodeType
 

@@ -15,7 +15,7 @@ from paths import DATA
 from perception.objects.seeing.look import Look
 from perception.panoptic import Instance, PanopticScene
 from perception.ports import Intrinsics, RgbdFrame
-from planner.mission.taught import teach
+from planner.mission.teaching import teach
 from scene_graph.geometry.se3 import SE3
 
 pytestmark = [pytest.mark.anyio, pytest.mark.slow]

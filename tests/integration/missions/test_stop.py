@@ -50,15 +50,15 @@ async def test_at_a_hundred_instants_base_and_arm_stand_still_within_100_ms(stag
         due_s = built.now_s + rng.uniform(*BETWEEN_S)
         while not built.task.status.ended:
             await built.tick()
-            if built.now_s < due_s or built.crew.executor.job is None:
+            if built.now_s < due_s or built.resources.executor.job is None:
                 continue
             held = built.truth["robot"]["holding"]
-            doing.add(built.crew.executor.job.action.split()[0])
+            doing.add(built.resources.executor.job.action.split()[0])
             built.robot.stop()
             built.now_s = await built.robot.advance(WITHIN_S)
             moved = await still(built)
-            assert max(moved[0], *moved[2:4]) < STILL_M, (built.crew.executor.job.action, moved)
-            assert max(moved[1], *moved[4:]) < STILL_RAD, (built.crew.executor.job.action, moved)
+            assert max(moved[0], *moved[2:4]) < STILL_M, (built.resources.executor.job.action, moved)
+            assert max(moved[1], *moved[4:]) < STILL_RAD, (built.resources.executor.job.action, moved)
             assert (await built.robot.truth())["robot"]["holding"] == held
             built.robot.release_stop()
             trials, due_s = trials + 1, built.now_s + rng.uniform(*BETWEEN_S)

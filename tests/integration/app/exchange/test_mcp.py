@@ -19,7 +19,7 @@ from app.server import bind, page_address, serving
 from app.stacks.graph import GraphStack
 from client import Service
 from planner.language.grammar.parser import CommandGrammar
-from planner.mission.intake import Intake
+from planner.mission.request_handler import Intake
 from planner.skill_planner.verifier import Verifier
 from planner.task_planner.task_planner import TaskPlanner
 from planner.tasks.approval import Approval

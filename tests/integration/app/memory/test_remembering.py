@@ -10,7 +10,7 @@ from app.memory.building import building_folder
 from app.runtime import Runtime
 from app.settings import ClockMode, Settings
 from app.views.scene_documents import document_nodes
-from planner.mission.taught import teach
+from planner.mission.teaching import teach
 from scene_graph.nodes import RoomNode
 
 pytestmark = [pytest.mark.anyio, pytest.mark.slow]

@@ -12,7 +12,7 @@ import pytest
 
 from model_server import DIALECTS, Anthropic, Line, ModelServer, Ollama, OpenAI
 from planner.models.client import HttpModel
-from planner.models.exchange import RetrySettings
+from planner.models.exchange import ExchangeSettings
 from planner.models.protocol import FailureKind, Message, ModelFailure, ModelReply, ModelRequest, Role
 from planner.models.spec import PROVIDERS, language_model, parse_spec
 
@@ -50,7 +50,7 @@ class Time:
 
 
 @asynccontextmanager
-async def asking(dialect, *lines, url=None, context_tokens=32_768, clock=None, retry=RetrySettings()):
+async def asking(dialect, *lines, url=None, context_tokens=32_768, clock=None, retry=ExchangeSettings()):
     """The adapter and the server that it asks."""
     server, clock = ModelServer(*lines), clock or Time()
     async with (
@@ -173,7 +173,7 @@ async def test_one_deadline_ends_slow_bytes(dialect):
 
 
 async def test_no_attempt_begins_after_the_deadline(dialect):
-    clock, retry = Time(), RetrySettings(wait_s=12.0, longest_wait_s=60.0)
+    clock, retry = Time(), ExchangeSettings(wait_s=12.0, longest_wait_s=60.0)
     outcome, server = await ask(dialect, Line(status=500), deadline_s=30.0, clock=clock, retry=retry)
     assert_failed(outcome, FailureKind.SERVER_ERROR, attempts=2)
     assert (len(server.requests), clock.naps) == (2, [12.0])

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from planner.controller.controller import QUESTIONS, Controller
 from planner.controller.situation import Situation, expect
 from planner.doubles.rehearsal import GRIPPER, Stage, rehearsal_graph
-from planner.explainer.recovery import RECOVERIES, Recoveries
+from planner.explainer.recovery import RECOVERIES, RecoveryPolicy
 from planner.plan import Step
 from scene_graph.edges import EdgeKey, EdgeType, RelationEdge
 from scene_graph.edits import PutEdge, PutNode, RemoveEdge
@@ -235,7 +235,7 @@ def test_every_failure_code_has_a_recovery():
 
 @given(st.lists(st.tuples(st.sampled_from(FailureCode), st.sampled_from(["PICK(a)", "GOTO(b)"])), max_size=30))
 def test_no_sequence_of_failures_is_recovered_from_for_ever(failures):
-    recoveries = Recoveries(max_failures=5)
+    recoveries = RecoveryPolicy(max_failures=5)
     recovered = [recoveries.after(code, step) for code, step in failures]
     assert sum(recovery is not None for recovery in recovered) <= 5
     for code, step in set(failures):

@@ -30,7 +30,7 @@ DOORS = ("door_1_0_0", "door_2_0_0")
 def show():
     """The robot is in the kitchen and knows the only door to the office as closed."""
     show = Show(Script(ticks=40))
-    show.mission = Mission(show.crew, TaskPlanner(CommandGrammar(), show.crew.verifier))
+    show.mission = Mission(show.resources, TaskPlanner(CommandGrammar(), show.resources.verifier))
     see(show, DoorState.CLOSED)
     return show
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from planner.mission.mission import LOST, LOST_PATIENCE_S
+from planner.mission.mission import LOST
+from planner.mission.settings import MissionSettings
 from planner.tasks.approval import Approval
 from planner.tasks.tasks import TaskStatus
 from unit.planner.mission.test_mission import BRING, Show
@@ -81,7 +82,7 @@ def test_a_person_can_cancel_what_waits_and_is_asked_for_an_approval_afterwards(
 def test_a_robot_that_does_not_find_its_place_is_not_waited_for_for_ever():
     show = lost()
     task = show.ask()
-    show.run(round(LOST_PATIENCE_S / 0.05) - 40)
+    show.run(round(MissionSettings.lost_patience_s / 0.05) - 40)
     assert show.queue.task(task.id).status is TaskStatus.QUEUED
     show.run(80)
     assert show.queue.task(task.id).status is not TaskStatus.QUEUED

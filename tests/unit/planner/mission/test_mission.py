@@ -16,8 +16,9 @@ from planner.executor.executor import Executor
 from planner.goals import goal
 from planner.language.grammar.parser import CommandGrammar
 from planner.mission.mission import Mission
-from planner.mission.offline import PaperMission
-from planner.mission.resources import Crew, MissionSettings
+from planner.mission.offline import OfflineMission
+from planner.mission.resources import Resources
+from planner.mission.settings import MissionSettings
 from planner.plan import Interpretation, Kind
 from planner.skill_planner.skill_planner import SkillPlanner
 from planner.skill_planner.verifier import Verifier
@@ -69,7 +70,7 @@ class Show:
             explore=lambda edge, context: look(edge.target, context),
             on_event=self.events.append,
         )
-        self.crew = Crew(
+        self.resources = Resources(
             memory=self.memory,
             queue=self.queue,
             verifier=Verifier(self.skills),
@@ -80,7 +81,7 @@ class Show:
             on_event=self.events.append,
             settings=MissionSettings(**options),
         )
-        self.mission = Mission(self.crew, ScriptedInterpreter(MEANINGS))
+        self.mission = Mission(self.resources, ScriptedInterpreter(MEANINGS))
         self.arbiter = Arbiter(self.memory, stopped=lambda: self.body.stopped)
         self.tick, self.granted_twice = 0, False
 
@@ -333,14 +334,14 @@ def test_a_running_task_whose_errand_is_lost_fails_honestly():
     show = Show()
     show.ask()
     show.until_step("GOTO")
-    show.mission = Mission(show.crew, ScriptedInterpreter(MEANINGS))
+    show.mission = Mission(show.resources, ScriptedInterpreter(MEANINGS))
     show.run(4)
     assert show.task.status is TaskStatus.FAILED
     assert "restarted" in show.task.explanation
 
 
 def test_skills_are_described_and_unknown_ones_refused():
-    planner = Show().crew.skills
+    planner = Show().resources.skills
     assert [skill["name"] for skill in planner.describe()] == ["GOTO", "PICK", "PLACE"]
     assert all(skill["schema"]["properties"] for skill in planner.describe())
     with pytest.raises(SkillNotFound, match="GOTO"):
@@ -494,13 +495,13 @@ def test_after_a_failure_goals_that_are_over_and_done_with_are_not_done_again():
 )
 def test_what_was_in_the_way_is_looked_at_once_more_before_the_next_go(skill, code, looked_at):
     show = Show(Script(outcomes={skill: [code]}))
-    look_at, looks = show.crew.look_at, []
+    look_at, looks = show.resources.look_at, []
 
     def look(node_id, context):
         looks.append(node_id)
         return look_at(node_id, context)
 
-    show.mission = Mission(replace(show.crew, look_at=look), ScriptedInterpreter(MEANINGS))
+    show.mission = Mission(replace(show.resources, look_at=look), ScriptedInterpreter(MEANINGS))
     assert show.finish().status is TaskStatus.SUCCEEDED
     assert show.codes == [code]
     assert looks == looked_at
@@ -508,7 +509,7 @@ def test_what_was_in_the_way_is_looked_at_once_more_before_the_next_go(skill, co
 
 def test_a_support_that_is_seen_to_be_full_after_a_failed_go_is_the_reason_that_is_given():
     show = Show(Script(outcomes={"PLACE": [FailureCode.UNREACHABLE]}))
-    look_at = show.crew.look_at
+    look_at = show.resources.look_at
 
     def look(node_id, context):
         desk = show.memory.snapshot().object("desk_1")
@@ -519,7 +520,7 @@ def test_a_support_that_is_seen_to_be_full_after_a_failed_go_is_the_reason_that_
         show.memory.commit(edits, agent="objects", stamp_s=show.stamp_s)
         return look_at(node_id, context)
 
-    show.mission = Mission(replace(show.crew, look_at=look), ScriptedInterpreter(MEANINGS))
+    show.mission = Mission(replace(show.resources, look_at=look), ScriptedInterpreter(MEANINGS))
     assert show.finish().status is TaskStatus.FAILED
     assert show.codes == [FailureCode.UNREACHABLE, FailureCode.SUPPORT_FULL]
     assert "full" in show.task.explanation
@@ -529,14 +530,14 @@ def test_a_support_that_is_seen_to_be_full_after_a_failed_go_is_the_reason_that_
 def test_what_was_put_down_first_is_looked_at_again_when_the_hand_was_there_again(knocked_off):
     show = Show()
     turn_up(show)
-    look_at, see, hidden, looks = show.crew.look_at, show.stage._see, set(), []
+    look_at, see, hidden, looks = show.resources.look_at, show.stage._see, set(), []
 
     def look(node_id, context):
         looks.append(node_id)
         hidden.discard(node_id)
         return look_at(node_id, context)
 
-    show.mission = Mission(replace(show.crew, look_at=look), ScriptedInterpreter(MEANINGS))
+    show.mission = Mission(replace(show.resources, look_at=look), ScriptedInterpreter(MEANINGS))
     show.stage._see = lambda name, snapshot, stamp_s: [] if name in hidden else see(name, snapshot, stamp_s)
     show.ask("bring both")
     show.run_until(lambda: show.stage.places["bottle_2"] == GRIPPER)
@@ -642,7 +643,7 @@ def test_a_dry_run_plans_and_moves_nothing():
 def test_without_a_robot_requests_are_planned_on_paper():
     memory, queue = WorkingMemory(rehearsal_graph()), TaskQueue()
     skills = load_registry(more=())
-    mission = PaperMission(memory, queue, ScriptedInterpreter(MEANINGS), Verifier(skills))
+    mission = OfflineMission(memory, queue, ScriptedInterpreter(MEANINGS), Verifier(skills))
     for request in (BRING, "open the window", "bring the bottle", "where is it?", "bring the table"):
         queue.submit(request, stamp_s=0.0)
     before = memory.snapshot()
@@ -663,7 +664,7 @@ def test_a_request_that_is_not_understood_in_time_fails():
         async def interpret(self, text, snapshot, dialogue):
             await asyncio.Event().wait()
 
-    show.mission = Mission(show.crew, Slow())
+    show.mission = Mission(show.resources, Slow())
     assert "in time" in show.finish().explanation
 
 
@@ -675,7 +676,7 @@ def test_a_task_cancelled_while_it_is_being_understood_stays_cancelled():
             show.queue.cancel("task_1", stamp_s=show.stamp_s)
             return MEANINGS[text]
 
-    show.mission = Mission(show.crew, Cancelling())
+    show.mission = Mission(show.resources, Cancelling())
     show.ask()
     show.run(10)
     assert show.task.status is TaskStatus.CANCELLED
@@ -685,7 +686,7 @@ def test_a_task_cancelled_while_it_is_being_understood_stays_cancelled():
 def test_pronouns_reach_the_interpreter_in_the_next_request():
     show = Show()
     interpreter = ScriptedInterpreter(MEANINGS)
-    show.mission = Mission(show.crew, interpreter)
+    show.mission = Mission(show.resources, interpreter)
     show.finish(dry_run=True)
     show.ask("where is it?")
     show.run(6)
@@ -804,7 +805,7 @@ class ByName:
 def talked_to():
     """A show whose robot reads what is asked."""
     show = Show()
-    show.mission = Mission(show.crew, TaskPlanner(CommandGrammar(), show.crew.verifier, None))
+    show.mission = Mission(show.resources, TaskPlanner(CommandGrammar(), show.resources.verifier, None))
     return show
 
 
@@ -824,7 +825,7 @@ def turn_up(show, *, color="blue", first_seen_s=None):
 @pytest.mark.parametrize(("color", "status"), [("blue", TaskStatus.SUCCEEDED), ("red", TaskStatus.FAILED)])
 def test_what_looks_like_a_lost_thing_and_turned_up_later_is_taken_for_it(color, status):
     show = Show()
-    show.mission = Mission(show.crew, ByName())
+    show.mission = Mission(show.resources, ByName())
     show.ask()
     show.until_step("GOTO")
     show.stage.places["bottle_1"] = None
@@ -840,7 +841,7 @@ def test_what_stands_on_furniture_that_was_not_known_when_the_lost_was_last_seen
     shelf_is_new,
 ):
     show = Show()
-    show.mission = Mission(show.crew, ByName())
+    show.mission = Mission(show.resources, ByName())
     show.ask()
     show.until_step("GOTO")
     show.stage.places["bottle_1"] = None
@@ -855,7 +856,7 @@ def test_what_stands_on_furniture_that_was_not_known_when_the_lost_was_last_seen
 
 def test_what_looks_like_a_lost_thing_and_was_known_before_anybody_asked_is_not_taken_for_it():
     show = Show()
-    show.mission = Mission(show.crew, ByName())
+    show.mission = Mission(show.resources, ByName())
     show.run_until(lambda: show.stamp_s > 3.0)
     show.ask()
     show.until_step("GOTO")

@@ -13,7 +13,7 @@ from planner.doubles.sketch import Sketch, flat
 from planner.goals import Goal, Predicate, goal, lasting
 from planner.language.grammar.parser import CommandGrammar
 from planner.plan import Dialogue, Plan
-from planner.skill_planner.arranging import arranged, orders
+from planner.skill_planner.goal_ordering import cheapest_order, orders
 from planner.skill_planner.search import Found, Search
 from planner.skill_planner.settings import OrderSettings
 from planner.skill_planner.verifier import Verifier
@@ -102,7 +102,7 @@ def test_what_stands_on_something_that_moves_too_goes_first():
 def test_what_goes_onto_something_that_moves_too_goes_last():
     sketch = flat().thing("tray_1", "tray", on="table_1", support=True, size_m=(0.09, 0.4, 0.02))
     goals = free(goal("on", "cup_1", "tray_1"), goal("on", "tray_1", "desk_1"))
-    order = arranged(goals, VERIFIER.state(sketch.snapshot(robot_in="room_2", at=(4.2, 0.0))), lambda *_: 1.0)
+    order = cheapest_order(goals, VERIFIER.state(sketch.snapshot(robot_in="room_2", at=(4.2, 0.0))), lambda *_: 1.0)
     assert [g.args[0] for g in order] == ["tray_1", "cup_1"]
 
 
@@ -137,11 +137,11 @@ def test_many_things_go_no_farther_than_by_the_exact_way():
         stops = [state.robot_at, *(arg for g in order for arg in g.args)]
         return sum(leg(a, b) for a, b in pairwise(stops))
 
-    improved, told = length(arranged(goals, state, leg)), length(goals)
+    improved, told = length(cheapest_order(goals, state, leg)), length(goals)
     assert improved < told
     eight = free(*goals[:8])
     exact = min(length(order) for order in permutations(eight[:6]))
-    assert length(arranged(eight[:6], state, leg)) == pytest.approx(exact)
+    assert length(cheapest_order(eight[:6], state, leg)) == pytest.approx(exact)
 
 
 def test_where_all_at_once_takes_too_long_goals_are_planned_for_one_by_one():

@@ -42,8 +42,8 @@ class Nearsighted:
 def show_of(place="table_1", recognizable=("bottle",)):
     """A rehearsal in which the bottle is taken for something else."""
     show = Show()
-    show.crew = replace(show.crew, recognizable=frozenset(recognizable))
-    show.mission = Mission(show.crew, Nearsighted())
+    show.resources = replace(show.resources, recognizable=frozenset(recognizable))
+    show.mission = Mission(show.resources, Nearsighted())
     call(show, MISTAKEN)
     show.stage.places["bottle_1"] = place
     return show
@@ -171,8 +171,8 @@ class Lonely:
 @pytest.mark.parametrize("comes", [True, False])
 def test_who_is_seen_on_the_way_is_given_what_they_asked_for_and_rooms_are_looked_through_once(comes):
     show = Show()
-    show.crew = replace(show.crew, recognizable=frozenset({"person"}))
-    show.mission = Mission(show.crew, Lonely())
+    show.resources = replace(show.resources, recognizable=frozenset({"person"}))
+    show.mission = Mission(show.resources, Lonely())
     people = [person.id for person in show.memory.snapshot().of_type(PersonNode)]
     show.memory.commit([RemoveNode(person) for person in people], agent="objects", stamp_s=0.0)
     show.ask()
@@ -203,7 +203,7 @@ def test_a_tour_looks_from_near_at_what_has_no_name_and_never_twice_at_a_place()
     places = [step.args[0] for step in scout.tour(snapshot).steps]
     assert len(places) == len(set(places))
     assert set(places) == {"bottle_1", "table_1", "shelf_1", "desk_1", "room_1", "room_2"}
-    scout.hunt("cup").looked.extend(places)
+    scout.search_for("cup").looked.extend(places)
     assert scout.tour(snapshot) is None
     assert "6 places in the kitchen and the office" in scout.told(snapshot)
 
@@ -246,7 +246,7 @@ def guess(show, chance):
 )
 def test_what_was_guessed_to_be_the_thing_and_is_not_is_never_said_to_be_it(step, chance, status):
     show = Show()
-    show.mission = Mission(show.crew, Guessing())
+    show.mission = Mission(show.resources, Guessing())
     guess(show, 0.4)
     show.ask()
     show.until_step(step)
@@ -276,7 +276,7 @@ def test_when_what_was_found_turns_out_to_be_something_else_the_search_goes_on()
 
 def test_what_loses_its_name_when_it_is_seen_from_near_is_not_said_to_be_it():
     show = Show()
-    show.mission = Mission(show.crew, Leaving())
+    show.mission = Mission(show.resources, Leaving())
     show.ask("leave the bottle on the table")
     show.run_until(lambda: show.task.status is TaskStatus.RUNNING)
     guess(show, 0.02)

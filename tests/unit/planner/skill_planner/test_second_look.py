@@ -6,8 +6,9 @@ import pytest
 
 from planner.doubles.sketch import Sketch
 from planner.goals import goal
+from planner.mission.settings import MissionSettings
 from planner.plan import Impossible
-from planner.skill_planner.second_look import FRESH_S, perhaps_cleared
+from planner.skill_planner.second_look import perhaps_cleared
 from planner.skill_planner.verifier import Verifier
 from planner.tasks.approval import Approval
 from planner.tasks.tasks import TaskStatus
@@ -21,7 +22,7 @@ from unit.planner.mission.test_mission import Show
 
 VERIFIER = Verifier(load_registry([]))
 CUP_ON_STOOL = goal("on", "cup_1", "stool_1")
-LATER_S = FRESH_S + 100.0
+LATER_S = MissionSettings.fresh_s + 100.0
 
 
 def room(cup_m=(0.08, 0.08, 0.1)):
@@ -37,7 +38,7 @@ def room(cup_m=(0.08, 0.08, 0.1)):
 def support_to_look_at(snapshot, stamp_s, *goals):
     why = VERIFIER.plan_for(goals, snapshot)
     assert isinstance(why, Impossible)
-    return perhaps_cleared(why, goals, VERIFIER, snapshot, stamp_s)
+    return perhaps_cleared(why, goals, VERIFIER, snapshot, stamp_s, fresh_s=MissionSettings.fresh_s)
 
 
 def test_what_was_full_long_ago_may_have_been_cleared():
@@ -54,7 +55,7 @@ def test_what_would_be_too_small_even_if_it_was_empty_is_not_looked_at():
 
 def test_only_that_it_is_full_can_have_changed_on_a_support():
     why = Impossible(reason="closed", nodes=("stool_1",), code=FailureCode.DOOR_CLOSED)
-    assert perhaps_cleared(why, (CUP_ON_STOOL,), VERIFIER, room(), LATER_S) is None
+    assert perhaps_cleared(why, (CUP_ON_STOOL,), VERIFIER, room(), LATER_S, fresh_s=MissionSettings.fresh_s) is None
 
 
 def show_of(crate_at):
@@ -68,7 +69,7 @@ def show_of(crate_at):
     edits = [PutNode(crate), PutEdge(frame), PutEdge(InEdge(source="crate_1", target="room_2")), PutEdge(relation)]
     show.memory.commit(edits, agent="objects", stamp_s=0.0)
     show.stage.places["crate_1"] = crate_at
-    show.run(ticks=int((FRESH_S + 5.0) / 0.05))
+    show.run(ticks=int((MissionSettings.fresh_s + 5.0) / 0.05))
     return show
 
 

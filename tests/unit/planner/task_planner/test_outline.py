@@ -6,7 +6,8 @@ import json
 import random
 
 from planner.doubles.sketch import Sketch, flat
-from planner.task_planner.outline import MAX_IDENTIFIERS, MAX_OBJECTS, outline
+from planner.task_planner.outline import MAX_IDENTIFIERS, outline
+from planner.task_planner.settings import OutlineSettings
 from scene_graph.nodes import DoorState, ObjectState
 
 
@@ -75,7 +76,7 @@ def test_a_home_of_two_hundred_nodes_fits_into_fifteen_hundred_tokens():
 def test_a_large_building_keeps_within_its_bounds():
     found = outline(big_home(rooms=80, things=1500), "bring me the red cup")
     assert len(found.identifiers) <= MAX_IDENTIFIERS
-    assert sum(line.startswith("  ") for line in found.text.splitlines()) <= MAX_OBJECTS
+    assert sum(line.startswith("  ") for line in found.text.splitlines()) <= OutlineSettings.most_objects
     assert len(found.text) / 3.2 < 4000
 
 

@@ -16,7 +16,8 @@ from planner.models.protocol import FailureKind, ModelFailure
 from planner.models.scripted import ScriptedModel
 from planner.plan import Dialogue, Kind, Plan, Source
 from planner.skill_planner.verifier import Verifier
-from planner.task_planner.model_rounds import MAX_ROUNDS, ModelRounds
+from planner.task_planner.model_rounds import ModelRounds
+from planner.task_planner.settings import TaskPlannerSettings
 from planner.task_planner.task_planner import TaskPlanner
 from skills.registry import load_registry
 
@@ -121,7 +122,7 @@ async def test_a_node_that_the_model_was_not_shown_is_nothing_to_act_on():
 @pytest.mark.anyio
 async def test_after_five_rounds_the_grammars_own_question_stands_and_says_so():
     found, model, _ = await interpret(["prose"] * 20)
-    assert len(model.requests) == MAX_ROUNDS == 5
+    assert len(model.requests) == TaskPlannerSettings.rounds == 5
     assert (found.kind, found.goals) == (Kind.CLARIFY, ())
     assert "I do not understand" in found.reply
     assert "language model gave no usable answer" in found.reply
@@ -209,7 +210,7 @@ async def test_names_and_requests_reach_the_model_as_quoted_data():
 @pytest.mark.anyio
 async def test_rounds_end_with_the_deadline():
     clock = iter([0.0, 1.0, 100.0, 200.0])
-    rounds = ModelRounds(ScriptedModel(["prose"] * 9), VERIFIER, lambda entry: None, 45.0, clock=lambda: next(clock))
+    rounds = ModelRounds(ScriptedModel(["prose"] * 9), VERIFIER, lambda entry: None, clock=lambda: next(clock))
     failure = await rounds.run(VAGUE, SNAPSHOT, Dialogue())
     assert isinstance(failure, ModelFailure)
     assert failure.kind is FailureKind.TIMEOUT

@@ -14,7 +14,7 @@ from planner.tasks.tasks import PlanReport, StepReport, StepStatus
 from scene_graph.snapshot import Snapshot
 
 
-class Progress:
+class PlanProgress:
     """The plan in force, its current step, and the report that the API shows.
 
     What the plan counts on about objects is taken from the graph when the plan is adopted, and again for those that a

@@ -9,16 +9,16 @@ from functools import partial
 from planner.controller.identity_check import IdentityCheck
 from planner.executor.job import Job, Watch, actions_or_refusal
 from planner.explainer.explainer import give_up_reason, unseen_sentence
-from planner.explainer.recovery import Recoveries
-from planner.mission.chronicle import Chronicle, Ending
-from planner.mission.intake import Ready
-from planner.mission.ledger import Ledger
-from planner.mission.monitoring import Lookout
-from planner.mission.progress import Progress
-from planner.mission.resources import Crew
+from planner.explainer.recovery import RecoveryPolicy
+from planner.mission.goal_tracker import GoalTracker
+from planner.mission.monitoring import Monitoring
+from planner.mission.plan_progress import PlanProgress
+from planner.mission.request_handler import Ready
+from planner.mission.resources import Resources
+from planner.mission.task_log import Ending, TaskLog
 from planner.naming import capital, humanize
-from planner.plan import Impossible, Reread, Step
-from planner.skill_planner.replanner import Hunt
+from planner.plan import Impossible, Reinterpret, Step
+from planner.skill_planner.replanner import ObjectSearch
 from planner.tasks.tasks import TaskStatus
 from scene_graph.edges import TASK_AGENT
 from scene_graph.snapshot import Snapshot
@@ -36,11 +36,10 @@ PLACE_CODES = frozenset(
 """While searching, these concern one place among several: it is skipped, and the search goes on."""
 LOST_GRIP = frozenset({FailureCode.GRASP_EMPTY, FailureCode.SLIPPED, FailureCode.DROPPED})
 """What was in the hand, or nearly, lies somewhere now."""
-LOOK_TIMEOUT_S = 60.0
 
 
 class Phase(StrEnum):
-    """What the errand is about right now."""
+    """What a task under way is about right now."""
 
     READY = "ready"
     ACTING = "acting"
@@ -50,21 +49,32 @@ class Phase(StrEnum):
     WAITING = "waiting"
 
 
-class Errand:
+class TaskExecution:
     """Carries out one task's plan and its successors until every goal is confirmed, or nothing is left to try.
 
     ``advance`` is called while the task runs and has the robot; time in between does not count.
     """
 
-    def __init__(self, ready: Ready, crew: Crew, stamp_s: float) -> None:
-        task_id, goals, building = ready.task.id, ready.goals, crew.memory.building()
-        self._task_id, self._crew, self._replanner, self._sought = task_id, crew, ready.replanner, ready.sought
-        self._ledger = Ledger(goals, stamp_s)
-        self._recoveries = Recoveries(max_failures=crew.settings.max_failures)
-        self._progress = Progress(task_id, goals, ready.plan, crew.queue, building)
-        self._lookout = Lookout(crew, self._progress, ready.replanner)
-        self._chronicle = Chronicle(task_id, self._ledger, crew)
-        self._identity = IdentityCheck(crew.queue.task(task_id).request, goals, building)
+    def __init__(self, ready: Ready, resources: Resources, stamp_s: float) -> None:
+        task_id, goals, building = ready.task.id, ready.goals, resources.memory.building()
+        self._task_id, self._resources, self._replanner, self._sought = (
+            task_id,
+            resources,
+            ready.replanner,
+            ready.sought,
+        )
+        self._tracker = GoalTracker(goals, stamp_s, resources.settings.goals)
+        self._recovery_policy = RecoveryPolicy(max_failures=resources.settings.max_failures)
+        self._progress = PlanProgress(task_id, goals, ready.plan, resources.queue, building)
+        self._monitoring = Monitoring(resources, self._progress, ready.replanner)
+        self._log = TaskLog(task_id, self._tracker, resources)
+        self._identity = IdentityCheck(
+            resources.queue.task(task_id).request,
+            goals,
+            building,
+            settings=resources.settings.identity,
+            grounding=resources.settings.grounding,
+        )
         self._job: Job | None = None
         self._phase, self._phase_s, self._wait_s = Phase.READY, 0.0, 0.0
         self._looked, self._after_look = False, Phase.READY
@@ -76,14 +86,14 @@ class Errand:
 
     def advance(self, stamp_s: float, dt_s: float) -> Ending | None:
         """Go on from the graph as it is now; an ``Ending`` when the task is over."""
-        context = self._crew.executor.context
+        context = self._resources.executor.context
         if context is None:
             return None
         self._stamp_s = stamp_s
         self._phase_s += dt_s
         self._progress.spend(dt_s)
         snapshot = context.building
-        if self._hunt is not None and self._hunt.found(snapshot) and self._phase is not Phase.WAITING:
+        if self._search is not None and self._search.found(snapshot) and self._phase is not Phase.WAITING:
             return self._replan(snapshot, "found")
         mistake = self._identity.mistake(snapshot)
         if mistake is not None and not self._sought:
@@ -98,7 +108,7 @@ class Errand:
     @property
     def needs(self) -> tuple[str, ...]:
         """What the plan in force and the goals name."""
-        named = [*(step.args for step in self._progress.plan.steps), *(goal.args for goal in self._ledger.goals)]
+        named = [*(step.args for step in self._progress.plan.steps), *(goal.args for goal in self._tracker.goals)]
         return tuple(dict.fromkeys(arg for args in named for arg in args))
 
     def close(self) -> None:
@@ -119,9 +129,9 @@ class Errand:
         }
 
     @property
-    def _hunt(self) -> Hunt | None:
+    def _search(self) -> ObjectSearch | None:
         seeking = self._progress.plan.seeking
-        return self._replanner.hunt(seeking) if seeking is not None else None
+        return self._replanner.search_for(seeking) if seeking is not None else None
 
     def _enter(self, phase: Phase) -> None:
         self._phase, self._phase_s = phase, 0.0
@@ -130,23 +140,23 @@ class Errand:
         """Start the next step, if the graph still allows it; after the last one, look at the goals."""
         step, self._looked, self._hindrance = self._progress.step, False, None
         if step is None:
-            if self._hunt is not None:
+            if self._search is not None:
                 return self._replan(snapshot, "not found there")
             self._looked_at.clear()
             self._enter(Phase.VERIFYING)
             return None
-        failure = self._lookout.before(step, context)
+        failure = self._monitoring.before(step, context)
         if failure is not None:
             return self._fail(failure, step, snapshot)
         self._worked_at = next((each for each in map(snapshot.support_of, step.args) if each is not None), None)
-        self._ledger.handled(step, self._stamp_s, at=self._worked_at)
-        seeking, crew = self._hunt is not None, self._crew
-        make = partial(crew.look_at, step.args[0]) if seeking else partial(crew.skills.actions, step)
+        self._tracker.handled(step, self._stamp_s, at=self._worked_at)
+        seeking, resources = self._search is not None, self._resources
+        make = partial(resources.look_at, step.args[0]) if seeking else partial(resources.skills.actions, step)
         actions = actions_or_refusal(lambda: make(context), context)
         self._progress.start()
-        self._chronicle.step(step, self._stamp_s)
-        timeout_s = self._crew.skills.timeout_s(step, snapshot)
-        self._start(str(step), actions, timeout_s, watch=self._lookout.during(step, context))
+        self._log.step(step, self._stamp_s)
+        timeout_s = self._resources.skills.timeout_s(step, snapshot)
+        self._start(str(step), actions, timeout_s, watch=self._monitoring.during(step, context))
         self._enter(Phase.ACTING)
         return None
 
@@ -155,7 +165,7 @@ class Errand:
         job, step = self._job, self._progress.step
         if job is None or step is None or not job.ended:
             return None
-        self._ledger.handled(step, self._stamp_s, at=self._worked_at)
+        self._tracker.handled(step, self._stamp_s, at=self._worked_at)
         self._acted_s = self._stamp_s
         if job.failure is not None:
             return self._fail(job.failure, step, snapshot)
@@ -164,42 +174,42 @@ class Errand:
 
     def _confirm(self, context: RobotContext, snapshot: Snapshot) -> Ending | None:
         """Wait for perception to confirm the step, looking again once."""
-        step, patience_s = self._progress.step, self._crew.settings.confirm_s
+        step, patience_s = self._progress.step, self._resources.settings.confirm_s
         if step is None:
             return None
-        if self._hunt is not None:
-            self._settle(step, self._hunt, snapshot)
+        if self._search is not None:
+            self._settle(step, self._search, snapshot)
             return None
-        failure = self._crew.skills.confirmed(step, snapshot, self._acted_s)
+        failure = self._resources.skills.confirmed(step, snapshot, self._acted_s)
         if failure is None:
             self._step_done(step, snapshot)
             return None
         impatient = self._phase_s >= patience_s
-        surprise = self._lookout.now(step, context) if impatient or step.skill == "GOTO" else None
+        surprise = self._monitoring.now(step, context) if impatient or step.skill == "GOTO" else None
         if surprise is not None or (impatient and (self._looked or step.skill in CONFIRMED_BY_BODY)):
             return self._fail(surprise or failure, step, snapshot)
         if impatient:
             self._look_again(step.args[-1], context)
         return None
 
-    def _settle(self, step: Step, hunt: Hunt, snapshot: Snapshot) -> None:
+    def _settle(self, step: Step, search: ObjectSearch, snapshot: Snapshot) -> None:
         """Give perception a moment to notice the object at a place; then the place has been searched."""
-        if self._phase_s >= self._crew.settings.settle_s:
-            hunt.looked.append(step.args[0])
+        if self._phase_s >= self._resources.settings.settle_s:
+            search.looked.append(step.args[0])
             self._step_done(step, snapshot)
 
     def _step_done(self, step: Step, snapshot: Snapshot) -> None:
-        self._ledger.note(snapshot)
+        self._tracker.note(snapshot)
         self._progress.follow(self._job)
-        self._chronicle.observed(step, snapshot, self._stamp_s, hunt=self._hunt)
+        self._log.observed(step, snapshot, self._stamp_s, search=self._search)
         self._progress.succeed(snapshot)
-        self._chronicle.step_done(step, snapshot, self._stamp_s)
+        self._log.step_done(step, snapshot, self._stamp_s)
         self._enter(Phase.READY)
 
     def _verify(self, context: RobotContext, snapshot: Snapshot) -> Ending | None:
         """After the last step every goal must be confirmed; else look once; else make a new plan."""
-        self._ledger.note(snapshot)
-        open_goals = self._ledger.open(snapshot)
+        self._tracker.note(snapshot)
+        open_goals = self._tracker.open(snapshot)
         if not open_goals:
             if self._looks_at_shaken(context, snapshot):
                 return None
@@ -209,8 +219,8 @@ class Errand:
             refuted = self._identity.refuted(snapshot, at_last=True)
             if refuted is not None:
                 return self._think_again(refuted, snapshot)
-            return self._chronicle.success(snapshot, self._stamp_s)
-        if self._phase_s < self._crew.settings.confirm_s:
+            return self._log.success(snapshot, self._stamp_s)
+        if self._phase_s < self._resources.settings.confirm_s:
             return None
         goal = open_goals[0]
         if not self._looked and goal.object_id is not None and goal.object_id in snapshot:
@@ -224,10 +234,10 @@ class Errand:
         """Look once at what was put down where the hand was again since, unless it is seen anyway: it may have been
         pushed. Whether that still takes time.
         """
-        shaken = self._ledger.shaken(snapshot)
+        shaken = self._tracker.shaken(snapshot)
         if not shaken:
             return False
-        if self._phase_s < self._crew.settings.confirm_s:
+        if self._phase_s < self._resources.settings.confirm_s:
             return True
         unlooked = [node_id for node_id in shaken if node_id not in self._looked_at]
         if not unlooked:
@@ -238,8 +248,8 @@ class Errand:
 
     def _look_again(self, node_id: str, context: RobotContext) -> None:
         self._looked, self._after_look, self._hindrance = True, self._phase, None
-        actions = actions_or_refusal(lambda: self._crew.look_at(node_id, context), context)
-        self._start(f"look at {node_id}", actions, LOOK_TIMEOUT_S)
+        actions = actions_or_refusal(lambda: self._resources.look_at(node_id, context), context)
+        self._start(f"look at {node_id}", actions, self._resources.settings.look_timeout_s)
         self._enter(Phase.LOOKING)
 
     def _look(self, context: RobotContext, snapshot: Snapshot) -> None:
@@ -259,21 +269,21 @@ class Errand:
         if failure.code in LOST_GRIP:
             for node_id in failure.evidence.nodes:
                 self._identity.fell(node_id)
-        skipping = self._hunt is not None and failure.code in PLACE_CODES
-        recovery = self._recoveries.after(failure.code, str(step)) if not skipping else None
+        skipping = self._search is not None and failure.code in PLACE_CODES
+        recovery = self._recovery_policy.after(failure.code, str(step)) if not skipping else None
         hopeless = recovery is None and not skipping
-        self._chronicle.failure(failure, step, snapshot, self._stamp_s, hopeless=hopeless)
-        if self._hunt is not None and skipping:
-            self._hunt.skipped.append(step.args[0])
+        self._log.failure(failure, step, snapshot, self._stamp_s, hopeless=hopeless)
+        if self._search is not None and skipping:
+            self._search.skipped.append(step.args[0])
             self._progress.skip()
             self._enter(Phase.READY)
         elif recovery is None:
-            times = self._recoveries.times(failure.code, str(step))
-            return self._chronicle.surrender(give_up_reason(failure, times), snapshot)
+            times = self._recovery_policy.times(failure.code, str(step))
+            return self._log.surrender(give_up_reason(failure, times), snapshot)
         else:
             self._wait_s = recovery.wait_s
             self._enter(Phase.WAITING)
-            context = self._crew.executor.context
+            context = self._resources.executor.context
             if recovery.looks and context is not None and step.args and step.args[-1] in snapshot:
                 self._look_again(step.args[-1], context)
         return None
@@ -281,13 +291,13 @@ class Errand:
     def _replan(self, snapshot: Snapshot, why: str) -> Ending | None:
         """Put a new plan in force, made from the graph as it is now; end when there is none."""
         self.close()
-        plan = self._replanner.plan(self._ledger.remaining(), snapshot, self._stamp_s)
+        plan = self._replanner.plan(self._tracker.remaining(), snapshot, self._stamp_s)
         if isinstance(plan, Impossible):
             return self._despair(plan, snapshot)
-        if isinstance(plan, Reread):
+        if isinstance(plan, Reinterpret):
             return Ending(status=TaskStatus.PLANNING, explanation="", displaced=plan.displaced)
         self._replans += 1
-        self._chronicle.replan(str(plan), why, self._stamp_s)
+        self._log.replan(str(plan), why, self._stamp_s)
         self._progress.adopt(plan, snapshot, replans=self._replans)
         self._enter(Phase.READY)
         return None
@@ -296,16 +306,16 @@ class Errand:
         """A thing is not what the request was about: nothing that could be done with it would be what was asked."""
         self.close()
         self._progress.fail()
-        self._chronicle.failure(mistake, self._progress.step or VERIFY, snapshot, self._stamp_s, hopeless=True)
-        return self._chronicle.surrender(mistake.message, snapshot)
+        self._log.failure(mistake, self._progress.step or VERIFY, snapshot, self._stamp_s, hopeless=True)
+        return self._log.surrender(mistake.message, snapshot)
 
     def _think_again(self, refuted: Failure, snapshot: Snapshot) -> Ending:
         """A guess was wrong: the request is understood anew, unless the wrong thing was touched already."""
-        if self._ledger.touched:
+        if self._tracker.touched:
             return self._admit(refuted, snapshot)
         self.close()
         self._progress.fail()
-        self._chronicle.failure(refuted, self._progress.step or VERIFY, snapshot, self._stamp_s, hopeless=False)
+        self._log.failure(refuted, self._progress.step or VERIFY, snapshot, self._stamp_s, hopeless=False)
         return Ending(status=TaskStatus.PLANNING, explanation="")
 
     def _despair(self, why: Impossible, snapshot: Snapshot) -> Ending:
@@ -313,28 +323,28 @@ class Errand:
         wrong before that became known.
         """
         if why.lost is not None:
-            carried = any(goal.object_id == why.lost for goal in self._ledger.goals)
+            carried = any(goal.object_id == why.lost for goal in self._tracker.goals)
             code = FailureCode.OBJECT_GONE if carried else FailureCode.SUPPORT_GONE
             self._conclude(code, why, "not found anywhere", Step(skill="SEARCH", args=(why.lost,)), snapshot)
         elif why.code is not None and why.code != self._last_code():
             self._conclude(why.code, why, "no plan is left", self._progress.step or VERIFY, snapshot)
-        return self._chronicle.surrender(why.reason, snapshot)
+        return self._log.surrender(why.reason, snapshot)
 
     def _last_code(self) -> str | None:
-        failures = self._crew.queue.task(self._task_id).failures
+        failures = self._resources.queue.task(self._task_id).failures
         return failures[-1].code if failures else None
 
     def _conclude(self, code: FailureCode, why: Impossible, observation: str, step: Step, snapshot: Snapshot) -> None:
         evidence = Evidence(nodes=why.nodes, revision=snapshot.revision, observation=observation)
         failure = Failure(code=code, message=f"{capital(humanize(why.reason, snapshot))}.", evidence=evidence)
-        self._chronicle.failure(failure, step, snapshot, self._stamp_s, hopeless=True)
+        self._log.failure(failure, step, snapshot, self._stamp_s, hopeless=True)
 
     def _start(self, name: str, actions: list[Action], timeout_s: float, watch: Watch | None = None) -> None:
         self._job = Job(name, actions, timeout_s=timeout_s, watch=watch, wanted=self._wanted)
-        self._crew.executor.assign(agent_of(self._task_id), self._job)
+        self._resources.executor.assign(agent_of(self._task_id), self._job)
 
     def _wanted(self) -> bool:
-        return self._crew.queue.task(self._task_id).status is TaskStatus.RUNNING
+        return self._resources.queue.task(self._task_id).status is TaskStatus.RUNNING
 
 
 def agent_of(task_id: str) -> str:

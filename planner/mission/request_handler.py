@@ -1,4 +1,4 @@
-"""The intake: a request becomes a verified plan that may run, or an answer, a question, a refusal."""
+"""A request becomes a verified plan that may run, or an answer, a question, a refusal."""
 
 from __future__ import annotations
 
@@ -11,7 +11,8 @@ from planner.executor.executor import OnEvent, ignore_event
 from planner.explainer.explainer import plan_sentence
 from planner.goals import Goal
 from planner.grounding.openness import suppose_not_known
-from planner.mission.taught import teach
+from planner.mission.settings import MissionSettings
+from planner.mission.teaching import teach
 from planner.plan import Dialogue, Exchange, Impossible, Interpretation, Kind, Offer, Plan, Source
 from planner.skill_planner.replanner import PlanMaker, Replanner, Verifier
 from planner.skill_planner.scouting import Scout, kinds_called
@@ -23,11 +24,6 @@ from scene_graph.memory import WorkingMemory
 from scene_graph.snapshot import Snapshot
 
 logger = logging.getLogger(__name__)
-
-MENTIONS = 20
-"""Identifiers remembered for pronouns in later requests."""
-MAX_EARLIER = 10
-"""Earlier requests that can be asked about."""
 
 
 class Interpreter(Protocol):
@@ -52,7 +48,7 @@ class Ready:
     sought: bool = False
 
 
-class Intake:
+class RequestHandler:
     """Understands requests and plans for them; moves tasks from ``planning`` on, except to ``running``.
 
     Args:
@@ -61,8 +57,8 @@ class Intake:
         interpreter: the Task Planner.
         verifier: makes and checks plans.
         on_event: told what was understood, planned, and how tasks end here.
-        interpret_s: deadline for understanding a request, in wall time.
-        paper: there is no robot, and every plan is only shown.
+        settings: among them the deadline for understanding a request.
+        offline: there is no robot, and every plan is only shown.
         recognizable: labels of what is looked for when it was never seen; of anything else the request is turned down.
     """
 
@@ -74,13 +70,13 @@ class Intake:
         verifier: Verifier,
         *,
         on_event: OnEvent = ignore_event,
-        interpret_s: float = 60.0,
-        paper: bool = False,
+        settings: MissionSettings = MissionSettings(),
+        offline: bool = False,
         recognizable: frozenset[str] = frozenset(),
     ) -> None:
         self._memory, self._queue = memory, queue
         self._interpreter, self._verifier = interpreter, verifier
-        self._on_event, self._interpret_s, self._paper = on_event, interpret_s, paper
+        self._on_event, self._settings, self._offline = on_event, settings, offline
         self._recognizable = recognizable
         self._scouts: dict[str, Scout] = {}
         self._looking: str | None = None
@@ -128,7 +124,7 @@ class Intake:
             task=task.id,
         )
         try:
-            async with asyncio.timeout(self._interpret_s):
+            async with asyncio.timeout(self._settings.interpret_s):
                 meaning = await self._interpreter.interpret(task.request, snapshot, dialogue)
         except TimeoutError:
             self.end(task, TaskStatus.FAILED, "I could not understand the request in time.", stamp_s)
@@ -206,7 +202,7 @@ class Intake:
 
     def _moves_unasked(self, task: Task) -> bool:
         """Whether the robot may go and look for a task before there is a plan that a person could see."""
-        return not (self._paper or task.dry_run or task.approval is Approval.ASK)
+        return not (self._offline or task.dry_run or task.approval is Approval.ASK)
 
     def _plan(self, task: Task, goals: tuple[Goal, ...], source: Source, stamp_s: float) -> Ready | None:
         """Plan for the goals; then refuse, show the plan, ask for approval, or let the task run."""
@@ -224,7 +220,7 @@ class Intake:
         task = self._queue.amend(task.id, plan=report, times=replace(task.times, planned_s=stamp_s))
         self._emit(stamp_s, "planned", task=task.id, plan=str(plan), revision=plan.revision)
         intent = plan_sentence(plan, snapshot)
-        if task.dry_run or self._paper:
+        if task.dry_run or self._offline:
             self.end(task, TaskStatus.SUCCEEDED, f"Planned only, nothing was moved. {intent}", stamp_s)
         elif task.approval is Approval.ASK and not (task.approved and same):
             asked = {"approved": False, "explanation": f"{intent} Shall I?"}
@@ -239,7 +235,7 @@ class Intake:
         if not self._moves_unasked(task):
             return None
         snapshot = self._memory.building()
-        support = perhaps_cleared(why, goals, self._verifier, snapshot, stamp_s)
+        support = perhaps_cleared(why, goals, self._verifier, snapshot, stamp_s, fresh_s=self._settings.fresh_s)
         if support is None or (task.id, support) in self._looked_again:
             return None
         self._looked_again = frozenset(
@@ -259,13 +255,13 @@ class Intake:
                 status=other.status.value,
                 explanation=other.explanation or other.reply,
             )
-            for other in reversed(tasks[-MAX_EARLIER:])
+            for other in reversed(tasks[-self._settings.earlier :])
         )
 
     def _remember(self, meaning: Interpretation) -> None:
         spoken = (*meaning.mentioned, *(arg for goal in meaning.goals for arg in goal.args))
         self._last = tuple(dict.fromkeys(spoken)) or self._last
-        self._mentioned = tuple(dict.fromkeys((*spoken, *self._mentioned)))[:MENTIONS]
+        self._mentioned = tuple(dict.fromkeys((*spoken, *self._mentioned)))[: self._settings.mentions]
 
     def _emit(self, stamp_s: float, event: str, **fields: Any) -> None:
         self._on_event({"stamp_s": round(stamp_s, 3), "by": "mission", "event": event, **fields})

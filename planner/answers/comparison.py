@@ -18,7 +18,7 @@ from planner.plan import QueryKind
 COMPARING = frozenset({QueryKind.MOST, QueryKind.MORE, QueryKind.COMPARE})
 
 
-class Comparing:
+class Comparison:
     """Answers the kinds of ``COMPARING`` on one graph."""
 
     def __init__(self, grounding: Grounding) -> None:

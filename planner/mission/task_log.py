@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from planner.explainer.explainer import explain, failure_sentence, success_sentence
-from planner.mission.ledger import Ledger
-from planner.mission.resources import Crew
+from planner.mission.goal_tracker import GoalTracker
+from planner.mission.resources import Resources
 from planner.naming import name_of, whereabouts
 from planner.plan import Step
-from planner.skill_planner.replanner import Hunt
+from planner.skill_planner.replanner import ObjectSearch
 from planner.tasks.tasks import TaskStatus
 from scene_graph.nodes import ROBOT_ID, ObjectNode
 from scene_graph.snapshot import Snapshot
@@ -27,49 +27,49 @@ class Ending:
     displaced: frozenset[str] = frozenset()
 
 
-class Chronicle:
+class TaskLog:
     """Writes what happens into the task's record and the event log."""
 
-    def __init__(self, task_id: str, ledger: Ledger, crew: Crew) -> None:
-        self._task_id, self._ledger, self._crew = task_id, ledger, crew
+    def __init__(self, task_id: str, tracker: GoalTracker, resources: Resources) -> None:
+        self._task_id, self._tracker, self._resources = task_id, tracker, resources
 
     def step(self, step: Step, stamp_s: float) -> None:
         """A step begins."""
-        self._crew.emit(stamp_s, "step", task=self._task_id, step=str(step))
+        self._resources.emit(stamp_s, "step", task=self._task_id, step=str(step))
 
-    def observed(self, step: Step, snapshot: Snapshot, stamp_s: float, *, hunt: Hunt | None) -> None:
-        """What was seen says that a step is done; with a ``hunt``: that a place was looked at in vain."""
-        seen = hunt.seen_there if hunt is not None else observation(step, snapshot, stamp_s)
+    def observed(self, step: Step, snapshot: Snapshot, stamp_s: float, *, search: ObjectSearch | None) -> None:
+        """What was seen says that a step is done; with a ``search``: that a place was looked at in vain."""
+        seen = search.seen_there if search is not None else observation(step, snapshot, stamp_s)
         fields = {"step": str(step), "seen": seen, "nodes": list(step.args), "revision": snapshot.revision}
-        self._crew.emit(stamp_s, "observed", task=self._task_id, **fields)
+        self._resources.emit(stamp_s, "observed", task=self._task_id, **fields)
 
     def step_done(self, step: Step, snapshot: Snapshot, stamp_s: float) -> None:
         """A step is confirmed, and with it perhaps a goal."""
-        self._crew.queue.amend(self._task_id, verified=self._ledger.report(snapshot))
-        self._crew.emit(stamp_s, "step_done", task=self._task_id, step=str(step))
+        self._resources.queue.amend(self._task_id, verified=self._tracker.report(snapshot))
+        self._resources.emit(stamp_s, "step_done", task=self._task_id, step=str(step))
 
     def failure(self, failure: Failure, step: Step, snapshot: Snapshot, stamp_s: float, *, hopeless: bool) -> None:
         """Something went wrong; ``hopeless``: nothing more will be tried."""
         report = explain(failure, step, snapshot, hopeless=hopeless)
-        failures = self._crew.queue.task(self._task_id).failures
-        self._crew.queue.amend(self._task_id, failures=(*failures, report), explanation=report.sentence)
+        failures = self._resources.queue.task(self._task_id).failures
+        self._resources.queue.amend(self._task_id, failures=(*failures, report), explanation=report.sentence)
         fields = {"step": report.step, "code": report.code, "why": report.message, "next": report.suggestion}
-        self._crew.emit(stamp_s, "failure", task=self._task_id, **fields)
+        self._resources.emit(stamp_s, "failure", task=self._task_id, **fields)
 
     def replan(self, plan: str, why: str, stamp_s: float) -> None:
         """A new plan comes into force."""
-        self._crew.emit(stamp_s, "replan", task=self._task_id, why=why, plan=plan)
+        self._resources.emit(stamp_s, "replan", task=self._task_id, why=why, plan=plan)
 
     def success(self, snapshot: Snapshot, stamp_s: float) -> Ending:
         """Every goal is confirmed."""
-        task = self._crew.queue.amend(self._task_id, verified=self._ledger.report(snapshot))
+        task = self._resources.queue.amend(self._task_id, verified=self._tracker.report(snapshot))
         goals = [verified.goal for verified in task.verified]
         return Ending(status=TaskStatus.SUCCEEDED, explanation=success_sentence(task, goals, snapshot, stamp_s))
 
     def surrender(self, reason: str, snapshot: Snapshot) -> Ending:
         """Nothing is left to try."""
-        self._crew.queue.amend(self._task_id, verified=self._ledger.report(snapshot))
-        explanation = failure_sentence(self._ledger.remaining(), reason, snapshot)
+        self._resources.queue.amend(self._task_id, verified=self._tracker.report(snapshot))
+        explanation = failure_sentence(self._tracker.remaining(), reason, snapshot)
         return Ending(status=TaskStatus.FAILED, explanation=explanation)
 
 

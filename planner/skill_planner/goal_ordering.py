@@ -37,7 +37,7 @@ def orders(
     spoken = Counter(arg for goal in goals for arg in goal.args)
     kinds = {goal: _kind(goal, spoken, state) for goal in goals}
     tried: set[tuple[Hashable, ...]] = set()
-    for order in chain((arranged(goals, state, leg, settings), tuple(goals)), few):
+    for order in chain((cheapest_order(goals, state, leg, settings), tuple(goals)), few):
         kind = tuple(kinds[goal] for goal in order)
         if kind not in tried:
             tried.add(kind)
@@ -62,7 +62,7 @@ def _kind(goal: Goal, spoken: Mapping[str, int], state: PlanState) -> Hashable:
     )
 
 
-def arranged(
+def cheapest_order(
     goals: Sequence[Goal], state: PlanState, leg: Leg, settings: SkillPlanningSettings = SkillPlanningSettings()
 ) -> tuple[Goal, ...]:
     """``goals`` with every run of them that may come in any order in its cheapest one."""

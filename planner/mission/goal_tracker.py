@@ -1,10 +1,10 @@
-"""The ledger of a task's goals: which of them perception has confirmed, by observations newer than the last touch."""
+"""Which of a task's goals perception has confirmed, by observations newer than the last touch."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 
-from planner.goals import Goal, Predicate, holds_in, superseded
+from planner.goals import Goal, GoalSettings, Predicate, holds_in, superseded
 from planner.plan import Step
 from planner.tasks.tasks import VerifiedGoal
 from scene_graph.nodes import ObjectNode
@@ -16,7 +16,7 @@ the graph holds without the time of the last look.
 """
 
 
-class Ledger:
+class GoalTracker:
     """Goals in their order, and when the robot last touched the object of each.
 
     A goal is *confirmed* when the graph believes it and its object was seen after the robot last handled it (after
@@ -24,9 +24,9 @@ class Ledger:
     must be confirmed at the end.
     """
 
-    def __init__(self, goals: Sequence[Goal], since_s: float) -> None:
+    def __init__(self, goals: Sequence[Goal], since_s: float, settings: GoalSettings = GoalSettings()) -> None:
         self.goals = tuple(goals)
-        self._since_s = since_s
+        self._since_s, self._settings = since_s, settings
         self._handled_s: dict[str, float] = {}
         self._reached = 0
 
@@ -50,7 +50,7 @@ class Ledger:
 
     def confirms(self, goal: Goal, snapshot: Snapshot) -> bool:
         """Whether the graph believes a goal on fresh evidence."""
-        if not holds_in(goal, snapshot, since_s=self._since_s):
+        if not holds_in(goal, snapshot, since_s=self._since_s, settings=self._settings):
             return False
         return goal.predicate in IMMEDIATE or self._fresh(goal, snapshot)
 

@@ -16,7 +16,6 @@ from planner.mission.plan_progress import PlanProgress
 from planner.mission.request_handler import Ready
 from planner.mission.resources import Resources
 from planner.mission.task_log import Ending, TaskLog
-from planner.naming import capital, humanize
 from planner.plan import Impossible, Reinterpret, Step
 from planner.skill_planner.replanner import ObjectSearch
 from planner.tasks.tasks import TaskStatus
@@ -293,7 +292,7 @@ class TaskExecution:
         self.close()
         plan = self._replanner.plan(self._tracker.remaining(), snapshot, self._stamp_s)
         if isinstance(plan, Impossible):
-            return self._despair(plan, snapshot)
+            return self._log.despair(plan, self._progress.step or VERIFY, snapshot, self._stamp_s)
         if isinstance(plan, Reinterpret):
             return Ending(status=TaskStatus.PLANNING, explanation="", displaced=plan.displaced)
         self._replans += 1
@@ -317,27 +316,6 @@ class TaskExecution:
         self._progress.fail()
         self._log.failure(refuted, self._progress.step or VERIFY, snapshot, self._stamp_s, hopeless=False)
         return Ending(status=TaskStatus.PLANNING, explanation="")
-
-    def _despair(self, why: Impossible, snapshot: Snapshot) -> Ending:
-        """There is no plan any more. What was looked for in vain, or has happened, is the last failure, not what went
-        wrong before that became known.
-        """
-        if why.lost is not None:
-            carried = any(goal.object_id == why.lost for goal in self._tracker.goals)
-            code = FailureCode.OBJECT_GONE if carried else FailureCode.SUPPORT_GONE
-            self._conclude(code, why, "not found anywhere", Step(skill="SEARCH", args=(why.lost,)), snapshot)
-        elif why.code is not None and why.code != self._last_code():
-            self._conclude(why.code, why, "no plan is left", self._progress.step or VERIFY, snapshot)
-        return self._log.surrender(why.reason, snapshot)
-
-    def _last_code(self) -> str | None:
-        failures = self._resources.queue.task(self._task_id).failures
-        return failures[-1].code if failures else None
-
-    def _conclude(self, code: FailureCode, why: Impossible, observation: str, step: Step, snapshot: Snapshot) -> None:
-        evidence = Evidence(nodes=why.nodes, revision=snapshot.revision, observation=observation)
-        failure = Failure(code=code, message=f"{capital(humanize(why.reason, snapshot))}.", evidence=evidence)
-        self._log.failure(failure, step, snapshot, self._stamp_s, hopeless=True)
 
     def _start(self, name: str, actions: list[Action], timeout_s: float, watch: Watch | None = None) -> None:
         self._job = Job(name, actions, timeout_s=timeout_s, watch=watch, wanted=self._wanted)

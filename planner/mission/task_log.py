@@ -7,13 +7,13 @@ from dataclasses import dataclass
 from planner.explainer.explainer import explain, failure_sentence, success_sentence
 from planner.mission.goal_tracker import GoalTracker
 from planner.mission.resources import Resources
-from planner.naming import name_of, whereabouts
-from planner.plan import Step
+from planner.naming import capital, humanize, name_of, whereabouts
+from planner.plan import Impossible, Step
 from planner.skill_planner.replanner import ObjectSearch
 from planner.tasks.tasks import TaskStatus
 from scene_graph.nodes import ROBOT_ID, ObjectNode
 from scene_graph.snapshot import Snapshot
-from skills.failures import Failure
+from skills.failures import Evidence, Failure, FailureCode
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -71,6 +71,29 @@ class TaskLog:
         self._resources.queue.amend(self._task_id, verified=self._tracker.report(snapshot))
         explanation = failure_sentence(self._tracker.remaining(), reason, snapshot)
         return Ending(status=TaskStatus.FAILED, explanation=explanation)
+
+    def despair(self, why: Impossible, step: Step, snapshot: Snapshot, stamp_s: float) -> Ending:
+        """There is no plan any more. What was looked for in vain, or has happened, is the last failure, not what went
+        wrong before that became known.
+        """
+        if why.lost is not None:
+            carried = any(goal.object_id == why.lost for goal in self._tracker.goals)
+            code = FailureCode.OBJECT_GONE if carried else FailureCode.SUPPORT_GONE
+            self._conclude(code, why, "not found anywhere", Step(skill="SEARCH", args=(why.lost,)), snapshot, stamp_s)
+        elif why.code is not None and why.code != self._last_code():
+            self._conclude(why.code, why, "no plan is left", step, snapshot, stamp_s)
+        return self.surrender(why.reason, snapshot)
+
+    def _last_code(self) -> str | None:
+        failures = self._resources.queue.task(self._task_id).failures
+        return failures[-1].code if failures else None
+
+    def _conclude(
+        self, code: FailureCode, why: Impossible, observation: str, step: Step, snapshot: Snapshot, stamp_s: float
+    ) -> None:
+        evidence = Evidence(nodes=why.nodes, revision=snapshot.revision, observation=observation)
+        failure = Failure(code=code, message=f"{capital(humanize(why.reason, snapshot))}.", evidence=evidence)
+        self.failure(failure, step, snapshot, stamp_s, hopeless=True)
 
 
 def observation(step: Step, snapshot: Snapshot, stamp_s: float) -> str:

@@ -10,7 +10,7 @@ from contextlib import asynccontextmanager
 import httpx
 import pytest
 
-from model_server import DIALECTS, Line, ModelServer, OpenAI
+from model_server import Line, ModelServer, OpenAI
 from planner.doubles.sketch import flat
 from planner.language.grammar.parser import CommandGrammar
 from planner.models.breaker import BreakerSettings, CircuitBreaker
@@ -28,16 +28,6 @@ SNAPSHOT = flat().snapshot(robot_in="room_2", at=(4.2, 0.0))
 VAGUE = "my desk looks so empty without that red thing one drinks tea from"
 GOOD = {"kind": "plan", "goals": [{"predicate": "on", "args": ["cup_1", "desk_1"]}], "question": "", "reply": ""}
 BAD = {"kind": "plan", "goals": [{"predicate": "on", "args": ["cup_77", "desk_1"]}], "question": "", "reply": ""}
-
-
-@pytest.fixture
-def anyio_backend():
-    return "asyncio"
-
-
-@pytest.fixture(params=DIALECTS, ids=lambda dialect: dialect.provider)
-def dialect(request):
-    return request.param
 
 
 def said(dialect, content):

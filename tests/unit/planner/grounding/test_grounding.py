@@ -1,4 +1,4 @@
-"""References on the graph: none, one, several; labels, names, rooms, relations, order, and what was said before."""
+"""References on the graph: none, one, several; labels, names, rooms, relations and order."""
 
 from __future__ import annotations
 
@@ -6,40 +6,13 @@ from dataclasses import replace
 
 import pytest
 
-from planner.controller.identity_check import IdentityCheck
-from planner.dialogue.interpreter import Interpreter
+from flat_reader import goals, in_hall, read
 from planner.doubles.sketch import Sketch, flat
-from planner.language.grammar.parser import CommandGrammar
 from planner.naming import name_of
-from planner.plan import Dialogue, Kind
-from planner.skill_planner.verifier import Verifier
-from planner.task_planner.task_planner import TaskPlanner
+from planner.plan import Kind
 from scene_graph.edges import HasIntentionEdge, IntentionAction, IntentionStatus, Priority, RtEdge
 from scene_graph.geometry.se3 import SE3
 from scene_graph.nodes import CrossingStatus, DoorNode, DoorState, ObjectState, RoomStatus
-from skills.registry import load_registry
-
-VERIFIER = Verifier(load_registry([]))
-INTERPRETER = Interpreter(CommandGrammar(), VERIFIER)
-PLANNER = TaskPlanner(CommandGrammar(), VERIFIER)
-FLAT = flat().snapshot(robot_in="room_2", at=(4.2, 0.0))
-
-
-def read(text, snapshot=FLAT, **dialogue):
-    return INTERPRETER.read(text, snapshot, Dialogue(**dialogue)).interpretation
-
-
-def goals(text, snapshot=FLAT, **dialogue):
-    found = read(text, snapshot, **dialogue)
-    return " ".join(map(str, found.goals)) or f"{found.kind}: {found.reply}"
-
-
-def in_hall(sketch):
-    return sketch.snapshot(robot_in="room_2", at=(4.2, 0.0))
-
-
-def at_desk(sketch):
-    return sketch.snapshot(robot_in="room_4", at=(4.2, 4.4))
 
 
 def test_nothing_of_the_kind_lists_what_there_is_instead():
@@ -156,77 +129,6 @@ def test_where_one_is_called_a_coffee_table_no_other_table_is_meant():
     assert read("how many tables are there?", in_hall(sketch)).reply.startswith("I know of 3 tables")
 
 
-def nameless(sketch, node_id, on, **chances):
-    return sketch.thing(node_id, "unknown", on=on, label_distribution=tuple(chances.items()))
-
-
-def test_what_has_no_name_is_meant_where_nothing_else_is_and_it_most_probably_is_that():
-    sketch = nameless(flat(), "unknown_1", "desk_1", unknown=0.45, ball=0.4, orange=0.15)
-    assert goals("bring me the ball", in_hall(sketch)) == "given(unknown_1, person_2)"
-    assert "no orange" in read("bring me the orange", in_hall(sketch)).reply
-    assert "no ball" in read("bring me the ball from the table", in_hall(sketch)).reply
-    nameless(sketch, "unknown_2", "table_1", unknown=0.5, ball=0.35)
-    assert set(read("bring me the ball", in_hall(sketch)).candidates) == {"unknown_1", "unknown_2"}
-    sketch.thing("ball_1", "ball", on="counter_1")
-    assert goals("bring me the ball", in_hall(sketch)) == "given(ball_1, person_2)"
-
-
-def test_so_is_a_place_without_a_name():
-    chances = (("unknown", 0.55), ("piano", 0.4))
-    sketch = flat().furniture("unknown_1", "unknown", "room_3", at=(9.5, 1.0), label_distribution=chances)
-    sketch.thing("ball_1", "ball", on="unknown_1")
-    sketch.thing("ball_2", "ball", on="desk_1")
-    assert goals("bring me the ball from the piano", in_hall(sketch)) == "given(ball_1, person_2)"
-    assert goals("put the ball on the desk on the piano", in_hall(sketch)) == "on(ball_2, unknown_1)"
-
-
-@pytest.mark.parametrize(("label", "mistaken"), [("unknown", False), ("ball", False), ("orange", True)])
-def test_what_has_no_name_and_was_taken_for_a_ball_must_not_turn_out_to_be_something_else(label, mistaken):
-    request = "bring me the ball"
-    before = nameless(flat(), "unknown_1", "desk_1", unknown=0.45, ball=0.4, orange=0.15)
-    taken = IdentityCheck(request, read(request, in_hall(before)).goals, in_hall(before))
-    after = flat().thing("unknown_1", label, on="desk_1", label_distribution=((label, 0.95),))
-    assert (taken.mistake(at_desk(after)) is not None) == mistaken
-
-
-@pytest.mark.parametrize("label", ["orange", "unknown"])
-@pytest.mark.parametrize(
-    ("where", "doubted"),
-    [
-        ({"robot_in": "room_2", "at": (4.2, 0.0)}, False),
-        ({"robot_in": "room_4", "at": (4.2, 3.0)}, False),
-        ({"robot_in": "room_4", "at": (4.2, 4.4)}, True),
-        ({"robot_in": "room_2", "at": (4.2, 0.0), "holding": "ball_1"}, True),
-    ],
-)
-def test_what_a_thing_looks_like_from_afar_waits_until_the_robot_is_there(label, where, doubted):
-    request, before = "bring me the ball", flat().thing("ball_1", "ball", on="desk_1")
-    taken = IdentityCheck(request, read(request, in_hall(before)).goals, in_hall(before))
-    after = flat().thing("ball_1", label, on="desk_1", label_distribution=((label, 0.95),)).snapshot(**where)
-    assert ((taken.mistake(after) or taken.refuted(after)) is not None) == doubted
-    assert (taken.mistake(after, at_last=True) or taken.refuted(after, at_last=True)) is not None
-
-
-@pytest.mark.parametrize("label", ["orange", "unknown"])
-def test_what_slipped_from_the_hand_is_what_it_was_until_all_is_done_however_it_looks_where_it_lies(label):
-    request, before = "bring me the ball", flat().thing("ball_1", "ball", on="desk_1")
-    after = at_desk(flat().thing("ball_1", label, on="desk_1", label_distribution=((label, 0.95),)))
-
-    def doubt(**last):
-        return taken.mistake(after, **last) or taken.refuted(after, **last)
-
-    taken = IdentityCheck(request, read(request, in_hall(before)).goals, in_hall(before))
-    assert doubt() is not None
-    taken.fell("ball_1")
-    assert doubt() is None
-    assert doubt(at_last=True) is not None
-
-
-def test_what_hardly_may_be_a_ball_is_none():
-    sketch = nameless(flat(), "unknown_1", "desk_1", unknown=0.8, ball=0.15)
-    assert "no ball" in read("bring me the ball", in_hall(sketch)).reply
-
-
 def test_the_last_word_of_a_label_names_it():
     sketch = flat().thing("knife_1", "butter knife", on="desk_1")
     assert goals("bring me the knife", in_hall(sketch)) == "given(knife_1, person_2)"
@@ -287,46 +189,6 @@ def test_any_one_will_do_but_not_one_that_is_lost_or_there_already():
     assert goals("put a jar on the desk", in_hall(sketch)) == "on(jar_3, desk_1)"
 
 
-def test_without_anybody_seen_me_has_no_place():
-    sketch = Sketch().room("room_2", "hall", at=(4.2, 0.0)).furniture("table_1", "table", "room_2", at=(4.2, 1.0))
-    sketch.thing("cup_1", "cup", on="table_1")
-    assert read("bring me the cup", in_hall(sketch)).reply == "I see nobody, so I do not know where you are."
-
-
-def test_the_only_person_is_me_and_of_several_the_user_or_the_one_who_speaks():
-    assert goals("bring me the apple") == "given(apple_1, person_2)"
-    assert goals("bring me the apple", speaker="person_1") == "given(apple_1, person_1)"
-    sketch = Sketch().room("room_2", "hall", at=(4.2, 0.0)).furniture("table_1", "table", "room_2", at=(4.2, 1.0))
-    sketch.thing("cup_1", "cup", on="table_1").person("person_7", "", "room_2", at=(4.2, -1.0))
-    assert goals("bring me the cup", in_hall(sketch)) == "given(cup_1, person_7)"
-    sketch.person("person_8", "", "room_2", at=(3.2, -1.0))
-    assert read("bring me the cup", in_hall(sketch)).candidates == ("person_7", "person_8")
-
-
-def test_it_is_what_was_spoken_of_in_this_request_then_in_the_hand_then_before():
-    assert goals("pick up the apple and put it in the box", mentioned=("book_1",)) == "in(apple_1, box_1)"
-    assert goals("put it on the desk", mentioned=("book_1", "apple_1")) == "on(book_1, desk_1)"
-    holding = flat().snapshot(robot_in="room_2", at=(4.2, 0.0), holding="cup_1")
-    assert goals("put it on the desk", holding, mentioned=("book_1",)) == "on(cup_1, desk_1)"
-    assert read("put it on the desk").kind is Kind.REFUSE
-
-
-def test_what_is_held_is_put_down_here():
-    holding = flat().snapshot(robot_in="room_1", at=(0.0, 0.0), holding="cup_2")
-    assert goals("put it down", holding) == "in(cup_2, room_1)"
-    assert goals("put down the green cup", holding) == "in(cup_2, room_1)"
-    assert goals("put down whatever you are holding", holding) == "in(cup_2, room_1)"
-    assert read("what are you holding", holding).reply == "I am holding the green cup."
-
-
-def test_the_room_gone_to_settles_which_one():
-    assert goals("go to the kitchen and take the bottle") == "robot_at(room_1) holding(bottle_1)"
-
-
-def test_the_same_noun_later_in_a_request_is_the_same_thing():
-    assert goals("take the red cup and put the cup on the desk") == "on(cup_1, desk_1)"
-
-
 def test_a_relation_of_the_scene_graph_can_be_asked_for():
     sketch = flat().thing("sock_1", "sock", on="couch_1", relation="under").thing("sock_2", "sock", on="couch_1")
     assert goals("bring me the sock under the couch", in_hall(sketch)) == "given(sock_1, person_2)"
@@ -343,49 +205,3 @@ def test_a_way_that_is_shut_is_the_reason():
     found = read("bring me the apple", memory.snapshot())
     assert found.kind is Kind.REFUSE
     assert "the door between the kitchen and the hall is closed" in found.reply
-
-
-def test_mentioned_lists_the_newest_first():
-    assert read("pick up the apple and go to the office").mentioned[0] == "room_4"
-    assert "apple_1" in read("where is the apple").mentioned
-
-
-ANSWERS = [
-    ("bring me the bottle", ["the blue one"], "given(bottle_1, person_2)"),
-    ("bring me the bottle", ["blue"], "given(bottle_1, person_2)"),
-    ("bring me the bottle", ["2"], "given(bottle_2, person_2)"),
-    ("bring me the bottle", ["the second one"], "given(bottle_2, person_2)"),
-    ("bring me the bottle", ["the one on the desk"], "given(bottle_2, person_2)"),
-    ("bring me the bottle", ["on the desk"], "given(bottle_2, person_2)"),
-    ("bring me the bottle", ["in the office"], "given(bottle_2, person_2)"),
-    ("bring me the bottle", ["bottle_1"], "given(bottle_1, person_2)"),
-    ("bring me the bottle", ["both"], "given(bottle_1, person_2) given(bottle_2, person_2)"),
-    ("bring me the bottle", ["any"], "given(bottle_1, person_2)"),
-    ("bring me the bottle", ["go to the kitchen"], "robot_at(room_1)"),
-    ("bring me the bottle", ["hm", "the red one"], "given(bottle_2, person_2)"),
-    ("put the bottle on the table", ["the kitchen", "the red one"], "on(bottle_2, table_1)"),
-    ("put the book", ["on the desk"], "on(book_1, desk_1)"),
-    ("put the book", ["the office"], "in(book_1, room_4)"),
-    ("blarg the fnord", ["bring me the apple"], "given(apple_1, person_2)"),
-]
-
-
-@pytest.mark.parametrize(("text", "answers", "expected"), ANSWERS)
-@pytest.mark.anyio
-async def test_answers_settle_what_was_asked(text, answers, expected):
-    dialogue = Dialogue(answers=tuple(("Which one?", answer) for answer in answers))
-    found = await PLANNER.interpret(text, FLAT, dialogue)
-    assert " ".join(map(str, found.goals)) == expected
-
-
-@pytest.mark.parametrize("answer", ["", "the striped one", "banana", "\x00", "x" * 20_000])
-@pytest.mark.anyio
-async def test_an_answer_that_settles_nothing_leaves_the_question_open(answer):
-    dialogue = Dialogue(answers=(("Which one?", answer),))
-    found = await PLANNER.interpret("bring me the bottle", FLAT, dialogue)
-    assert (found.kind, found.candidates) == (Kind.CLARIFY, ("bottle_1", "bottle_2"))
-
-
-@pytest.fixture
-def anyio_backend():
-    return "asyncio"

@@ -16,11 +16,11 @@ from planner.skill_planner.verifier import Verifier
 from planner.task_planner.task_planner import TaskPlanner
 from planner.tasks.approval import Approval
 from planner.tasks.tasks import TaskStatus
+from rehearsed_mission import Show
 from scene_graph.edits import PutNode
 from scene_graph.memory import WorkingMemory
 from scene_graph.nodes import DoorNode, DoorState
 from skills.registry import load_registry
-from unit.planner.mission.test_mission import Show
 
 TO_THE_OFFICE = "go to the office"
 DOORS = ("door_1_0_0", "door_2_0_0")

@@ -8,7 +8,7 @@ from planner.mission.mission import LOST
 from planner.mission.settings import MissionSettings
 from planner.tasks.approval import Approval
 from planner.tasks.tasks import TaskStatus
-from unit.planner.mission.test_mission import BRING, Show
+from rehearsed_mission import BRING, Show
 
 
 def lost():

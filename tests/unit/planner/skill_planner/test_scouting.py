@@ -17,6 +17,7 @@ from planner.skill_planner.verifier import Verifier
 from planner.task_planner.task_planner import TaskPlanner
 from planner.tasks.approval import Approval
 from planner.tasks.tasks import TaskStatus
+from rehearsed_mission import BRING, ON_DESK, Show
 from scene_graph.edges import InEdge, RtEdge
 from scene_graph.edits import PutEdge, PutNode, RemoveNode
 from scene_graph.geometry.se3 import SE3
@@ -24,7 +25,6 @@ from scene_graph.memory import WorkingMemory
 from scene_graph.nodes import UNKNOWN_LABEL, PersonNode, RoomNode
 from scene_graph.snapshot import Snapshot
 from skills.registry import load_registry
-from unit.planner.mission.test_mission import BRING, ON_DESK, Show
 
 REFUSAL, MISTAKEN = "I know of no bottle.", "vase"
 

@@ -12,13 +12,13 @@ from planner.skill_planner.second_look import perhaps_cleared
 from planner.skill_planner.verifier import Verifier
 from planner.tasks.approval import Approval
 from planner.tasks.tasks import TaskStatus
+from rehearsed_mission import Show
 from scene_graph.edges import InEdge, RelationEdge, RtEdge
 from scene_graph.edits import PutEdge, PutNode
 from scene_graph.geometry.se3 import SE3
 from scene_graph.nodes import ObjectNode, ObjectState
 from skills.failures import FailureCode
 from skills.registry import load_registry
-from unit.planner.mission.test_mission import Show
 
 VERIFIER = Verifier(load_registry([]))
 CUP_ON_STOOL = goal("on", "cup_1", "stool_1")

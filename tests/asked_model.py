@@ -34,7 +34,7 @@ class Time:
 
 
 @asynccontextmanager
-async def asking(dialect, *lines, url=None, context_tokens=32_768, clock=None, retry=ExchangeSettings()):
+async def asking(dialect, *lines, url=None, context_tokens=32_768, clock=None, exchange=ExchangeSettings()):
     """The adapter and the server that it asks."""
     server, clock = ModelServer(*lines), clock or Time()
     async with (
@@ -50,7 +50,7 @@ async def asking(dialect, *lines, url=None, context_tokens=32_768, clock=None, r
                 http=http,
                 key="k3y",
                 context_tokens=context_tokens,
-                retry=retry,
+                exchange=exchange,
                 clock=clock,
                 sleep=clock.sleep,
             ),

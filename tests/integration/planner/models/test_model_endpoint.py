@@ -18,6 +18,7 @@ from planner.models.client import HttpModel
 from planner.models.spec import PROVIDERS
 from planner.plan import Dialogue, Kind, Plan, Source
 from planner.skill_planner.verifier import Verifier
+from planner.task_planner.settings import TaskPlannerSettings
 from planner.task_planner.task_planner import TaskPlanner
 from skills.registry import load_registry
 
@@ -51,7 +52,13 @@ async def planning(dialect, url, *, deadline_s=20.0, failures=3, context_tokens=
         )
         breaker = CircuitBreaker(model, place="the cellar", settings=BreakerSettings(failures=failures))
         entries = [] if journal is None else journal
-        yield TaskPlanner(CommandGrammar(), VERIFIER, breaker, deadline_s=deadline_s, journal=entries.append)
+        yield TaskPlanner(
+            CommandGrammar(),
+            VERIFIER,
+            breaker,
+            settings=TaskPlannerSettings(deadline_s=deadline_s),
+            journal=entries.append,
+        )
 
 
 async def interpret(dialect, *lines, **settings):

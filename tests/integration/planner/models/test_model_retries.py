@@ -92,8 +92,8 @@ async def test_one_deadline_ends_slow_bytes(dialect):
 
 
 async def test_no_attempt_begins_after_the_deadline(dialect):
-    clock, retry = Time(), ExchangeSettings(wait_s=12.0, longest_wait_s=60.0)
-    outcome, server = await ask(dialect, Line(status=500), deadline_s=30.0, clock=clock, retry=retry)
+    clock, patient = Time(), ExchangeSettings(wait_s=12.0, longest_wait_s=60.0)
+    outcome, server = await ask(dialect, Line(status=500), deadline_s=30.0, clock=clock, exchange=patient)
     assert_failed(outcome, FailureKind.SERVER_ERROR, attempts=2)
     assert (len(server.requests), clock.naps) == (2, [12.0])
 

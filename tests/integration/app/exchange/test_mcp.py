@@ -19,7 +19,7 @@ from app.server import bind, page_address, serving
 from app.stacks.graph import GraphStack
 from client import Service
 from planner.language.grammar.parser import CommandGrammar
-from planner.mission.request_handler import Intake
+from planner.mission.request_handler import RequestHandler
 from planner.skill_planner.verifier import Verifier
 from planner.task_planner.task_planner import TaskPlanner
 from planner.tasks.approval import Approval
@@ -43,7 +43,7 @@ class Ordered:
     def __init__(self, memory, queue):
         verifier = Verifier(load_registry())
         self.queue = queue
-        self.intake = Intake(memory, queue, TaskPlanner(CommandGrammar(), verifier, None), verifier)
+        self.intake = RequestHandler(memory, queue, TaskPlanner(CommandGrammar(), verifier, None), verifier)
 
     async def step(self, stamp_s):
         task = self.queue.current

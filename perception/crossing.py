@@ -1,15 +1,16 @@
-"""How agents tell each other through the graph that a door is being crossed into the unknown.
+"""How agents tell each other through the graph what nobody can explain yet: doors, rooms, where the robot is.
 
-Between "the robot went through" and "the room behind it stands", the door carries ``BEING_CROSSED`` as its crossing
+Between "the robot went through" and "the room behind it stands", a door carries ``BEING_CROSSED`` as its crossing
 reason. The room concept measures while it does; the door concept proposes nothing; long-term memory replaces it by the
-outcome.
+outcome. A robot that is lost is not ``localized``; a room that is believed no longer is temporary again, though it has
+an outline, and the room concept measures it anew.
 """
 
 from __future__ import annotations
 
 from dataclasses import replace
 
-from perception.localization.planar import Pose2, diagonal_covariance, spatial_covariance
+from perception.geometry.planar import Pose2, diagonal_covariance, spatial_covariance
 from scene_graph.edges import EdgeKey, EdgeType, InEdge, IntentionAction, IntentionStatus, RtEdge
 from scene_graph.memory import Transaction
 from scene_graph.nodes import ROBOT_ID, ROOT_ID, CrossingStatus, DoorNode, RoomNode, RoomStatus
@@ -146,3 +147,17 @@ def in_doubt(snapshot: Snapshot) -> bool:
     """Whether what is seen now should not be believed to be where the robot believes to be."""
     robot = snapshot.robot
     return robot is None or not robot.localized or robot.confidence < 1.0
+
+
+def taken_back(snapshot: Snapshot) -> RoomNode | None:
+    """The room that the robot is in, when it was taken back and waits to be measured again."""
+    edge = snapshot.parent(ROBOT_ID)
+    room = snapshot.get(edge.source) if edge is not None else None
+    if isinstance(room, RoomNode) and room.status is RoomStatus.TEMPORARY and room.polygon_m:
+        return room
+    return None
+
+
+def take_back(tx: Transaction, room_id: str) -> None:
+    """Believe a room's outline no longer; its walls stay in the graph until they are replaced."""
+    tx.put(replace(tx.snapshot.room(room_id), status=RoomStatus.TEMPORARY))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from evaluations.service.replay import CAMERA_HZ, LIDAR_HZ, CompactFrame, Recording
-from perception.localization.planar import Pose2
+from perception.geometry.planar import Pose2
 from perception.ports import Intrinsics, JointState, Odometry, RgbdFrame
 from scene_graph.geometry.se3 import SE3
 from scene_graph.memory import WorkingMemory

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from app.scheduler import Agent
 from perception.doors.door_concept import DoorConcept
+from perception.lidar.slice import OutlineSlicer
 from perception.localization.energy_optimizer import EnergyOptimizer
-from perception.localization.recovery import Relocalization
+from perception.localization.relocalization import Relocalization
 from perception.memory.long_term_memory import LongTermMemory
 from perception.rooms.room_concept import RoomConcept
-from perception.rooms.views.slice import OutlineSlicer
 from perception.sensing import SensorBuffer
 from scene_graph.memory import WorkingMemory
 

@@ -9,9 +9,9 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from perception.lidar.range_noise import calmed
 from perception.objects.seeing.projection import back_project
 from perception.ports import LidarScan
-from perception.range_noise import calmed
 from perception.sensing import SensorBuffer, ray_directions_base, scan_points_between
 from skills.ports import NO_FLOOR, FloorReturns
 

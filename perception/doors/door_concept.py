@@ -8,15 +8,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from perception.crossing import DOOR_AGENT, door_being_crossed, in_doubt, match_of
-from perception.doors.errands import DoorErrands
+from perception.doors.dual_measurement import better_dual
 from perception.doors.insertion import free_door_id, is_suspicion, put_provisional, put_suspected
-from perception.doors.room_watch import RoomWatch
+from perception.doors.intentions import DoorIntentions
+from perception.doors.maintenance import DoorMaintenance
+from perception.doors.room_evidence import RoomEvidence
 from perception.doors.scene import NARROWEST_DOOR_M, Scene
-from perception.doors.twins import better_twin
-from perception.doors.upkeep import DoorUpkeep
 from perception.lifecycle import LifeCycle, Verdict
-from perception.localization.landmarks import room_model
 from perception.localization.robot_pose import robot_pose_at
+from perception.localization.room_model import room_model
 from perception.sensing import SensorBuffer
 from scene_graph.identifiers import wall_id_of
 from scene_graph.memory import WorkingMemory
@@ -63,9 +63,9 @@ class DoorConcept:
         self._memory = memory
         self._buffer = buffer
         self._settings = settings or DoorSettings()
-        self._upkeep = DoorUpkeep(memory)
-        self._errands = DoorErrands(memory)
-        self._watches: dict[str, RoomWatch] = {}
+        self._maintenance = DoorMaintenance(memory)
+        self._intentions = DoorIntentions(memory)
+        self._evidence: dict[str, RoomEvidence] = {}
         self._settled: dict[str, tuple[object, ...]] = {}
         self._room_id: str | None = None
         self._scan_stamp_s = -np.inf
@@ -95,13 +95,13 @@ class DoorConcept:
         room = room_model(snapshot, pose.parent)
         if room is None or room.depth_m(pose.T_parent_base.position_m) < self._settings.clear_m:
             return None
-        watch = self._watches.get(room.room_id)
-        if watch is None or not np.array_equal(watch.polygon, room.polygon):
-            watch = self._watches[room.room_id] = RoomWatch(room.polygon)
+        evidence = self._evidence.get(room.room_id)
+        if evidence is None or not np.array_equal(evidence.polygon, room.polygon):
+            evidence = self._evidence[room.room_id] = RoomEvidence(room.polygon)
         localized = np.sqrt(np.trace(pose.covariance[:2, :2])) < self._settings.pose_std_m and not in_doubt(snapshot)
         if localized and scan.stamp_s > self._scan_stamp_s:
             self._scan_stamp_s = scan.stamp_s
-            watch.add(scan, pose.T_parent_base)
+            evidence.add(scan, pose.T_parent_base)
         return room.room_id
 
     def _scene(self) -> Scene | None:
@@ -111,10 +111,10 @@ class DoorConcept:
     def _scene_of(self, room_id: str) -> Scene | None:
         """A room that was watched, with the graph as it is now."""
         snapshot = self._memory.snapshot()
-        room, watch = room_model(snapshot, room_id), self._watches.get(room_id)
-        if room is None or watch is None:
+        room, evidence = room_model(snapshot, room_id), self._evidence.get(room_id)
+        if room is None or evidence is None:
             return None
-        return Scene(snapshot=snapshot, room=room, watch=watch, stamp_s=self._stamp_s)
+        return Scene(snapshot=snapshot, room=room, evidence=evidence, stamp_s=self._stamp_s)
 
     # The four stages of the life cycle.
 
@@ -123,7 +123,7 @@ class DoorConcept:
         if self._stamp_s < self._detected_s + self._settings.detect_every_s - 1e-6:
             return Verdict.DONE
         self._detected_s = self._stamp_s
-        for room_id in self._watches:
+        for room_id in self._evidence:
             self._suspect(room_id)
         scene = self._scene()
         return Verdict.NO if scene is not None and scene.unexplained() else Verdict.DONE
@@ -133,10 +133,10 @@ class DoorConcept:
 
         A room that was left is asked for too: what the robot could not see from its way stays to be seen.
         """
-        watch = self._watches[room_id]
+        evidence = self._evidence[room_id]
         doors = tuple(door.id for door in self._memory.snapshot().of_type(DoorNode) if door.rooms[0] == room_id)
-        told = (watch.scans, len(watch.checked), doors)
-        if watch.scans < self._settings.settled_scans or self._settled.get(room_id) == told:
+        told = (evidence.scans, len(evidence.checked), doors)
+        if evidence.scans < self._settings.settled_scans or self._settled.get(room_id) == told:
             return
         scene = self._scene_of(room_id)
         if scene is None or any(is_suspicion(door) for door, _, _ in scene.doors()):
@@ -157,7 +157,7 @@ class DoorConcept:
         if scene is None:
             return Verdict.NO
         for wall, gap in scene.unexplained():
-            measured = scene.watch.measure(wall, gap)
+            measured = scene.evidence.measure(wall, gap)
             key = (scene.room.room_id, wall, round(gap.center_m / 0.3))
             seen_s = self._stamp_s - self._first_seen_s.setdefault(key, self._stamp_s)
             if measured.width_m < self._settings.narrowest_m or (measured.posts < 2 and seen_s < self._settings.seen_s):
@@ -174,16 +174,16 @@ class DoorConcept:
         """Refine doors that are not measured well yet, here and behind known ones, and watch whether they are open."""
         scene = self._scene()
         if scene is not None:
-            self._upkeep.run(scene)
-            for room_id in sorted(_behind(scene) & self._watches.keys()):
+            self._maintenance.run(scene)
+            for room_id in sorted(_behind(scene) & self._evidence.keys()):
                 left = self._scene_of(room_id)
                 if left is not None:
-                    self._upkeep.learn(left)
+                    self._maintenance.learn(left)
         return Verdict.DONE
 
     def _affordances(self) -> Verdict:
         """Follow the own intentions to their end."""
-        self._errands.run(self._memory.snapshot(), self._scene_of, self._stamp_s)
+        self._intentions.run(self._memory.snapshot(), self._scene_of, self._stamp_s)
         return Verdict.DONE
 
 
@@ -194,5 +194,5 @@ def _behind(scene: Scene) -> set[str]:
         other_id = match_of(scene.snapshot, door.id)
         if other_id is not None and other_id in scene.snapshot:
             other = scene.snapshot.door(other_id)
-            rooms |= {other.rooms[0]} if better_twin(scene.snapshot, other) is not None else set()
+            rooms |= {other.rooms[0]} if better_dual(scene.snapshot, other) is not None else set()
     return rooms

@@ -7,9 +7,9 @@ from dataclasses import replace
 import numpy as np
 
 from perception.crossing import CLOSED_REASON, DOOR_AGENT, cross_affordance, given_up
-from perception.doors.evidence import Gap
 from perception.doors.posts import MeasuredGap
-from perception.localization.planar import diagonal_covariance, spatial_covariance
+from perception.doors.wall_evidence import Gap
+from perception.geometry.planar import diagonal_covariance, spatial_covariance
 from scene_graph.edges import ConnectsEdge, HasEdge, HasIntentionEdge, IntentionAction, Priority, RtEdge
 from scene_graph.geometry.se3 import SE3
 from scene_graph.identifiers import room_number, wall_id_of

@@ -12,8 +12,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from perception.doors.evidence import Gap, WallEvidence
-from perception.doors.wall_rays import WallRays
+from perception.doors.wall_evidence import Gap, WallEvidence
+from perception.lidar.wall_rays import WallRays
 
 Array = NDArray[np.float64]
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from perception.doors.evidence import Gap
-from perception.doors.hanging import doors_in
-from perception.doors.room_watch import RoomWatch, Span
-from perception.localization.landmarks import RoomModel
+from perception.doors.room_evidence import RoomEvidence, Span
+from perception.doors.wall_evidence import Gap
+from perception.localization.doorways import doors_in
+from perception.localization.room_model import RoomModel
 from scene_graph.identifiers import wall_id_of
 from scene_graph.nodes import DoorNode
 from scene_graph.snapshot import Snapshot
@@ -22,11 +22,11 @@ class Scene:
 
     snapshot: Snapshot
     room: RoomModel
-    watch: RoomWatch
+    evidence: RoomEvidence
     stamp_s: float
 
     def wall_length_m(self, wall: int) -> float:
-        return float(self.watch.walls.length_m[wall])
+        return float(self.evidence.walls.length_m[wall])
 
     def wall_exists(self, wall: int) -> bool:
         """Whether the wall is in the graph: of a partial room, unseen walls are not."""
@@ -49,7 +49,7 @@ class Scene:
             (wall, gap)
             for wall in range(len(self.room.polygon))
             if self.wall_exists(wall)
-            for gap in (*self.watch.gaps(wall), *self.watch.recesses(wall))
+            for gap in (*self.evidence.gaps(wall), *self.evidence.recesses(wall))
             if not any(other == wall and span.overlaps(gap) for _, other, span in known)
         ]
 
@@ -60,5 +60,5 @@ class Scene:
             (wall, stretch)
             for wall in range(len(self.room.polygon))
             if self.wall_exists(wall)
-            for stretch in self.watch.unseen(wall, [span for _, other, span in known if other == wall])
+            for stretch in self.evidence.unseen(wall, [span for _, other, span in known if other == wall])
         ]

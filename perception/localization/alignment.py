@@ -6,58 +6,15 @@ information that the scan gives about the pose, so that a corridor without visib
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from perception.localization.planar import Pose2, wrap
+from perception.geometry.planar import Pose2, wrap
+from perception.geometry.walls import Walls
 
 Array = NDArray[np.float64]
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Walls:
-    """Wall faces as line segments.
-
-    ``normal`` (N, 2) into the room, ``offset_m`` (N,), ``start`` (N, 2), ``along`` (N, 2) unit direction, ``length_m``
-    (N,).
-    """
-
-    normal: Array
-    offset_m: Array
-    start: Array
-    along: Array
-    length_m: Array
-
-    @classmethod
-    def of_polygon(cls, polygon: Array, kept: NDArray[np.bool_] | None = None) -> Walls:
-        """The walls of a counter-clockwise polygon, or the ``kept`` (N,) ones of them."""
-        edges = np.roll(polygon, -1, axis=0) - polygon
-        length = np.linalg.norm(edges, axis=1)
-        along = edges / length[:, None]
-        normal = np.stack([-along[:, 1], along[:, 0]], axis=1)
-        offset = (normal * polygon).sum(axis=1)
-        chosen = slice(None) if kept is None else kept
-        return cls(
-            normal=normal[chosen],
-            offset_m=offset[chosen],
-            start=polygon[chosen],
-            along=along[chosen],
-            length_m=length[chosen],
-        )
-
-    def facing(self, point: Array, least_m: float) -> Walls:
-        """The walls whose inner side the point is on, by at least ``least_m``."""
-        kept = self.normal @ point - self.offset_m > least_m
-        return Walls(
-            normal=self.normal[kept],
-            offset_m=self.offset_m[kept],
-            start=self.start[kept],
-            along=self.along[kept],
-            length_m=self.length_m[kept],
-        )
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -152,11 +109,3 @@ def log_between(origin: Pose2, pose: Pose2) -> Array:
     """(3,) small motion (x, y, yaw) from ``origin`` to ``pose`` in the frame of ``origin``."""
     difference = origin.inverse() @ pose
     return np.array([difference.x_m, difference.y_m, wrap(difference.yaw_rad)])
-
-
-def odometry_covariance(moved: Pose2) -> Array:
-    """(3, 3) covariance of a dead-reckoned motion: two percent of the way and of the turn, plus a floor."""
-    way_m = math.hypot(moved.x_m, moved.y_m)
-    along = 0.02 * way_m + 5e-4
-    turn = 0.02 * abs(moved.yaw_rad) + 0.01 * way_m + 2e-4
-    return np.diag([along**2, along**2, turn**2])

@@ -8,7 +8,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial import cKDTree
 
-from perception.localization.relocalization import Sight
+from perception.localization.global_localization import Sight
 
 _NEAR_M = 0.15
 _FEWEST_RETURNS = 60

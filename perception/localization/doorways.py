@@ -12,14 +12,13 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from perception.doors.hanging import doors_in
-from perception.doors.wall_rays import WallRays, rays_by_wall
-from perception.localization.alignment import Walls
-from perception.localization.landmarks import RoomModel
-from perception.localization.planar import Pose2
+from perception.geometry.planar import Pose2
+from perception.geometry.walls import Walls
+from perception.lidar.wall_rays import WallRays, rays_by_wall
+from perception.localization.room_model import RoomModel
 from perception.ports import LidarScan
 from scene_graph.identifiers import wall_id_of
-from scene_graph.nodes import DoorState
+from scene_graph.nodes import DoorNode, DoorState
 from scene_graph.snapshot import Snapshot
 
 Array = NDArray[np.float64]
@@ -71,6 +70,18 @@ class DoorwayFit:
     open: int
     shut: int
     strange: int
+
+
+def doors_in(snapshot: Snapshot, wall_id: str) -> list[tuple[DoorNode, float]]:
+    """The doors of a wall, provisional ones included, each with the station of its center from the wall's middle in
+    meters; none when the wall is not in the graph.
+    """
+    found: list[tuple[DoorNode, float]] = []
+    for child in snapshot.children(wall_id) if wall_id in snapshot else ():
+        door, edge = snapshot.get(child), snapshot.parent(child)
+        if isinstance(door, DoorNode) and edge is not None:
+            found.append((door, float(edge.T_source_target.x_m)))
+    return found
 
 
 def doorway_model(snapshot: Snapshot, room: RoomModel) -> DoorwayModel:

@@ -11,13 +11,15 @@ import logging
 import numpy as np
 from numpy.typing import NDArray
 
-from perception.localization.alignment import Alignment, AlignmentSettings, align, log_between, odometry_covariance
-from perception.localization.landmarks import RoomModel, match_corners, room_model
-from perception.localization.planar import Pose2, planar_covariance, spatial_covariance
-from perception.localization.window import LandmarkSighting, PoseWindow
+from perception.geometry.planar import Pose2, planar_covariance, spatial_covariance
+from perception.lidar.corners import confirm_lines, corners_of
+from perception.lidar.slice import OutlineSlicer
+from perception.localization.alignment import Alignment, AlignmentSettings, align, log_between
+from perception.localization.landmarks import match_corners
+from perception.localization.motion_model import odometry_covariance
+from perception.localization.pose_window import LandmarkSighting, PoseWindow
+from perception.localization.room_model import RoomModel, room_model
 from perception.ports import LidarScan
-from perception.rooms.views.corners import confirm_lines, corners_of
-from perception.rooms.views.slice import OutlineSlicer
 from perception.sensing import SensorBuffer
 from scene_graph.edges import RtEdge
 from scene_graph.errors import TransactionRejected

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from perception.localization.doorways import DoorwayFit
-from perception.localization.expectation import ScanFit
+from perception.localization.measurement_model import ScanFit
 
 
 @dataclass(frozen=True, kw_only=True)

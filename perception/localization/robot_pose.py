@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from perception.localization.planar import Pose2, planar_covariance
+from perception.geometry.planar import Pose2, planar_covariance
 from perception.sensing import SensorBuffer
 from scene_graph.nodes import ROBOT_ID
 from scene_graph.snapshot import Snapshot

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 from perception.crossing import in_doubt, nothing_left
-from perception.localization.landmarks import room_model
-from perception.localization.planar import Pose2
+from perception.geometry.planar import Pose2
+from perception.localization.room_model import room_model
 from scene_graph.edges import HasIntentionEdge, IntentionAction, Priority
 from scene_graph.memory import WorkingMemory
 from scene_graph.nodes import ROBOT_ID

@@ -9,9 +9,9 @@ import numpy as np
 from perception.crossing import cross_affordance, match_key
 from perception.doors.insertion import door_label, free_door_id, hang
 from perception.doors.posts import MeasuredGap
-from perception.localization.landmarks import RoomModel
-from perception.localization.planar import Pose2
-from perception.memory.dual import SeenFrom
+from perception.geometry.planar import Pose2
+from perception.localization.room_model import RoomModel
+from perception.memory.dual_doors import SeenFrom
 from perception.rooms.survey.instance import wall_elements
 from scene_graph.edges import ConnectsEdge, EdgeType, HasEdge, MatchEdge
 from scene_graph.identifiers import wall_id_of

@@ -4,11 +4,11 @@ of them working memory holds.
 
 from __future__ import annotations
 
+from perception.lidar.slice import OutlineSlicer
 from perception.memory.exploration import ExplorationJudge
-from perception.memory.mapping import LAYOUT_AGENT, RoomLayout
-from perception.memory.transit import Transit
+from perception.memory.room_layout import LAYOUT_AGENT, RoomLayout
+from perception.memory.room_transition import RoomTransition
 from perception.memory.working_set import WorkingSet, WorkingSetSettings
-from perception.rooms.views.slice import OutlineSlicer
 from perception.sensing import SensorBuffer
 from scene_graph.memory import WorkingMemory
 
@@ -32,13 +32,13 @@ class LongTermMemory:
     ) -> None:
         self.period_s = period_s
         self._layout = RoomLayout(memory)
-        self._transit = Transit(self.name, memory, buffer, slicer=slicer)
+        self._transition = RoomTransition(self.name, memory, buffer, slicer=slicer)
         self._working_set = WorkingSet(self.name, memory, settings)
         self._judge = ExplorationJudge(memory)
 
     async def step(self, stamp_s: float) -> None:
         """Follow the robot through doors, keep the layout, page rooms, and say when nothing is left to explore."""
-        self._transit.run(stamp_s)
+        self._transition.run(stamp_s)
         self._layout.update(stamp_s)
         self._working_set.update(stamp_s)
         self._judge.update(self.name, stamp_s)

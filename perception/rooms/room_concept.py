@@ -10,20 +10,30 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from perception.crossing import OUTDOORS, door_being_crossed, given_up, in_doubt, is_lost, move_robot, uncrossed
+from perception.crossing import (
+    OUTDOORS,
+    door_being_crossed,
+    given_up,
+    in_doubt,
+    is_lost,
+    move_robot,
+    take_back,
+    taken_back,
+    uncrossed,
+)
+from perception.geometry.planar import Pose2
+from perception.lidar.range_noise import calmed
+from perception.lidar.slice import OutlineScan, OutlineSlicer
 from perception.lifecycle import LifeCycle, Verdict
-from perception.localization.landmarks import RoomModel, room_model
-from perception.localization.planar import Pose2
 from perception.localization.robot_pose import RobotPose, robot_pose_at
-from perception.range_noise import calmed
-from perception.rooms.insertion import insert_room, propose_visit, withdraw
+from perception.localization.room_model import RoomModel, room_model
+from perception.rooms.maintenance.adjustment import LocalAdjustment
+from perception.rooms.maintenance.outline_fitness import OutlineFitness, Stretch
+from perception.rooms.maintenance.revision import let_stand, missing_walls, revise_room, same_place
+from perception.rooms.maintenance.shifted_walls import shift_walls, wall_stds
+from perception.rooms.survey.insertion import insert_room, propose_visit, withdraw
 from perception.rooms.survey.instance import MeasuredRoom
 from perception.rooms.survey.survey import Survey, SurveySettings
-from perception.rooms.upkeep.adjustment import LocalAdjustment
-from perception.rooms.upkeep.outline_fitness import OutlineFitness, Stretch
-from perception.rooms.upkeep.revision import let_stand, missing_walls, revise_room, same_place, take_back, taken_back
-from perception.rooms.upkeep.shifted_walls import shift_walls, wall_stds
-from perception.rooms.views.slice import OutlineScan, OutlineSlicer
 from perception.sensing import SensorBuffer, scan_points_between
 from scene_graph.edges import HasIntentionEdge, IntentionStatus
 from scene_graph.identifiers import next_id

@@ -16,12 +16,12 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from perception.localization.planar import Pose2
+from perception.geometry.planar import Pose2
+from perception.geometry.runs import runs
 from perception.rooms.outline.portals import Portal, find_portals
 from perception.rooms.views.facets import Facets
 from perception.rooms.views.line_profile import STATION_STEP_M, LineProfile, end_of_wall
-from perception.rooms.views.views import View
-from perception.runs import runs
+from perception.rooms.views.view import View
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]

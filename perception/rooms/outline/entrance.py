@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from perception.localization.landmarks import points_inside
+from perception.geometry.polygon import points_inside
 from perception.rooms.outline.portals import Portal
 
 Array = NDArray[np.float64]

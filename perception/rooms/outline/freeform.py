@@ -12,10 +12,10 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from perception.rooms.outline.outline import Outline, wall_lengths
-from perception.rooms.outline.tracing import signed_area
-from perception.rooms.views.corners import fit_line
-from perception.rooms.views.views import View, dominant_direction
+from perception.geometry.polygon import signed_area, wall_lengths
+from perception.lidar.corners import fit_line
+from perception.rooms.outline.outline import Outline
+from perception.rooms.views.view import View, dominant_direction
 
 Array = NDArray[np.float64]
 

@@ -8,14 +8,15 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from perception.localization.planar import Pose2
+from perception.geometry.planar import Pose2
+from perception.geometry.polygon import inward_normal, wall_lengths
 from perception.rooms.outline.arrangement import ArrangementSettings, arrange
 from perception.rooms.outline.entrance import entrance
 from perception.rooms.outline.portals import Portal
 from perception.rooms.outline.tracing import trace
 from perception.rooms.views.facets import Facets, longest_gap, sort_by_axis
 from perception.rooms.views.line_profile import STATION_STEP_M
-from perception.rooms.views.views import View, dominant_direction
+from perception.rooms.views.view import View, dominant_direction
 
 Array = NDArray[np.float64]
 
@@ -62,17 +63,6 @@ class Outline:
         starts, ends = self.polygon, np.roll(self.polygon, -1, axis=0)
         order = [int(k) for k in np.argsort(-self.gap_m, kind="stable") if self.gap_m[k] >= _HARMLESS_GAP_M]
         return [(self.gap_center[k], inward_normal(starts[k], ends[k])) for k in order]
-
-
-def wall_lengths(polygon: Array) -> Array:
-    """(N,) length of each wall."""
-    return np.asarray(np.linalg.norm(np.roll(polygon, -1, axis=0) - polygon, axis=1))
-
-
-def inward_normal(start: Array, end: Array) -> Array:
-    """Unit normal to the left of the way from ``start`` to ``end``: into a counter-clockwise polygon."""
-    along = (end - start) / np.linalg.norm(end - start)
-    return np.array([-along[1], along[0]])
 
 
 def find_outline(views: Sequence[View], settings: ArrangementSettings | None = None) -> Outline | None:

@@ -13,10 +13,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from perception.geometry.runs import runs
 from perception.rooms.views.facets import Facets
 from perception.rooms.views.line_profile import END_M, STATION_STEP_M, LineProfile, end_of_wall
-from perception.rooms.views.views import View
-from perception.runs import runs
+from perception.rooms.views.view import View
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from perception.geometry.polygon import signed_area
 from perception.rooms.outline.arrangement import Arrangement
 
 Array = NDArray[np.float64]
@@ -60,9 +61,3 @@ def _without_straight(loop: list[tuple[int, int]]) -> list[tuple[int, int]]:
         if (here[0] - before[0]) * (after[1] - here[1]) != (here[1] - before[1]) * (after[0] - here[0]):
             kept.append(here)
     return kept
-
-
-def signed_area(polygon: Array) -> float:
-    """Area in square meters, positive when counter-clockwise."""
-    x, y = polygon[:, 0], polygon[:, 1]
-    return float(0.5 * (x * np.roll(y, -1) - np.roll(x, -1) * y).sum())

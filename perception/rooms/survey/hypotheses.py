@@ -11,9 +11,11 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from perception.localization.alignment import Walls, align, odometry_covariance
+from perception.geometry.walls import Walls
+from perception.localization.alignment import align
+from perception.localization.motion_model import odometry_covariance
 from perception.rooms.survey.measurement import Fit
-from perception.rooms.views.views import View
+from perception.rooms.views.view import View
 
 _SLACK = np.diag([0.03, 0.03, 0.02]) ** 2
 

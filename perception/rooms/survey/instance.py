@@ -9,9 +9,10 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from perception.localization.alignment import odometry_covariance
-from perception.localization.planar import Pose2, spatial_covariance
-from perception.rooms.outline.outline import Outline, wall_lengths
+from perception.geometry.planar import Pose2, spatial_covariance
+from perception.geometry.polygon import wall_lengths
+from perception.localization.motion_model import odometry_covariance
+from perception.rooms.outline.outline import Outline
 from perception.rooms.survey.measurement import Fit
 from scene_graph.edges import RtEdge
 from scene_graph.geometry.se3 import SE3

@@ -8,13 +8,15 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from perception.localization.alignment import Alignment, AlignmentSettings, Walls, align, odometry_covariance
-from perception.localization.planar import Pose2, diagonal_covariance, wrap
+from perception.geometry.planar import Pose2, diagonal_covariance, wrap
+from perception.geometry.walls import Walls
+from perception.lidar.slice import OutlineScan
+from perception.localization.alignment import Alignment, AlignmentSettings, align
+from perception.localization.motion_model import odometry_covariance
 from perception.rooms.outline.freeform import freeform_outline
 from perception.rooms.outline.outline import RECTILINEAR, Outline, find_outline
 from perception.rooms.survey.pose_graph import VotedCorner, optimize
-from perception.rooms.views.slice import OutlineScan
-from perception.rooms.views.views import View
+from perception.rooms.views.view import View
 
 Array = NDArray[np.float64]
 

@@ -10,9 +10,9 @@ import numpy as np
 from gtsam.symbol_shorthand import L, X
 from numpy.typing import NDArray
 
-from perception.localization.alignment import odometry_covariance
-from perception.localization.planar import Pose2
-from perception.rooms.views.views import View
+from perception.geometry.planar import Pose2
+from perception.localization.motion_model import odometry_covariance
+from perception.rooms.views.view import View
 
 Array = NDArray[np.float64]
 

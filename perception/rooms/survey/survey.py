@@ -7,14 +7,15 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from perception.localization.landmarks import RoomModel, inside, shared_area
-from perception.localization.planar import Pose2
+from perception.geometry.planar import Pose2
+from perception.geometry.polygon import inside, shared_area
+from perception.lidar.slice import OutlineScan
 from perception.localization.robot_pose import RobotPose
+from perception.localization.room_model import RoomModel
 from perception.rooms.survey.hypotheses import OutlineHypotheses
 from perception.rooms.survey.instance import MeasuredRoom, measured_room
 from perception.rooms.survey.measurement import Fit, RoomMeasurement
 from perception.rooms.survey.vantage import freest_way, next_vantage
-from perception.rooms.views.slice import OutlineScan
 
 Array = NDArray[np.float64]
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scipy.ndimage import label
 from scipy.spatial import cKDTree
 
-from perception.localization.landmarks import distance_to_outline, inside, points_inside
+from perception.geometry.polygon import distance_to_outline, inside, points_inside
 from perception.rooms.outline.outline import Outline
 
 Array = NDArray[np.float64]

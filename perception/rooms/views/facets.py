@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from perception.localization.planar import Pose2
-from perception.rooms.views.views import View
-from perception.runs import runs
+from perception.geometry.planar import Pose2
+from perception.geometry.runs import runs
+from perception.rooms.views.view import View
 
 Array = NDArray[np.float64]
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from perception.rooms.views.facets import Facets
-from perception.rooms.views.views import View
+from perception.rooms.views.view import View
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]

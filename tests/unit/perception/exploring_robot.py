@@ -12,7 +12,7 @@ from typing import Protocol
 import numpy as np
 
 from perception.errors import SensorSilent
-from perception.localization.planar import Pose2, wrap
+from perception.geometry.planar import Pose2, wrap
 from perception.ports import JointState, LidarScan, Odometry, RgbdFrame
 from perception.sensing import Sensing, SensorBuffer
 from scene_graph.edges import HasIntentionEdge, IntentionAction, IntentionStatus

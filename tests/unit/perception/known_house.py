@@ -7,9 +7,9 @@ import numpy as np
 from perception.crossing import move_robot
 from perception.doors.insertion import hang, wall_id_of
 from perception.doors.posts import MeasuredGap
-from perception.localization.alignment import Walls
-from perception.localization.planar import Pose2
-from perception.memory.dual import root_pose
+from perception.geometry.planar import Pose2
+from perception.geometry.walls import Walls
+from perception.memory.dual_doors import root_pose
 from perception.memory.joining import join
 from scene_graph.edges import RtEdge
 from scene_graph.geometry.se3 import SE3

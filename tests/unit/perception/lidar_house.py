@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from perception.localization.planar import Pose2
+from perception.geometry.planar import Pose2
 from perception.ports import LidarScan
 from scene_graph.geometry.se3 import SE3
 

@@ -7,13 +7,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from perception.geometry.planar import Pose2, diagonal_covariance, wrap
+from perception.geometry.walls import Walls
 from perception.lifecycle import LifeCycle, Verdict
-from perception.localization.alignment import Walls
-from perception.localization.landmarks import RoomModel
-from perception.localization.planar import Pose2, diagonal_covariance, wrap
-from perception.memory.dual import back_to_back, place_in, same_door
-from perception.memory.layout import Passage, PlacedRoom, lay_out
-from perception.memory.recognition import overlap
+from perception.localization.room_model import RoomModel
+from perception.memory.dual_doors import back_to_back, place_in, same_door
+from perception.memory.layout_optimization import Passage, PlacedRoom, lay_out
+from perception.memory.loop_closure import overlap
 from unit.perception.lidar_house import rectangle
 
 angles = st.floats(-3.1, 3.1)

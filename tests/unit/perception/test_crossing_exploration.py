@@ -9,8 +9,8 @@ import pytest
 
 from perception.crossing import DOOR_AGENT, OUTDOORS, given_up
 from perception.doors.door_concept import DoorConcept
+from perception.geometry.planar import Pose2
 from perception.localization.energy_optimizer import EnergyOptimizer
-from perception.localization.planar import Pose2
 from perception.memory.long_term_memory import LongTermMemory
 from perception.rooms.room_concept import RoomConcept
 from perception.sensing import SensorBuffer

@@ -9,9 +9,9 @@ import pytest
 
 from perception.crossing import door_being_crossed, is_lost, lose_robot
 from perception.doors.door_concept import DoorConcept
+from perception.geometry.planar import Pose2
 from perception.localization.energy_optimizer import EnergyOptimizer
-from perception.localization.planar import Pose2
-from perception.localization.recovery import Relocalization
+from perception.localization.relocalization import Relocalization
 from perception.memory.long_term_memory import LongTermMemory
 from perception.rooms.room_concept import RoomConcept
 from perception.sensing import SensorBuffer
@@ -20,7 +20,7 @@ from scene_graph.nodes import ROBOT_ID, DoorNode, RoomNode, RoomStatus
 from unit.perception.exploring_robot import Agent, Exploration
 from unit.perception.known_house import frame_of, known_house, put_robot, room_ids
 from unit.perception.lidar_house import Box, Door, House, rectangle
-from unit.perception.localization.test_relocalization import offices
+from unit.perception.localization.test_global_localization import offices
 from unit.perception.test_crossing_exploration import assert_aims_met, four_rooms
 
 

@@ -15,7 +15,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from perception.errors import OdometryUnavailable, SensorSilent
-from perception.localization.planar import Pose2
+from perception.geometry.planar import Pose2
 from perception.ports import Intrinsics, JointState, Odometry, RgbdFrame
 from perception.sensing import Filming, Sensing, SensorBuffer, scan_points_base
 from scene_graph.geometry.se3 import SE3

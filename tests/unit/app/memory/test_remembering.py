@@ -6,7 +6,7 @@ import pytest
 
 from app.memory.building import Remembering, building_folder
 from perception.crossing import find_robot
-from perception.localization.planar import Pose2
+from perception.geometry.planar import Pose2
 from planner.mission.teaching import teach
 from scene_graph.edges import RtEdge
 from scene_graph.geometry.se3 import SE3

@@ -24,7 +24,7 @@ from app.recording.recorder import Recorder
 from app.recording.tape import WAITING_MOMENTS, Tape, free_path
 from app.recording.topics import SCHEMAS
 from app.settings import Settings
-from perception.localization.planar import Pose2
+from perception.geometry.planar import Pose2
 from perception.ports import Intrinsics, Odometry
 from perception.sensing import SensorBuffer
 from recorded_drive import ROOM, frame, joints

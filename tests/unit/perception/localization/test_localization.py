@@ -11,12 +11,15 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from perception.localization.alignment import Walls, align, log_between, odometry_covariance
+from perception.geometry.planar import Pose2, diagonal_covariance, planar_covariance, spatial_covariance, wrap
+from perception.geometry.polygon import distance_to_outline, inside
+from perception.geometry.walls import Walls
+from perception.lidar.corners import corners_of, detect_lines
+from perception.lidar.slice import OutlineSlicer
+from perception.localization.alignment import align, log_between
 from perception.localization.energy_optimizer import EnergyOptimizer
-from perception.localization.landmarks import distance_to_outline, inside, match_corners
-from perception.localization.planar import Pose2, diagonal_covariance, planar_covariance, spatial_covariance, wrap
-from perception.rooms.views.corners import corners_of, detect_lines
-from perception.rooms.views.slice import OutlineSlicer
+from perception.localization.landmarks import match_corners
+from perception.localization.motion_model import odometry_covariance
 from perception.sensing import Sensing, SensorBuffer
 from scene_graph.edges import EdgeKey, EdgeType, InEdge, RtEdge
 from scene_graph.geometry.se3 import SE3

@@ -10,9 +10,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from perception.localization.planar import Pose2, diagonal_covariance
-from perception.memory.dual import back_to_back
-from perception.memory.layout import Passage, PlacedRoom, Wall, door_error, lay_out
+from perception.geometry.planar import Pose2, diagonal_covariance
+from perception.memory.dual_doors import back_to_back
+from perception.memory.layout_optimization import Passage, PlacedRoom, Wall, door_error, lay_out
 
 HALF_M, THICKNESS_M = 2.0, 0.2
 EXACT = PlacedRoom(T_root_room=Pose2.identity(), covariance=diagonal_covariance(1e-3, 1e-3, 1e-3))

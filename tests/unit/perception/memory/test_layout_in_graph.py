@@ -11,11 +11,11 @@ import pytest
 from perception.crossing import move_robot
 from perception.doors.insertion import hang
 from perception.doors.posts import MeasuredGap
-from perception.localization.landmarks import room_model
-from perception.localization.planar import Pose2, diagonal_covariance, spatial_covariance
-from perception.memory.dual import place_in, root_pose
+from perception.geometry.planar import Pose2, diagonal_covariance, spatial_covariance
+from perception.localization.room_model import room_model
+from perception.memory.dual_doors import place_in, root_pose
 from perception.memory.joining import join, put_dual
-from perception.memory.mapping import RoomLayout
+from perception.memory.room_layout import RoomLayout
 from perception.rooms.survey.instance import MeasuredRoom, room_elements
 from scene_graph.documents.interchange import to_json
 from scene_graph.edges import EdgeType, RtEdge

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from perception.localization.planar import Pose2
+from perception.geometry.planar import Pose2
 from perception.memory.working_set import WorkingSet, WorkingSetSettings, neighbors
 from perception.sensing import Sensing, SensorBuffer
 from scene_graph.documents.interchange import to_json

@@ -8,17 +8,17 @@ import numpy as np
 import pytest
 
 from perception.crossing import match_of
-from perception.localization.alignment import Walls
+from perception.geometry.planar import Pose2, diagonal_covariance
+from perception.geometry.walls import Walls
+from perception.lidar.slice import OutlineSlicer
 from perception.localization.energy_optimizer import EnergyOptimizer
-from perception.localization.landmarks import RoomModel, room_model
-from perception.localization.planar import Pose2, diagonal_covariance
-from perception.localization.recovery import Relocalization
+from perception.localization.relocalization import Relocalization
 from perception.localization.robot_pose import RobotPose
-from perception.memory.mapping import RoomLayout
+from perception.localization.room_model import RoomModel, room_model
+from perception.memory.room_layout import RoomLayout
+from perception.rooms.maintenance.adjustment import AdjustmentSettings, LocalAdjustment, WallShifts
+from perception.rooms.maintenance.shifted_walls import shift_walls, shifted_outline, wall_stds
 from perception.rooms.room_concept import RoomConcept
-from perception.rooms.upkeep.adjustment import AdjustmentSettings, LocalAdjustment, WallShifts
-from perception.rooms.upkeep.shifted_walls import shift_walls, shifted_outline, wall_stds
-from perception.rooms.views.slice import OutlineSlicer
 from perception.sensing import SensorBuffer
 from scene_graph.memory import WorkingMemory
 from scene_graph.nodes import ROBOT_ID, ROOT_ID, DoorNode, RoomStatus

@@ -7,13 +7,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from perception.localization.planar import Pose2
+from perception.geometry.planar import Pose2
+from perception.lidar.slice import OutlineSlicer
 from perception.localization.robot_pose import RobotPose
 from perception.rooms.survey.hypotheses import OutlineHypotheses
 from perception.rooms.survey.measurement import Fit, RoomMeasurement
 from perception.rooms.survey.survey import Survey
-from perception.rooms.views.slice import OutlineSlicer
-from perception.rooms.views.views import View
+from perception.rooms.views.view import View
 from unit.perception.lidar_house import Array, House, cast, l_shape, rectangle
 
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from perception.localization.planar import Pose2
+from perception.geometry.planar import Pose2
+from perception.lidar.slice import OutlineSlicer
+from perception.rooms.maintenance.outline_fitness import OutlineFitness
+from perception.rooms.maintenance.revision import same_place
 from perception.rooms.survey.instance import MeasuredRoom
-from perception.rooms.upkeep.outline_fitness import OutlineFitness
-from perception.rooms.upkeep.revision import same_place
-from perception.rooms.views.slice import OutlineSlicer
 from scene_graph.memory import WorkingMemory
 from scene_graph.nodes import ROBOT_ID, ROOT_ID, DoorNode, RoomNode, RoomStatus, WallNode
 from unit.perception.exploring_robot import Exploration

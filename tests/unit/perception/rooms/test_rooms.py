@@ -9,7 +9,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from perception.localization.planar import Pose2
+from perception.geometry.planar import Pose2
+from perception.geometry.polygon import signed_area, wall_lengths
+from perception.lidar.slice import OutlineSlicer
 from perception.rooms.outline.entrance import entrance
 from perception.rooms.outline.outline import (
     ArrangementSettings,
@@ -19,14 +21,11 @@ from perception.rooms.outline.outline import (
     _MeasuredWall,
     _straightened,
     find_outline,
-    wall_lengths,
 )
-from perception.rooms.outline.tracing import signed_area
 from perception.rooms.survey.instance import MeasuredRoom, measured_room, room_elements
 from perception.rooms.survey.measurement import Fit, RoomMeasurement
 from perception.rooms.survey.vantage import next_vantage
-from perception.rooms.views.slice import OutlineSlicer
-from perception.rooms.views.views import View, dominant_direction
+from perception.rooms.views.view import View, dominant_direction
 from scene_graph.edges import RtEdge
 from scene_graph.nodes import RoomStatus, WallNode
 from unit.perception.lidar_house import Array, Door, House, cast, l_shape, rectangle, t_shape, turned, u_shape

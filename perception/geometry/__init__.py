@@ -1,0 +1,1 @@
+"""Geometry of the plane that the robot drives on: poses, walls, polygons."""

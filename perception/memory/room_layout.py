@@ -1,0 +1,176 @@
+"""Keeps ``rt`` root -> room for all rooms in step with what is known about the doors between them."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Mapping
+from dataclasses import replace
+from itertools import zip_longest
+
+import numpy as np
+
+from perception.geometry.planar import Pose2, diagonal_covariance, planar_covariance, spatial_covariance, wrap
+from perception.memory.dual_doors import back_to_back, root_pose
+from perception.memory.joining import WALKED_STD_M, walked_match
+from perception.memory.layout_optimization import Passage, PlacedRoom, lay_out
+from scene_graph.edges import EdgeKey, EdgeType, MatchEdge, RtEdge
+from scene_graph.identifiers import wall_id_of
+from scene_graph.memory import WorkingMemory
+from scene_graph.nodes import ROOT_ID, DoorNode
+from scene_graph.snapshot import Snapshot
+
+logger = logging.getLogger(__name__)
+
+LAYOUT_AGENT = "long_term_memory"
+_STATION_FLOOR_M = 0.003
+_WALL_FLOOR_M = 0.001
+_UNKNOWN_WALL_STD_M = 0.01
+_PARALLEL_STD_RAD = float(np.deg2rad(0.15))
+_NOT_PARALLEL_RAD = float(np.deg2rad(4.0))
+_WELL_MEASURED = 0.9
+_WORTH_WRITING_M = 5e-4
+_WORTH_WRITING_RAD = 1e-4
+
+
+class RoomLayout:
+    """Recomputes the layout when a door was joined or measured anew."""
+
+    def __init__(self, memory: WorkingMemory) -> None:
+        self._memory = memory
+        self._places: dict[EdgeKey, tuple[RtEdge | None, RtEdge | None]] = {}
+
+    def update(self, stamp_s: float) -> None:
+        """Lay all rooms out anew, unloaded ones too, when a passage has changed since it was last in working memory."""
+        if not self._changed(self._memory.snapshot()):
+            return
+        snapshot = self._memory.building()
+        self._keep_ways(snapshot, stamp_s)
+        passages = [_passage(snapshot, match) for match in _matches(snapshot)]
+        rooms = [child for child in snapshot.children(ROOT_ID) if child.startswith("room_")]
+        first = min(rooms, key=lambda room: (len(room), room))
+        anchor = snapshot.parent(first)
+        if anchor is None:
+            return
+        covariance = planar_covariance(anchor.covariance) + diagonal_covariance(1e-4, 1e-4, 1e-4)
+        placed = lay_out(
+            first,
+            PlacedRoom(T_root_room=root_pose(snapshot, first), covariance=covariance),
+            {room: root_pose(snapshot, room) for room in rooms},
+            passages,
+            {wall: _wall_std_m(snapshot, *wall) for passage in passages for wall in passage.walls() or ()},
+        )
+        self._write(snapshot, placed, stamp_s, anchor=first)
+
+    def _changed(self, snapshot: Snapshot) -> bool:
+        """Whether a door was joined or measured anew; rooms that come and go with their doors change nothing."""
+        places = {edge.key: (snapshot.parent(edge.source), snapshot.parent(edge.target)) for edge in _matches(snapshot)}
+        changed = any(self._places.get(key) != place for key, place in places.items())
+        self._places.update(places)
+        return changed
+
+    def _keep_ways(self, snapshot: Snapshot, stamp_s: float) -> None:
+        """Where nobody has told the way through a door, keep what the layout says now, or it would follow itself."""
+        with self._memory.edit(LAYOUT_AGENT, stamp_s) as tx:
+            for match in _matches(snapshot):
+                if match.walked is None:
+                    tx.put(walked_match(match, _way(snapshot, match), WALKED_STD_M))
+
+    def _write(self, snapshot: Snapshot, placed: Mapping[str, PlacedRoom], stamp_s: float, *, anchor: str) -> None:
+        """Say in the graph where rooms lie and how far their walls are shifted; of the anchor, only the latter."""
+        with self._memory.edit(LAYOUT_AGENT, stamp_s) as tx:
+            for room, place in placed.items():
+                before = snapshot.parent(room)
+                if before is None:
+                    continue
+                moved = replace(before, stamp_s=stamp_s, wall_shifts_m=_all_shifts(snapshot, room, place.wall_shifts_m))
+                if room != anchor:
+                    covariance = spatial_covariance(place.covariance)
+                    moved = replace(moved, T_source_target=place.T_root_room.to_se3(), covariance=covariance)
+                if _worth_writing(before, moved):
+                    tx.put(moved)
+
+
+def _passage(snapshot: Snapshot, match: MatchEdge) -> Passage:
+    """What the two sides of a door, and the way through it, say about its two rooms."""
+    door, other = snapshot.door(match.source), snapshot.door(match.target)
+    near, far = door.rooms[0], other.rooms[0]
+    T_near_door = Pose2.from_se3(snapshot.transform(near, door.id))
+    T_far_other = Pose2.from_se3(snapshot.transform(far, other.id))
+    walked, std_m = T_near_door.inverse() @ _way(snapshot, match) @ T_far_other, match.walked_std_m or WALKED_STD_M
+    if min(door.confidence, other.confidence) < _WELL_MEASURED or abs(wrap(walked.yaw_rad - np.pi)) > _NOT_PARALLEL_RAD:
+        between, covariance = walked, diagonal_covariance(std_m, std_m, 0.01)
+    else:
+        between = back_to_back(-walked.y_m)
+        along_m = float(np.hypot(_station_std_m(snapshot, door.id), _station_std_m(snapshot, other.id)))
+        covariance = diagonal_covariance(along_m, std_m, _PARALLEL_STD_RAD)
+    return Passage(
+        first=near,
+        second=far,
+        T_first_door=T_near_door,
+        T_second_other=T_far_other,
+        T_door_other=between,
+        covariance=covariance,
+        first_wall=_wall_of(snapshot, door.id),
+        second_wall=_wall_of(snapshot, other.id),
+    )
+
+
+def _way(snapshot: Snapshot, match: MatchEdge) -> Pose2:
+    """The far room in the near one as it was driven, or as the layout has it where nobody has told."""
+    if match.walked is not None:
+        return Pose2(*match.walked)
+    near, far = snapshot.door(match.source).rooms[0], snapshot.door(match.target).rooms[0]
+    return root_pose(snapshot, near).inverse() @ root_pose(snapshot, far)
+
+
+def _worth_writing(before: RtEdge, after: RtEdge) -> bool:
+    """Whether a room, or a wall of it, lies elsewhere than before by more than what does not matter."""
+    change = Pose2.from_se3(before.T_source_target.inverse() @ after.T_source_target)
+    way_m = float(np.hypot(change.x_m, change.y_m))
+    shift_m = max(_difference_m(before.wall_shifts_m, after.wall_shifts_m), default=0.0)
+    logger.debug("%s moves by %.1f mm in the layout, a wall by %.1f mm", after.target, 1e3 * way_m, 1e3 * shift_m)
+    return max(way_m, shift_m) >= _WORTH_WRITING_M or abs(change.yaw_rad) >= _WORTH_WRITING_RAD
+
+
+def _all_shifts(snapshot: Snapshot, room: str, shifts_m: Mapping[int, float]) -> tuple[float, ...]:
+    """One shift for every wall of a room; none at all where nothing that matters is shifted."""
+    if max(map(abs, shifts_m.values()), default=0.0) < _WORTH_WRITING_M:
+        return ()
+    return tuple(shifts_m.get(wall, 0.0) for wall in range(len(snapshot.room(room).polygon_m)))
+
+
+def _difference_m(before_m: tuple[float, ...], after_m: tuple[float, ...]) -> list[float]:
+    return [abs(before - after) for before, after in zip_longest(before_m, after_m, fillvalue=0.0)]
+
+
+def _wall_of(snapshot: Snapshot, door_id: str) -> int | None:
+    """Index of the wall that a door hangs from; ``None`` when it hangs from the room itself."""
+    edge, room = snapshot.parent(door_id), snapshot.door(door_id).rooms[0]
+    walls = [wall_id_of(room, wall) for wall in range(len(snapshot.room(room).polygon_m))]
+    return walls.index(edge.source) if edge is not None and edge.source in walls else None
+
+
+def _wall_std_m(snapshot: Snapshot, room: str, wall: int) -> float:
+    """How well a wall's offset was measured, by its ``rt`` edge; where that says nothing, as a wall in a room that is
+    not rectilinear, which is the least that the room concept vouches for.
+    """
+    edge = snapshot.parent(wall_id_of(room, wall))
+    std_m = float(np.sqrt(edge.covariance[1, 1])) if edge is not None else 0.0
+    return max(std_m, _WALL_FLOOR_M) if std_m > 0.0 else _UNKNOWN_WALL_STD_M
+
+
+def _station_std_m(snapshot: Snapshot, door_id: str) -> float:
+    """How well a door's station along its wall was measured, by its ``rt`` edge."""
+    edge = snapshot.parent(door_id)
+    std_m = float(np.sqrt(edge.covariance[0, 0])) if edge is not None else 0.0
+    return float(np.hypot(std_m, _STATION_FLOOR_M))
+
+
+def _matches(snapshot: Snapshot) -> list[MatchEdge]:
+    """All match edges, in the order of their doors."""
+    return [
+        edge
+        for door in snapshot.of_type(DoorNode)
+        for edge in snapshot.edges_from(door.id, EdgeType.MATCH)
+        if isinstance(edge, MatchEdge)
+    ]

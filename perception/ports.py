@@ -89,6 +89,14 @@ class JointState:
     T_base_gripper: SE3
 
 
+@dataclass(frozen=True, kw_only=True)
+class RobotShape:
+    """The robot's body as obstacles meet it: an upright cylinder about the center of rotation, in meters."""
+
+    footprint_radius_m: float = 0.28
+    height_m: float = 1.7
+
+
 class SensorPort(Protocol):
     """Newest measurement of each sensor; a call may wait for one, and raises ``SensorSilent`` when none comes."""
 

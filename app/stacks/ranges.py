@@ -15,8 +15,6 @@ from perception.ports import LidarScan
 from perception.sensing import SensorBuffer, ray_directions_base, scan_points_between
 from skills.ports import NO_FLOOR, FloorReturns
 
-USUAL_NOISE_M = 0.015
-"""Noise of the ranges up to which they are taken as they are; more would fill doorways and floors with obstacles."""
 FLOOR_REACH_M = 2.6
 """Rays that should meet the floor beyond this tell its height badly."""
 FLOOR_M = 0.06
@@ -39,7 +37,7 @@ class ScanRanges:
         """(N, 3) points between floor and the robot's height, base frame at the scan's stamp."""
         scan = self._buffer.scan
         if scan is not None and scan.stamp_s != self._stamp_s:
-            ranges_m = calmed(scan.ranges_m.astype(np.float64), USUAL_NOISE_M).astype(np.float32)
+            ranges_m = calmed(scan.ranges_m.astype(np.float64)).astype(np.float32)
             points = scan_points_between(replace(scan, ranges_m=ranges_m), FLOOR_M, self._robot_height_m)
             self._points = points[np.hypot(points[:, 0], points[:, 1]) < self._reach_m]
             self._stamp_s = scan.stamp_s

@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 import logging
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from perception.crossing import DOOR_AGENT, door_being_crossed, in_doubt, match_of
 from perception.doors.dual_measurement import better_dual
-from perception.doors.insertion import free_door_id, is_suspicion, put_provisional, put_suspected
-from perception.doors.intentions import DoorIntentions
-from perception.doors.maintenance import DoorMaintenance
-from perception.doors.room_evidence import RoomEvidence
-from perception.doors.scene import NARROWEST_DOOR_M, Scene
+from perception.doors.insertion import DoorNodeSettings, free_door_id, is_suspicion, put_provisional, put_suspected
+from perception.doors.intentions import DoorIntentions, IntentionSettings
+from perception.doors.maintenance import DoorMaintenance, DoorMaintenanceSettings
+from perception.doors.room_evidence import RoomEvidence, RoomEvidenceSettings
+from perception.doors.scene import Scene
 from perception.lifecycle import LifeCycle, Verdict
 from perception.localization.robot_pose import robot_pose_at
 from perception.localization.room_model import room_model
@@ -28,19 +28,24 @@ logger = logging.getLogger(__name__)
 
 @dataclass(frozen=True, kw_only=True)
 class DoorSettings:
-    """When a gap is taken for a door.
+    """When a gap is taken for a door, and what the parts of the agent are tuned to."""
 
-    ``narrowest_m``: least width (``D_min``). ``seen_s``: how long a gap without two posts must be seen to be proposed.
-    ``settled_scans``: how long a room is watched before its unseen walls are. ``clear_m``: how far from any wall the
-    robot must be for its scans to count, ``pose_std_m``: how well localized.
-    """
-
-    narrowest_m: float = NARROWEST_DOOR_M
     seen_s: float = 1.0
+    """How long a gap without two posts must be seen to be proposed. Chosen: ten scans."""
     clear_m: float = 0.2
+    """How far from any wall the robot must be for its scans to count. Chosen: in a doorway they are of two rooms."""
     detect_every_s: float = 0.5
+    """Between looks for gaps. Chosen: for speed."""
     settled_scans: int = 20
+    """How long a room is watched before its unseen walls are. Chosen: two seconds."""
     pose_std_m: float = 0.05
+    """How well localized the robot must be for its scans to count. Chosen: two parts of a wall's evidence."""
+    same_gap_m: float = 0.3
+    """Gaps whose middles are in one cell of this length are one. Chosen: less than a door."""
+    evidence: RoomEvidenceSettings = field(default_factory=RoomEvidenceSettings)
+    nodes: DoorNodeSettings = field(default_factory=DoorNodeSettings)
+    intentions: IntentionSettings = field(default_factory=IntentionSettings)
+    maintenance: DoorMaintenanceSettings = field(default_factory=DoorMaintenanceSettings)
 
 
 class DoorConcept:
@@ -56,15 +61,15 @@ class DoorConcept:
         memory: WorkingMemory,
         buffer: SensorBuffer,
         *,
-        settings: DoorSettings | None = None,
+        settings: DoorSettings = DoorSettings(),
         period_s: float = 0.1,
     ) -> None:
         self.period_s = period_s
         self._memory = memory
         self._buffer = buffer
-        self._settings = settings or DoorSettings()
-        self._maintenance = DoorMaintenance(memory)
-        self._intentions = DoorIntentions(memory)
+        self._settings = settings
+        self._maintenance = DoorMaintenance(memory, settings.maintenance, settings.nodes)
+        self._intentions = DoorIntentions(memory, settings.intentions, settings.nodes)
         self._evidence: dict[str, RoomEvidence] = {}
         self._settled: dict[str, tuple[object, ...]] = {}
         self._room_id: str | None = None
@@ -97,7 +102,7 @@ class DoorConcept:
             return None
         evidence = self._evidence.get(room.room_id)
         if evidence is None or not np.array_equal(evidence.polygon, room.polygon):
-            evidence = self._evidence[room.room_id] = RoomEvidence(room.polygon)
+            evidence = self._evidence[room.room_id] = RoomEvidence(room.polygon, self._settings.evidence)
         localized = np.sqrt(np.trace(pose.covariance[:2, :2])) < self._settings.pose_std_m and not in_doubt(snapshot)
         if localized and scan.stamp_s > self._scan_stamp_s:
             self._scan_stamp_s = scan.stamp_s
@@ -149,7 +154,7 @@ class DoorConcept:
         with self._memory.edit(self.name, self._stamp_s) as tx:
             door_id = free_door_id(tx.snapshot, room_id, wall)
             length_m = scene.wall_length_m(wall)
-            put_suspected(tx, door_id, room_id, wall, length_m, stretch, self._stamp_s)
+            put_suspected(tx, door_id, room_id, wall, length_m, stretch, self._stamp_s, self._settings.nodes)
 
     def _initialize(self) -> Verdict:
         """Propose to visit each gap that no door explains, once it is seen well or long enough."""
@@ -157,16 +162,27 @@ class DoorConcept:
         if scene is None:
             return Verdict.NO
         for wall, gap in scene.unexplained():
-            measured = scene.evidence.measure(wall, gap)
-            key = (scene.room.room_id, wall, round(gap.center_m / 0.3))
+            settings, measured = self._settings, scene.evidence.measure(wall, gap)
+            key = (scene.room.room_id, wall, round(gap.center_m / settings.same_gap_m))
             seen_s = self._stamp_s - self._first_seen_s.setdefault(key, self._stamp_s)
-            if measured.width_m < self._settings.narrowest_m or (measured.posts < 2 and seen_s < self._settings.seen_s):
+            wide = measured.width_m >= settings.nodes.sizes.narrowest_m
+            if not wide or (measured.posts < 2 and seen_s < settings.seen_s):
                 continue
             with self._memory.edit(self.name, self._stamp_s) as tx:
                 door_id = free_door_id(tx.snapshot, scene.room.room_id, wall)
                 length_m = scene.wall_length_m(wall)
                 room_id, stamp_s = scene.room.room_id, self._stamp_s
-                put_provisional(tx, door_id, room_id, wall, length_m, measured, stamp_s, state=gap.state)
+                put_provisional(
+                    tx,
+                    door_id,
+                    room_id,
+                    wall,
+                    length_m,
+                    measured,
+                    stamp_s,
+                    state=gap.state,
+                    settings=settings.nodes,
+                )
             logger.info("something like a door in %s", wall_id_of(scene.room.room_id, wall), extra={"door": door_id})
         return Verdict.BUSY
 
@@ -175,24 +191,24 @@ class DoorConcept:
         scene = self._scene()
         if scene is not None:
             self._maintenance.run(scene)
-            for room_id in sorted(_behind(scene) & self._evidence.keys()):
+            for room_id in sorted(self._behind(scene) & self._evidence.keys()):
                 left = self._scene_of(room_id)
                 if left is not None:
                     self._maintenance.learn(left)
         return Verdict.DONE
 
+    def _behind(self, scene: Scene) -> set[str]:
+        """Rooms from which a door of this one is not measured as well as from here."""
+        rooms: set[str] = set()
+        for door, _, _ in scene.doors():
+            other_id = match_of(scene.snapshot, door.id)
+            if other_id is not None and other_id in scene.snapshot:
+                other = scene.snapshot.door(other_id)
+                better = better_dual(scene.snapshot, other, self._settings.nodes)
+                rooms |= {other.rooms[0]} if better is not None else set()
+        return rooms
+
     def _affordances(self) -> Verdict:
         """Follow the own intentions to their end."""
         self._intentions.run(self._memory.snapshot(), self._scene_of, self._stamp_s)
         return Verdict.DONE
-
-
-def _behind(scene: Scene) -> set[str]:
-    """Rooms from which a door of this one is not measured as well as from here."""
-    rooms: set[str] = set()
-    for door, _, _ in scene.doors():
-        other_id = match_of(scene.snapshot, door.id)
-        if other_id is not None and other_id in scene.snapshot:
-            other = scene.snapshot.door(other_id)
-            rooms |= {other.rooms[0]} if better_dual(scene.snapshot, other) is not None else set()
-    return rooms

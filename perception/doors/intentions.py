@@ -15,8 +15,8 @@ from perception.crossing import (
     nothing_left,
     uncrossed,
 )
-from perception.doors.insertion import cross, put_permanent, visit
-from perception.doors.scene import NARROWEST_DOOR_M, Scene
+from perception.doors.insertion import DoorNodeSettings, cross, put_permanent, visit
+from perception.doors.scene import Scene
 from scene_graph.edges import EdgeKey, EdgeType, HasIntentionEdge, IntentionAction, IntentionStatus
 from scene_graph.memory import WorkingMemory
 from scene_graph.nodes import ROBOT_ID, AffordanceNode, CrossingStatus, DoorNode, DoorState
@@ -27,14 +27,12 @@ logger = logging.getLogger(__name__)
 
 @dataclass(frozen=True, kw_only=True)
 class IntentionSettings:
-    """Patience with intentions.
-
-    ``attempts``: failures before one is given up. ``settle_s``: how long to look after arriving in front of a door that
-    shows only one of its posts.
-    """
+    """Patience with intentions."""
 
     attempts: int = 2
+    """Failures before one is given up. Chosen: people who stood in the way have gone by then."""
     settle_s: float = 1.5
+    """How long to look after arriving in front of a door that shows only one of its posts. Chosen: fifteen scans."""
 
 
 class DoorIntentions:
@@ -43,9 +41,14 @@ class DoorIntentions:
     What was given up is tried once more at the end.
     """
 
-    def __init__(self, memory: WorkingMemory, settings: IntentionSettings | None = None) -> None:
+    def __init__(
+        self,
+        memory: WorkingMemory,
+        settings: IntentionSettings = IntentionSettings(),
+        nodes: DoorNodeSettings = DoorNodeSettings(),
+    ) -> None:
         self._memory = memory
-        self._settings = settings or IntentionSettings()
+        self._settings, self._nodes = settings, nodes
         self._failures: dict[str, int] = {}
         self._arrived_s: dict[str, float] = {}
         self._tried_again: set[str] = set()
@@ -67,7 +70,7 @@ class DoorIntentions:
     def _follow_visit(self, scene: Scene, edge: HasIntentionEdge) -> None:
         if edge.status is IntentionStatus.FAILED and self._failed_again(edge) < self._settings.attempts:
             with self._memory.edit(DOOR_AGENT, scene.stamp_s) as tx:
-                tx.put(visit(edge.target, scene.stamp_s))
+                tx.put(visit(edge.target, scene.stamp_s, self._nodes))
         elif edge.status in (IntentionStatus.DONE, IntentionStatus.FAILED):
             self._establish(scene, edge)
 
@@ -78,7 +81,7 @@ class DoorIntentions:
             return
         door, wall, span = found
         gap = scene.evidence.gap_at(wall, span)
-        if gap is None or scene.evidence.measure(wall, gap).width_m < NARROWEST_DOOR_M:
+        if gap is None or scene.evidence.measure(wall, gap).width_m < self._nodes.sizes.narrowest_m:
             scene.evidence.checked.append((wall, span.center_m))
             with self._memory.edit(DOOR_AGENT, scene.stamp_s) as tx:
                 tx.remove(door.id)
@@ -90,7 +93,15 @@ class DoorIntentions:
         length_m = scene.wall_length_m(wall)
         with self._memory.edit(DOOR_AGENT, scene.stamp_s) as tx:
             door_id = put_permanent(
-                tx, door.id, scene.room.room_id, wall, length_m, measured, scene.stamp_s, state=gap.state
+                tx,
+                door.id,
+                scene.room.room_id,
+                wall,
+                length_m,
+                measured,
+                scene.stamp_s,
+                state=gap.state,
+                settings=self._nodes,
             )
         logger.info("%s stands: %.2f m wide, %s", door_id, measured.width_m, gap.state, extra={"door": door_id})
         self._arrived_s.pop(door.id, None)

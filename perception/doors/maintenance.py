@@ -6,11 +6,18 @@ import logging
 from dataclasses import dataclass, replace
 
 from perception.crossing import CLOSED_REASON, DOOR_AGENT, given_up, match_of, uncrossed
-from perception.doors.dual_measurement import WELL_MEASURED, better_dual, completed, seen_through
-from perception.doors.insertion import door_label, hang, is_suspicion, measured_confidence
+from perception.doors.dual_measurement import better_dual, completed, seen_through
+from perception.doors.insertion import (
+    DoorNodeSettings,
+    door_label,
+    hang,
+    is_suspicion,
+    measured_confidence,
+    seen_confidence,
+)
 from perception.doors.posts import MeasuredGap
 from perception.doors.room_evidence import Span
-from perception.doors.scene import NARROWEST_DOOR_M, Scene
+from perception.doors.scene import Scene
 from scene_graph.identifiers import wall_id_of
 from scene_graph.memory import WorkingMemory
 from scene_graph.nodes import CrossingStatus, DoorNode, DoorState
@@ -21,28 +28,34 @@ logger = logging.getLogger(__name__)
 
 @dataclass(frozen=True, kw_only=True)
 class DoorMaintenanceSettings:
-    """When a known door is written anew.
-
-    ``votes``: scans in a row that change open to closed or back. ``refine_every_s``: between refinements.
-    ``changed_m``: least change worth writing. ``vanished_s``: how long a provisional door may show no gap.
-    ``forget_s``: how long a door between two known rooms counts as closed after it was last seen so; people open
-    doors, and the robot may go and look.
-    """
+    """When a known door is written anew."""
 
     votes: int = 5
+    """Scans in a row that change open to closed or back. Chosen: half a second; somebody may walk through."""
     refine_every_s: float = 1.0
+    """Between refinements of one door. Chosen: ten scans more."""
     changed_m: float = 0.004
+    """Least change worth writing. Chosen: half of what counts as measured."""
     vanished_s: float = 4.0
+    """How long a provisional door may show no gap. Chosen."""
     forget_s: float = 60.0
+    """How long a door between two known rooms counts as closed after it was last seen so. Chosen: people open doors,
+    and the robot may go and look."""
     forget_every_s: float = 1.0
+    """Between looks at which of them are due. Chosen: for speed."""
 
 
 class DoorMaintenance:
     """Refines doors that are not measured well yet, and follows their state."""
 
-    def __init__(self, memory: WorkingMemory, settings: DoorMaintenanceSettings | None = None) -> None:
+    def __init__(
+        self,
+        memory: WorkingMemory,
+        settings: DoorMaintenanceSettings = DoorMaintenanceSettings(),
+        nodes: DoorNodeSettings = DoorNodeSettings(),
+    ) -> None:
         self._memory = memory
-        self._settings = settings or DoorMaintenanceSettings()
+        self._settings, self._nodes = settings, nodes
         self._votes: dict[str, int] = {}
         self._refined_s: dict[str, float] = {}
         self._gap_seen_s: dict[str, float] = {}
@@ -57,7 +70,7 @@ class DoorMaintenance:
         for door, wall, span in known:
             if door.provisional and any(wall == other and place.covers(span) for other, place in standing):
                 self._remove(door, scene.stamp_s)
-            elif door.provisional or door.confidence < WELL_MEASURED:
+            elif door.provisional or door.confidence < self._nodes.well_measured:
                 self._refine(scene, door, wall, span)
             if not door.provisional:
                 self._follow_state(scene, door, wall, span)
@@ -66,7 +79,7 @@ class DoorMaintenance:
     def learn(self, scene: Scene) -> None:
         """Complete the doors of a room that the robot may have left by what is known of them from the rooms behind."""
         for door, wall, span in scene.doors():
-            dual = better_dual(scene.snapshot, door) if not door.provisional else None
+            dual = better_dual(scene.snapshot, door, self._nodes) if not door.provisional else None
             if dual is None:
                 continue
             known = seen_through(scene, wall, dual)
@@ -78,14 +91,19 @@ class DoorMaintenance:
 
     def _complete(self, scene: Scene, door: DoorNode, wall: int, span: Span, measured: MeasuredGap | None) -> None:
         """Write what both sides together know of a permanent door, where that is more than was known."""
-        dual = better_dual(scene.snapshot, door)
+        dual = better_dual(scene.snapshot, door, self._nodes)
         if dual is not None:
-            measured = completed(measured, seen_through(scene, wall, dual))
+            sharp_m = scene.evidence.settings.posts.sharp_m
+            measured = completed(measured, seen_through(scene, wall, dual), self._nodes, sharp_m=sharp_m)
             more = measured.width_m == dual.width_m
         else:
-            more = measured is not None and _tells_more(measured, door)
+            more = measured is not None and self._tells_more(measured, door)
         if measured is not None and (measured.posts == 2 or more):
             self._write(scene, door, wall, span, measured, door.state)
+
+    def _tells_more(self, measured: MeasuredGap, door: DoorNode) -> bool:
+        """Whether an opening with an unmeasured end is seen to be wider than it was thought to be: it only can be."""
+        return measured_confidence(measured, self._nodes) >= door.confidence and measured.width_m > door.width_m
 
     def _refine(self, scene: Scene, door: DoorNode, wall: int, span: Span) -> None:
         settings = self._settings
@@ -104,7 +122,7 @@ class DoorMaintenance:
             return
         self._gap_seen_s[door.id] = scene.stamp_s
         measured = scene.evidence.measure(wall, gap)
-        if is_suspicion(door) and measured.width_m < NARROWEST_DOOR_M:
+        if is_suspicion(door) and measured.width_m < self._nodes.sizes.narrowest_m:
             return
         if door.provisional:
             self._write(scene, door, wall, span, measured, gap.state)
@@ -114,14 +132,14 @@ class DoorMaintenance:
     def _write(
         self, scene: Scene, door: DoorNode, wall: int, span: Span, measured: MeasuredGap, state: DoorState
     ) -> None:
-        confidence = max(door.confidence, measured_confidence(measured))
+        confidence = max(door.confidence, measured_confidence(measured, self._nodes))
         if door.provisional:
-            confidence = 0.4 + 0.2 * measured.posts
+            confidence = seen_confidence(measured, self._nodes)
         change_m = max(abs(measured.center_m - span.center_m), abs(measured.width_m - span.width_m))
         if change_m < self._settings.changed_m and confidence == door.confidence and state is door.state:
             return
         edge = hang(door.id, wall_id_of(scene.room.room_id, wall), scene.wall_length_m(wall), measured, scene.stamp_s)
-        label = door_label(measured.width_m)
+        label = door_label(measured.width_m, self._nodes)
         with self._memory.edit(DOOR_AGENT, scene.stamp_s) as tx:
             tx.put(replace(door, width_m=measured.width_m, confidence=confidence, label=label, state=state), edge)
 
@@ -159,11 +177,6 @@ class DoorMaintenance:
                 logger.info("%s may be open again", door.id, extra={"door": door.id})
                 with self._memory.edit(DOOR_AGENT, scene.stamp_s) as tx:
                     tx.put(replace(tx.snapshot.door(door.id), state=DoorState.UNKNOWN))
-
-
-def _tells_more(measured: MeasuredGap, door: DoorNode) -> bool:
-    """Whether an opening with an unmeasured end is seen to be wider than it was thought to be: it only can be wider."""
-    return measured_confidence(measured) >= door.confidence and measured.width_m > door.width_m
 
 
 def _both_sides(snapshot: Snapshot, door_id: str) -> list[DoorNode]:

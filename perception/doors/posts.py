@@ -7,46 +7,53 @@ would take the last for wall and make every door seen from the front too narrow;
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from perception.doors.wall_evidence import Gap, WallEvidence
-from perception.lidar.wall_rays import WallRays
+from perception.lidar.wall_rays import RaySettings, WallRays
 
 Array = NDArray[np.float64]
-
-SHARP_M = 0.008
-"""Standard deviation below which a post counts as measured."""
-
-_ROUGH_M = 0.05
-_CORNER_M = 0.04
 
 
 @dataclass(frozen=True, kw_only=True)
 class PostSettings:
-    """Lengths in meters.
-
-    ``window_m``: rays this near to a post count. ``slack_m``: how far the bounds may be off. ``shadow_m``: how far
-    behind where wall was first seen the post may be, for the shallow end of a reveal looks like wall: a ray that just
-    does not graze it (``wall_rays.RaySettings``) is deeper than ``face_m`` only this far from the post. ``sigma_m``: of
-    a ray's depth. ``through_m``: how deep rays in the gap can end at most. ``thinnest_wall_m``: a ray this deep in the
-    gap may have passed the reveal and met whatever is behind. ``rays``: least number near a post; ``rays_at_first``:
-    how many of them tell about where it is.
-    """
+    """How a post is looked for, and what is made of it."""
 
     window_m: float = 0.25
+    """Rays this near to a post count. Chosen: farther ones say nothing about it."""
     slack_m: float = 0.06
+    """How far the bounds may be off: three parts of the wall's evidence."""
     shadow_m: float = 0.35
+    """How far behind where wall was first seen the post may be, for the shallow end of a reveal looks like wall: a ray
+    that just does not graze it (``wall_rays.RaySettings``) is deeper than ``face_m`` only this far from the post."""
     coarse_m: float = 0.006
+    """Step of the first search. Chosen."""
     fine_m: float = 0.001
+    """Step of the second. Chosen: a millimeter is better than anybody needs."""
     sigma_m: float = 0.02
+    """Standard deviation of a ray's depth: range noise of the usual LiDAR (design, section 5)."""
     thinnest_wall_m: float = 0.05
-    through_m: float = 0.5
+    """A ray this deep in the gap may have passed the reveal and met whatever is behind: inner walls may be so thin."""
+    through_m: float = RaySettings.through_m
+    """How deep rays in the gap can end at most."""
     outlier: float = 9.0
+    """Largest squared residual: of three standard deviations."""
     rays: int = 24
+    """Least number near a post, a quarter of it on either side. Chosen."""
     rays_at_first: int = 1500
+    """How many of them are asked in the first search. Chosen: for speed."""
+    sharp_m: float = 0.008
+    """Standard deviation below which a post counts as measured. Chosen."""
+    rough_m: float = 0.05
+    """Standard deviation of an end that could not be refined: two parts of the wall's evidence and the rays' noise."""
+    corner_m: float = 0.04
+    """A gap that ends so near to the wall's own end ends there: two parts of the evidence."""
+    corner_std_m: float = 0.005
+    """Standard deviation of a post that is the next wall. Chosen: how well walls are measured."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -64,14 +71,13 @@ def find_post(
     wall_m: float,
     *,
     wall_follows: bool,
-    settings: PostSettings | None = None,
+    settings: PostSettings = PostSettings(),
 ) -> Post | None:
     """The post between a station where the wall is open and one where it is wall.
 
     ``wall_follows``: the wall is at greater stations, the gap at smaller ones. ``None`` when too few rays were
     near, or none on one of its two sides, or when the post may just as well be beyond where it was looked for.
     """
-    settings = settings or PostSettings()
     sign = 1.0 if wall_follows else -1.0
     low_m, high_m = sign * open_m - settings.slack_m, sign * wall_m + settings.shadow_m
     middle_m, half_m = (low_m + high_m) / 2.0, (high_m - low_m) / 2.0
@@ -139,20 +145,19 @@ def _residuals(candidates: Array, rays: _Mirrored, settings: PostSettings) -> Ar
 @dataclass(frozen=True, kw_only=True)
 class MeasuredGap:
     """A gap between two posts, stations in meters; ``std_m`` of its center, ``start_std_m`` and ``end_std_m`` of the
-    posts. ``posts``: how many were measured.
+    posts, infinite where nobody measured them. ``posts``: how many were measured well.
     """
 
     center_m: float
     width_m: float
     std_m: float
     posts: int
-    start_std_m: float = _ROUGH_M
-    end_std_m: float = _ROUGH_M
+    start_std_m: float = math.inf
+    end_std_m: float = math.inf
 
 
-def measure_gap(evidence: WallEvidence, gap: Gap) -> MeasuredGap:
+def measure_gap(evidence: WallEvidence, gap: Gap, settings: PostSettings = PostSettings()) -> MeasuredGap:
     """Refine both ends of ``gap``; an end that cannot be refined stays where it is, with a large uncertainty."""
-    settings = PostSettings()
     if gap.panel_m is not None:
         settings = replace(settings, through_m=gap.panel_m)
     start_m, start_std_m = _end(evidence, gap.start_m, gap.wall_before_m, settings, wall_follows=False)
@@ -161,7 +166,7 @@ def measure_gap(evidence: WallEvidence, gap: Gap) -> MeasuredGap:
         center_m=(start_m + end_m) / 2.0,
         width_m=max(end_m - start_m, 0.0),
         std_m=float(np.hypot(start_std_m, end_std_m)) / 2.0,
-        posts=int(start_std_m < SHARP_M) + int(end_std_m < SHARP_M),
+        posts=int(start_std_m < settings.sharp_m) + int(end_std_m < settings.sharp_m),
         start_std_m=start_std_m,
         end_std_m=end_std_m,
     )
@@ -172,8 +177,8 @@ def _end(
 ) -> tuple[float, float]:
     """Station and standard deviation of one end; a gap that reaches the wall's end has the next wall for a post."""
     if wall_m is None:
-        return open_m, _ROUGH_M
-    if wall_m in (0.0, evidence.length_m) and abs(open_m - wall_m) < _CORNER_M:
-        return wall_m, 0.005
+        return open_m, settings.rough_m
+    if wall_m in (0.0, evidence.length_m) and abs(open_m - wall_m) < settings.corner_m:
+        return wall_m, settings.corner_std_m
     post = find_post(evidence, open_m, wall_m, wall_follows=wall_follows, settings=settings)
-    return (post.station_m, post.std_m) if post is not None else (open_m, _ROUGH_M)
+    return (post.station_m, post.std_m) if post is not None else (open_m, settings.rough_m)

@@ -3,24 +3,44 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
-from perception.doors.posts import MeasuredGap, measure_gap
-from perception.doors.wall_evidence import Gap, WallEvidence
+from perception.doors.posts import MeasuredGap, PostSettings, measure_gap
+from perception.doors.wall_evidence import EvidenceSettings, Gap, WallEvidence
 from perception.geometry.planar import Pose2, wrap
 from perception.geometry.walls import Walls
-from perception.lidar.wall_rays import WallRays, rays_by_wall
+from perception.lidar.wall_rays import RaySettings, WallRays, rays_by_wall
 from perception.ports import LidarScan
 
 Array = NDArray[np.float64]
 
-_STEP_M = 0.03
-_STEP_RAD = 0.05
-_FIRST_SCANS = 10
-_STEEP = 0.7  # way along the wall per way into it, beyond which a thick wall's reveals fill the view
+
+@dataclass(frozen=True, kw_only=True)
+class RoomEvidenceSettings:
+    """Which scans are kept, when a known door looks open, and what rays, walls and posts are told by."""
+
+    step_m: float = 0.03
+    """Way between scans whose rays are kept one by one. Chosen: what nearer ones would add is the same."""
+    step_rad: float = 0.05
+    """Or turn between them."""
+    first_scans: int = 10
+    """Are kept though the robot stands still: it may stand still for long at first. Chosen: a second."""
+    steep: float = 0.7
+    """Way along the wall per way into it, beyond which a thick wall's reveals fill the view of a door."""
+    fewest_rays: int = 8
+    """In a door that is judged. Chosen."""
+    nearest_m: float = 0.3
+    """A door that the robot stands in shows nothing of its state."""
+    open_from: float = 0.4
+    """Share of the rays that pass an open door. Chosen: much of the view may be of what stands behind it."""
+    closed_to: float = 0.1
+    """Share of the rays that may pass a closed one. Chosen."""
+    rays: RaySettings = field(default_factory=RaySettings)
+    walls: EvidenceSettings = field(default_factory=EvidenceSettings)
+    posts: PostSettings = field(default_factory=PostSettings)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -45,14 +65,16 @@ class RoomEvidence:
     """Evidence along each wall of a room, fed with scans taken inside it.
 
     Attributes:
+        settings: what evidence is told by.
         scans: how many were counted.
         checked: (wall, station in meters) of unseen stretches that were looked at from the front, in vain.
     """
 
-    def __init__(self, polygon: Array) -> None:
+    def __init__(self, polygon: Array, settings: RoomEvidenceSettings = RoomEvidenceSettings()) -> None:
+        self.settings = settings
         self.polygon = polygon
         self.walls = Walls.of_polygon(polygon)
-        self._evidence = [WallEvidence(float(length)) for length in self.walls.length_m]
+        self._evidence = [WallEvidence(float(length), settings.walls) for length in self.walls.length_m]
         self._latest: list[WallRays] | None = None
         self._kept: Pose2 | None = None
         self.scans = 0
@@ -60,15 +82,16 @@ class RoomEvidence:
 
     def add(self, scan: LidarScan, T_room_base: Pose2) -> None:
         """Count a scan's rays; keep them one by one when the robot has moved since the last kept ones."""
+        settings = self.settings
         moved = self._kept is None or (
-            self._kept.distance_m(T_room_base) > _STEP_M
-            or abs(wrap(self._kept.yaw_rad - T_room_base.yaw_rad)) > _STEP_RAD
+            self._kept.distance_m(T_room_base) > settings.step_m
+            or abs(wrap(self._kept.yaw_rad - T_room_base.yaw_rad)) > settings.step_rad
         )
-        keep = moved or self.scans < _FIRST_SCANS
+        keep = moved or self.scans < settings.first_scans
         if keep:
             self._kept = T_room_base
         self.scans += 1
-        self._latest = rays_by_wall(scan, T_room_base, self.walls)
+        self._latest = rays_by_wall(scan, T_room_base, self.walls, settings.rays)
         for evidence, rays in zip(self._evidence, self._latest, strict=True):
             evidence.add(rays, keep=keep)
 
@@ -100,19 +123,21 @@ class RoomEvidence:
 
     def measure(self, wall: int, gap: Gap) -> MeasuredGap:
         """A gap with both ends refined."""
-        return measure_gap(self._evidence[wall], gap)
+        return measure_gap(self._evidence[wall], gap, self.settings.posts)
 
     def looks_open(self, wall: int, span: Span) -> bool | None:
         """Whether the newest scan sees through a known door; ``None`` when it does not see enough of it."""
         if self._latest is None:
             return None
-        rays = self._latest[wall]
+        rays, settings = self._latest[wall], self.settings
         margin_m = min(0.12, 0.2 * span.width_m)
         inner = span.width_m / 2.0 - margin_m
-        near = (np.abs(rays.station_m - span.center_m) < inner) & (np.abs(rays.slope) < _STEEP)
-        if near.sum() < 8 or np.ptp(rays.station_m[near]) < 1.2 * inner or rays.distance_m[near].min() < 0.3:
+        near = (np.abs(rays.station_m - span.center_m) < inner) & (np.abs(rays.slope) < settings.steep)
+        if near.sum() < settings.fewest_rays or np.ptp(rays.station_m[near]) < 1.2 * inner:
+            return None
+        if rays.distance_m[near].min() < settings.nearest_m:
             return None
         passed = float(rays.passed[near].mean())
-        if passed > 0.4:
+        if passed > settings.open_from:
             return True
-        return False if passed < 0.1 else None
+        return False if passed < settings.closed_to else None

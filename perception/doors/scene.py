@@ -12,9 +12,6 @@ from scene_graph.identifiers import wall_id_of
 from scene_graph.nodes import DoorNode
 from scene_graph.snapshot import Snapshot
 
-NARROWEST_DOOR_M = 0.5
-"""Least width of a door (``D_min`` of algorithm 2)."""
-
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Scene:

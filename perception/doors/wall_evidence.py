@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import pairwise
 
 import numpy as np
@@ -13,17 +13,10 @@ from scipy.ndimage import binary_closing, binary_dilation
 
 from perception.geometry.runs import runs
 from perception.lidar.wall_rays import WallRays
+from perception.localization.doorways import DoorSizes
 from scene_graph.nodes import DoorState
 
 Array = NDArray[np.float64]
-
-_BIN_M = 0.02
-_KEPT_SCANS = 60
-_MOST_RAYS = 30.0
-_FARTHEST_SAMPLE_M = 5.0
-_FRAME_M = 0.10
-_DEEPEST_M = 0.35
-_GRAZING = 2.0  # way along the wall per way into it
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -56,31 +49,56 @@ class Gap:
 
 @dataclass(frozen=True, kw_only=True)
 class GapSettings:
-    """What counts as a gap; lengths in meters.
-
-    ``narrowest_m``: least width that rays pass through; seen at an angle, the reveals of a thick wall take their share
-    of a door. ``rays``: least number in a part of the wall that tells. ``bridge_m``: a part without rays this short is
-    like its neighbors. ``post_m``: how far beside a closed leaf, or a stretch that nobody saw, wall still belongs to
-    it. ``hidden_m``: how far beside a gap wall may be first seen: rays that end on the reveal of a thick wall, or on
-    what stands right behind the door, tell nothing. ``hiding_m``: an unseen stretch this long could hide a door, if
-    ``dark_m`` of it showed nothing at all. ``panel_m``, ``deepest_m``: how deep in the wall a door's leaf may be;
-    ``leaf_rays``: least number in a part of it; ``widest_leaf_m``: of a single leaf; ``flush``: share of the panel's
-    depth that the wall above it, and beside it, may be off its face.
-    """
+    """What counts as a gap."""
 
     narrowest_m: float = 0.35
+    """Least width that rays pass through: seen at an angle, the reveals of a thick wall take their share of a door."""
     rays: float = 2.0
+    """Least number in a part of the wall that tells, each weighed by its distance. Chosen."""
     bridge_m: float = 0.12
+    """A part without rays this short is like its neighbors. Chosen: the spacing of rays that graze a far wall."""
     post_m: float = 0.36
+    """How far beside a closed leaf, or a stretch that nobody saw, wall still belongs to it. Chosen."""
     hidden_m: float = 1.0
-    hiding_m: float = 0.5
+    """How far beside a gap wall may be first seen: rays that end on the reveal of a thick wall, or on what stands right
+    behind the door, tell nothing. Chosen."""
+    hiding_m: float = DoorSizes.narrowest_m
+    """An unseen stretch this long could hide a door."""
     dark_m: float = 0.2
+    """If so much of it showed nothing at all. Chosen."""
     panel_m: float = 0.014
+    """How deep in the wall a door's leaf is at least. Chosen: less is within the errors of the walls."""
     deepest_m: float = 0.3
+    """And at most: a leaf at the far side of a thick wall."""
     leaf_rays: float = 6.0
-    narrowest_leaf_m: float = 0.5
+    """Least number in a part of a leaf: averages of so many tell a few millimeters. Chosen."""
+    narrowest_leaf_m: float = DoorSizes.narrowest_m
+    """Of a door."""
     widest_leaf_m: float = 1.4
+    """Of a single leaf with its frame, and errors of both ends."""
     flush: float = 0.4
+    """Share of the panel's depth that the wall above it, and beside it, may be off its face. Chosen: under a half."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class EvidenceSettings:
+    """What is counted and what is kept of the rays along a wall, and how gaps are told from it."""
+
+    bin_m: float = 0.02
+    """Length of a part of the wall. Chosen: the spacing of rays three meters away."""
+    kept_scans: int = 60
+    """Whose rays are kept one by one. Chosen: one visit to a door, and memory."""
+    most_rays: float = 30.0
+    """That count in a part; older ones make room, so that what changes is seen. Chosen: some seconds of looking."""
+    farthest_sample_m: float = 5.0
+    """Kept rays from farther away do not sharpen a post: there they are 35 mm apart and noisy."""
+    frame_m: float = 0.10
+    """Beside a known door wall is not looked for: its frame."""
+    deepest_m: float = 0.35
+    """Rays that end deeper in the wall are of no leaf: the thickest wall's, and range noise."""
+    grazing: float = 2.0
+    """Way along the wall per way into it beyond which a ray may have met a reveal instead of the face. Chosen."""
+    gaps: GapSettings = field(default_factory=GapSettings)
 
 
 class WallEvidence:
@@ -90,9 +108,10 @@ class WallEvidence:
     have met the first centimeters of a reveal instead of the face: it tells only where no steeper ray does.
     """
 
-    def __init__(self, length_m: float) -> None:
+    def __init__(self, length_m: float, settings: EvidenceSettings = EvidenceSettings()) -> None:
         self.length_m = length_m
-        bins = max(1, int(np.ceil(length_m / _BIN_M)))
+        self._settings, self._bin_m = settings, settings.bin_m
+        bins = max(1, int(np.ceil(length_m / self._bin_m)))
         self._passed = np.zeros(bins)
         self._ended = np.zeros(bins)
         self._grazed = np.zeros(bins)
@@ -100,20 +119,21 @@ class WallEvidence:
         self._blocked = np.zeros(bins)
         self._depth = np.zeros((2, bins))
         self._depth_rays = np.zeros((2, bins))
-        self._scans: deque[WallRays] = deque(maxlen=_KEPT_SCANS)
+        self._scans: deque[WallRays] = deque(maxlen=settings.kept_scans)
 
     def add(self, rays: WallRays, *, keep: bool) -> None:
         """Count the rays of one scan; ``keep`` them one by one too, for finding edges."""
-        index = np.minimum((rays.station_m / _BIN_M).astype(np.int64), len(self._passed) - 1)
+        index = np.minimum((rays.station_m / self._bin_m).astype(np.int64), len(self._passed) - 1)
         weight = 1.0 / np.maximum(rays.distance_m, 1.0)
-        grazing = np.abs(rays.slope) > _GRAZING
+        grazing = np.abs(rays.slope) > self._settings.grazing
         ended = rays.on_face & ~rays.passed & ~grazing
         grazed = rays.on_face & ~rays.passed & grazing
         np.add.at(self._passed, index[rays.passed], weight[rays.passed])
         np.add.at(self._ended, index[ended], weight[ended])
         np.add.at(self._grazed, index[grazed], weight[grazed])
         np.add.at(self._low_hits, index[rays.low_hit], weight[rays.low_hit])
-        np.add.at(self._blocked, np.minimum((rays.blocked_m / _BIN_M).astype(np.int64), len(self._blocked) - 1), 1.0)
+        blocked = np.minimum((rays.blocked_m / self._bin_m).astype(np.int64), len(self._blocked) - 1)
+        np.add.at(self._blocked, blocked, 1.0)
         self._bound()
         if keep:
             self._scans.append(rays)
@@ -121,48 +141,49 @@ class WallEvidence:
 
     def _add_depths(self, rays: WallRays, index: NDArray[np.int64]) -> None:
         """Sum up how deep rays end at the height of a door, and above; a leaf hides in part from the side."""
-        weight = 1.0 / (1.0 + rays.slope**2)
+        settings, weight = self._settings, 1.0 / (1.0 + rays.slope**2)
+        steep = np.abs(rays.slope) < settings.grazing
         for row, depth_m in enumerate((rays.depth_m, rays.lintel_m)):
-            ended = (np.abs(rays.slope) < _GRAZING) & (depth_m < _DEEPEST_M) & ((row == 1) | ~rays.passed)
+            ended = steep & (depth_m < settings.deepest_m) & ((row == 1) | ~rays.passed)
             bins, rated = index[ended], weight[ended]
             self._depth[row] += np.bincount(bins, rated * depth_m[ended], minlength=len(self._depth[row]))
             self._depth_rays[row] += np.bincount(bins, rated, minlength=len(self._depth[row]))
 
     def _bound(self) -> None:
         """Old counts make room for new ones where there are many, so that what changes is seen."""
-        share = np.minimum(1.0, _MOST_RAYS / np.maximum(self._passed + self._ended, 1e-9))
+        most = self._settings.most_rays
+        share = np.minimum(1.0, most / np.maximum(self._passed + self._ended, 1e-9))
         self._passed *= share
         self._ended *= share
-        self._grazed *= np.minimum(1.0, _MOST_RAYS / np.maximum(self._grazed, 1e-9))
+        self._grazed *= np.minimum(1.0, most / np.maximum(self._grazed, 1e-9))
         self._low_hits *= share
 
-    def gaps(self, settings: GapSettings | None = None) -> list[Gap]:
+    def gaps(self) -> list[Gap]:
         """Open stretches wide enough for a door."""
-        settings = settings or GapSettings()
-        state = self._states(settings)
+        settings, state = self._settings.gaps, self._states()
         found: list[Gap] = []
         for start, end in runs(state == 1):
             gap = Gap(
-                start_m=start * _BIN_M,
-                end_m=min(end * _BIN_M, self.length_m),
-                wall_before_m=self._wall_beside(state, start, -1, settings),
-                wall_after_m=self._wall_beside(state, end - 1, 1, settings),
+                start_m=start * self._bin_m,
+                end_m=min(end * self._bin_m, self.length_m),
+                wall_before_m=self._wall_beside(state, start, -1),
+                wall_after_m=self._wall_beside(state, end - 1, 1),
             )
             if gap.width_m >= settings.narrowest_m:
                 found.append(gap)
         return found
 
-    def recesses(self, settings: GapSettings | None = None) -> list[Gap]:
+    def recesses(self) -> list[Gap]:
         """Closed doors: stretches as wide as a door's leaf that lie behind the face, below wall that does not."""
-        settings = settings or GapSettings()
+        settings = self._settings.gaps
         told = self._depth_rays[0] >= settings.leaf_rays
         depth_m = self._depths_from_face(told)
         found: list[Gap] = []
-        for first, last in runs(self._behind_face(depth_m[0], told, settings)):
+        for first, last in runs(self._behind_face(depth_m[0], told)):
             leaf = np.arange(first, last)[told[first:last]]
             panel_m = float(np.median(depth_m[0, leaf])) if len(leaf) else 0.0
             flush = told & (np.abs(depth_m[0]) < settings.flush * panel_m)
-            gap = self._recess(first, last, panel_m, flush, settings)
+            gap = self._recess(first, last, panel_m, flush)
             if _has_leaf(gap, settings) and self._below_flush_wall(leaf, depth_m[1], settings.flush * panel_m):
                 found.append(gap)
         return found
@@ -173,21 +194,22 @@ class WallEvidence:
         depth_m[0] -= np.median(depth_m[0, told]) if told.any() else 0.0
         return depth_m
 
-    def _behind_face(self, depth_m: Array, told: NDArray[np.bool_], settings: GapSettings) -> NDArray[np.bool_]:
+    def _behind_face(self, depth_m: Array, told: NDArray[np.bool_]) -> NDArray[np.bool_]:
         """Parts of the wall where a leaf may be; short interruptions belong to it."""
-        deep = told & (depth_m > settings.panel_m) & (depth_m < settings.deepest_m) & (self._states(settings) != 1)
-        return np.asarray(binary_closing(deep, iterations=round(settings.bridge_m / _BIN_M / 2.0)))
+        settings = self._settings.gaps
+        deep = told & (depth_m > settings.panel_m) & (depth_m < settings.deepest_m) & (self._states() != 1)
+        return np.asarray(binary_closing(deep, iterations=round(settings.bridge_m / self._bin_m / 2.0)))
 
-    def _recess(self, first: int, last: int, panel_m: float, flush: NDArray[np.bool_], settings: GapSettings) -> Gap:
+    def _recess(self, first: int, last: int, panel_m: float, flush: NDArray[np.bool_]) -> Gap:
         """The stretch from one part of the wall to another, with the flush wall nearest beside it."""
-        beside = round(settings.post_m / _BIN_M)
+        beside = round(self._settings.gaps.post_m / self._bin_m)
         before = np.flatnonzero(flush[max(0, first - beside) : first])
         after = np.flatnonzero(flush[last : last + beside])
         return Gap(
-            start_m=first * _BIN_M,
-            end_m=min(last * _BIN_M, self.length_m),
-            wall_before_m=(max(0, first - beside) + before[-1] + 1) * _BIN_M if len(before) else None,
-            wall_after_m=(last + after[0]) * _BIN_M if len(after) else None,
+            start_m=first * self._bin_m,
+            end_m=min(last * self._bin_m, self.length_m),
+            wall_before_m=(max(0, first - beside) + before[-1] + 1) * self._bin_m if len(before) else None,
+            wall_after_m=(last + after[0]) * self._bin_m if len(after) else None,
             panel_m=panel_m,
         )
 
@@ -196,62 +218,65 @@ class WallEvidence:
         above = leaf[self._depth_rays[1, leaf] > 0]
         return len(above) > 0.3 * len(leaf) and bool(np.median(lintel_m[above]) < flush_m)
 
-    def unseen(self, settings: GapSettings | None = None, explained: Sequence[tuple[float, float]] = ()) -> list[Gap]:
+    def unseen(self, explained: Sequence[tuple[float, float]] = ()) -> list[Gap]:
         """Stretches that could hide a door: not seen to be wall, and nothing stands close before them.
 
         ``explained``: from where to where doors are known. A gap too narrow for a door may be part of a hidden one.
         """
-        settings = settings or GapSettings()
-        state = self._states(settings)
+        settings, state = self._settings.gaps, self._states()
         free = self._blocked < 1.0
         dark = (state != -1) & free
-        grazed = (state == -1) & ~self._told(settings) & free
-        near_dark = binary_dilation(dark, iterations=round(settings.post_m / _BIN_M))
+        grazed = (state == -1) & ~self._told() & free
+        near_dark = binary_dilation(dark, iterations=round(settings.post_m / self._bin_m))
         hidden = dark | (grazed & near_dark)
-        doors = [(gap.start_m, gap.end_m) for gap in self.gaps(settings) if gap.width_m > settings.hiding_m]
+        doors = [(gap.start_m, gap.end_m) for gap in self.gaps() if gap.width_m > settings.hiding_m]
+        frame_m = self._settings.frame_m
         for start_m, end_m in (*doors, *explained):
-            first, last = round((start_m - _FRAME_M) / _BIN_M), round((end_m + _FRAME_M) / _BIN_M)
+            first, last = (
+                round((start_m - frame_m) / self._bin_m),
+                round((end_m + frame_m) / self._bin_m),
+            )
             hidden[max(first, 0) : max(last, 0)] = False
         found: list[Gap] = []
         for start, end in runs(hidden):
-            gap = Gap(start_m=start * _BIN_M, end_m=min(end * _BIN_M, self.length_m))
-            in_the_dark_m = float(dark[start:end].sum()) * _BIN_M
+            gap = Gap(start_m=start * self._bin_m, end_m=min(end * self._bin_m, self.length_m))
+            in_the_dark_m = float(dark[start:end].sum()) * self._bin_m
             if gap.width_m > settings.hiding_m and in_the_dark_m > settings.dark_m:
                 found.append(gap)
         return found
 
-    def _told(self, settings: GapSettings) -> NDArray[np.bool_]:
+    def _told(self) -> NDArray[np.bool_]:
         """Parts of the wall that rays met steeply enough."""
-        return np.asarray(self._passed + self._ended > settings.rays / 3.0)
+        return np.asarray(self._passed + self._ended > self._settings.gaps.rays / 3.0)
 
-    def _states(self, settings: GapSettings) -> NDArray[np.int64]:
+    def _states(self) -> NDArray[np.int64]:
         """Per part of the wall: 1 open, -1 wall, 0 unknown; short unknown parts take their neighbors' state."""
-        told = self._told(settings)
+        settings, told = self._settings.gaps, self._told()
         opened = told & (self._passed > self._ended) & (self._low_hits <= 0.5 * self._passed)
         state = np.where(opened, 1, np.where(told | (self._grazed > settings.rays / 3.0), -1, 0))
         known = np.flatnonzero(state)
         for before, after in pairwise(known.tolist()):
-            if 1 < after - before <= settings.bridge_m / _BIN_M and state[before] == state[after]:
+            if 1 < after - before <= settings.bridge_m / self._bin_m and state[before] == state[after]:
                 state[before:after] = state[before]
         return state
 
-    def _wall_beside(self, state: NDArray[np.int64], edge: int, step: int, settings: GapSettings) -> float | None:
+    def _wall_beside(self, state: NDArray[np.int64], edge: int, step: int) -> float | None:
         """Station of the wall, or its corner, seen nearest beside a gap's last open part; ``None`` at another gap."""
-        for distance in range(1, int(np.ceil(settings.hidden_m / _BIN_M)) + 1):
+        for distance in range(1, int(np.ceil(self._settings.gaps.hidden_m / self._bin_m)) + 1):
             beside = edge + step * distance
             if not 0 <= beside < len(state):
                 return 0.0 if step < 0 else self.length_m
             if state[beside] == 1:
                 return None
             if state[beside] == -1:
-                return (beside + (0 if step > 0 else 1)) * _BIN_M
+                return (beside + (0 if step > 0 else 1)) * self._bin_m
         return None
 
     def samples(self, station_m: float, window_m: float) -> WallRays | None:
         """The kept rays within ``window_m`` of a station, or ``None``."""
-        parts = []
+        parts, farthest_m = [], self._settings.farthest_sample_m
         for rays in self._scans:
-            near = (np.abs(rays.station_m - station_m) < window_m) & (rays.distance_m < _FARTHEST_SAMPLE_M)
+            near = (np.abs(rays.station_m - station_m) < window_m) & (rays.distance_m < farthest_m)
             parts.append((rays, near))
         if not any(near.any() for _, near in parts):
             return None

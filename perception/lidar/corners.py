@@ -13,27 +13,33 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
-_RAY_STEP_RAD = float(np.deg2rad(0.4))
-
 
 @dataclass(frozen=True, kw_only=True)
 class CornerSettings:
-    """Lengths in meters, angles in radians.
-
-    ``shortest_line_m``: shortest run of returns that counts as a wall (``L_min`` of the paper). ``reach_m``: how far
-    from the end of a wall's returns its corner may be. ``right_angle_rad``: how far from square a corner may be.
-    """
+    """How lines and corners are told."""
 
     shortest_line_m: float = 0.6
+    """Shortest run of returns that counts as a wall (``L_min`` of the paper)."""
     hough_rho_m: float = 0.06
+    """Cell of the Hough accumulator: three standard deviations of the usual range noise."""
     hough_theta_rad: float = float(np.deg2rad(1.5))
+    """The other side of the cell: it turns a line of four meters by the first one. Chosen."""
     fewest_votes: int = 8
+    """Returns that make a line. Chosen."""
     candidates: int = 30
+    """Strongest cells that are tried in a pass. Chosen: rooms have fewer walls."""
     passes: int = 3
+    """Most often that the returns left over vote anew. Chosen."""
     gate_m: float = 0.07
+    """How far from a line its returns may be: three and a half standard deviations of the usual range noise."""
     widest_gap_m: float = 0.7
+    """Of one wall, beyond what the spacing of rays explains. Chosen: narrower than a door."""
     reach_m: float = 0.35
+    """How far from the end of a wall's returns its corner may be. Chosen: half of what a wardrobe hides."""
     right_angle_rad: float = float(np.deg2rad(2.5))
+    """How far from square a corner may be: errors of both lines' directions. Chosen."""
+    ray_step_rad: float = float(np.deg2rad(0.4))
+    """Between neighboring rays: the coarsest horizontal resolution of the LiDAR (design, section 5)."""
 
     def for_noise(self, noise_m: float) -> CornerSettings:
         """Gates wide enough for ranges with this standard deviation."""
@@ -160,7 +166,7 @@ def _fit(
         if len(inliers) < settings.fewest_votes:
             return None, claimed
         normal, offset = fit_line(points[inliers])
-    inliers = inliers[_longest_run(points[inliers], normal, offset, settings.widest_gap_m)]
+    inliers = inliers[_longest_run(points[inliers], normal, offset, settings)]
     if len(inliers) < settings.fewest_votes:
         return None, claimed
     normal, offset = fit_line(points[inliers])
@@ -178,24 +184,24 @@ def fit_line(points: Array) -> tuple[Array, float]:
     return normal, float(normal[0] * x + normal[1] * y)
 
 
-def _longest_run(points: Array, normal: Array, offset: float, widest_gap_m: float) -> NDArray[np.intp]:
+def _longest_run(points: Array, normal: Array, offset: float, settings: CornerSettings) -> NDArray[np.intp]:
     """Which of a line's points are its longest run without a gap wider than the spacing of rays there explains."""
     stations = points @ np.array([-normal[1], normal[0]])
     order = np.argsort(stations, kind="stable")
-    breaks = np.flatnonzero(np.diff(stations[order]) > _widest_gap(stations[order], offset, widest_gap_m)) + 1
+    breaks = np.flatnonzero(np.diff(stations[order]) > _widest_gap(stations[order], offset, settings)) + 1
     runs = np.split(order, breaks)
     return max(runs, key=lambda run: float(stations[run[-1]] - stations[run[0]]))
 
 
-def _widest_gap(stations: Array, offset: float, widest_gap_m: float) -> Array:
+def _widest_gap(stations: Array, offset: float, settings: CornerSettings) -> Array:
     """(N - 1,) gap allowed between neighbors: rays from the origin meet a far wall at a grazing angle, far apart."""
     nearer = np.minimum(np.abs(stations[1:]), np.abs(stations[:-1]))
-    return widest_gap_m + 2.0 * _ray_spacing(nearer, offset)
+    return settings.widest_gap_m + 2.0 * _ray_spacing(nearer, offset, settings.ray_step_rad)
 
 
-def _ray_spacing(station: Array, offset: float) -> Array:
+def _ray_spacing(station: Array, offset: float, step_rad: float) -> Array:
     """Distance between neighboring rays of the origin on a line at ``offset``, at ``station`` along it."""
-    return np.asarray(_RAY_STEP_RAD * (station**2 + offset**2) / max(abs(offset), 0.1))
+    return np.asarray(step_rad * (station**2 + offset**2) / max(abs(offset), 0.1))
 
 
 def _measured_line(points: Array, normal: Array, offset: float) -> WallLine:
@@ -223,16 +229,16 @@ def corners_of(lines: list[WallLine], settings: CornerSettings | None = None) ->
             continue
         offsets = np.array([first.offset_m, second.offset_m])
         point: Array = np.asarray(np.linalg.solve(np.stack([first.normal, second.normal]), offsets), dtype=np.float64)
-        if _ends_near(first, point, settings.reach_m) and _ends_near(second, point, settings.reach_m):
+        if _ends_near(first, point, settings) and _ends_near(second, point, settings):
             sightings.append(
                 CornerSighting(point=point, std_m=float(np.hypot(_std_at(first, point), _std_at(second, point))))
             )
     return sightings
 
 
-def _ends_near(line: WallLine, point: Array, reach_m: float) -> bool:
+def _ends_near(line: WallLine, point: Array, settings: CornerSettings) -> bool:
     station = float(line.direction @ point)
-    reach_m += 1.5 * float(_ray_spacing(np.array(station), line.offset_m))
+    reach_m = settings.reach_m + 1.5 * float(_ray_spacing(np.array(station), line.offset_m, settings.ray_step_rad))
     return min(abs(station - line.span_m[0]), abs(station - line.span_m[1])) < reach_m
 
 

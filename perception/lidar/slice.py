@@ -19,23 +19,24 @@ from perception.sensing import ray_directions_base
 Array = NDArray[np.float64]
 
 
-_FLOOR_M = 0.15
-
-
 @dataclass(frozen=True, kw_only=True)
 class SliceSettings:
-    """Heights in meters above the floor.
-
-    ``bottom_m``: above doors and usual furniture. ``highest_bottom_m``: where the slice begins at most in high rooms.
-    ``depth_m``: wanted thickness of the slice. ``same_wall_m``: returns of one direction that belong together.
-    """
+    """Heights in meters above the floor."""
 
     bottom_m: float = 2.05
+    """Above doors, which are 2 m high, and usual furniture."""
     highest_bottom_m: float = 2.3
+    """Where the slice begins at most in high rooms. Chosen."""
     depth_m: float = 0.45
+    """Wanted thickness of the slice: several rings of the LiDAR meet a wall in it. Chosen."""
     thinnest_m: float = 0.12
+    """Least thickness, in low rooms. Chosen."""
     same_wall_m: float = 0.25
+    """Returns of one direction that belong together. Chosen: a slanted wall's, and less than what is behind a door."""
     ceiling_margin_m: float = 0.10
+    """Left out below the ceiling: five standard deviations of the usual range noise."""
+    floor_m: float = 0.15
+    """Returns below are of the floor. Chosen: range noise, and a base that tilts a little."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -108,7 +109,7 @@ class OutlineSlicer:
             azimuths_rad=azimuths,
             ranges_m=nearest,
             blind_m=_blind_m(bottom_m - float(origin[2]), float(scan.elevations_rad.max())),
-            surrounded=float((heights > _FLOOR_M).any(axis=0).mean()),
+            surrounded=float((heights > self._settings.floor_m).any(axis=0).mean()),
         )
 
     def _nearest(self, distance: Array) -> Array:

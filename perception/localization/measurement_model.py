@@ -17,17 +17,10 @@ from perception.geometry.planar import Pose2
 from perception.geometry.runs import runs
 from perception.geometry.walls import Walls
 from perception.lidar.slice import OutlineScan
+from perception.localization.doorways import DoorSizes
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
-
-_WINDOW_RAD = 0.012
-_BLIND_MARGIN_M = 0.15
-_POST_M = 0.1
-_FEWEST_RETURNS = 60
-_WIDEST_DOOR_M = 1.3
-_NEW_DOORS = 2
-_BESIDE = 4
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -45,14 +38,30 @@ class ScanFit:
 
 @dataclass(frozen=True, kw_only=True)
 class MeasurementModelSettings:
-    """``slack_m``: errors that the measured outline may have. ``least_std_m``: of a return. ``gate``: beyond so many
-    standard deviations a return is not explained. ``through_m``: what is so far behind a wall has passed it.
-    """
+    """When a return is explained by a room, and when it contradicts it."""
 
     slack_m: float = 0.03
+    """Errors that the measured outline and the pose may have. Chosen: about their largest."""
     through_m: float = 0.3
+    """What is so far behind a wall has passed it. Chosen: more than a pose that is good enough can be off."""
     least_std_m: float = 0.02
+    """Of a return: range noise of the robot's own LiDAR (design, section 5)."""
     gate: float = 3.0
+    """Standard deviations beyond which a return is not explained."""
+    window_rad: float = 0.012
+    """Half of the window about each azimuth: error of the heading."""
+    blind_margin_m: float = 0.15
+    """Added to the distance below which rays pass under a lintel: errors of pose and outline."""
+    post_m: float = 0.1
+    """So near beside a door a ray may pass by it: errors of the door's place."""
+    fewest_returns: int = 60
+    """With fewer that tell, nothing is explained. Chosen: a fifteenth of a revolution."""
+    widest_door_m: float = DoorSizes.widest_m
+    """Of a door that nobody has noticed yet."""
+    new_doors: int = 2
+    """Most of these in one scan. Chosen: few of them can be new at once."""
+    beside: int = 4
+    """Rays on either side of such a door of which one must be explained. Chosen: those next to it may meet the post."""
 
 
 def fit_of(
@@ -69,12 +78,14 @@ def fit_of(
     settings = settings or MeasurementModelSettings()
     origin = T_room_base.apply(scan.origin_base)
     azimuths_rad = scan.azimuths_rad + T_room_base.yaw_rad
-    nearest, farthest, incidence = expected_ranges(walls, origin, azimuths_rad)
+    nearest, farthest, incidence = expected_ranges(walls, origin, azimuths_rad, settings.window_rad)
     measured = scan.ranges_m
-    may_pass = (nearest <= scan.blind_m + _BLIND_MARGIN_M) | _at_openings(openings, origin, azimuths_rad, nearest)
+    may_pass = (nearest <= scan.blind_m + settings.blind_margin_m) | _at_openings(
+        openings, origin, azimuths_rad, nearest, settings.post_m
+    )
     below_lintel = may_pass & (measured > farthest + settings.through_m)
     tells = np.isfinite(measured) & np.isfinite(farthest) & ~below_lintel
-    if tells.sum() < _FEWEST_RETURNS:
+    if tells.sum() < settings.fewest_returns:
         return ScanFit(explained=0.0, passed=0.0, cost=settings.gate**2)
     measured, nearest, farthest = measured[tells], nearest[tells], farthest[tells]
     off = (measured - np.clip(measured, nearest, farthest)) * incidence[tells]
@@ -82,7 +93,7 @@ def fit_of(
     passed = off > settings.through_m
     explained = deviation <= settings.gate
     directions = np.stack([np.cos(azimuths_rad[tells]), np.sin(azimuths_rad[tells])], axis=1)
-    unknown = _unknown_doorways(passed, explained, origin + directions * nearest[:, None])
+    unknown = _unknown_doorways(passed, explained, origin + directions * nearest[:, None], settings)
     passed, explained, deviation = passed[~unknown], explained[~unknown], deviation[~unknown]
     cost = np.minimum(deviation**2, settings.gate**2) / 2.0 * np.where(passed, 2.0, 1.0)
     return ScanFit(
@@ -92,7 +103,7 @@ def fit_of(
     )
 
 
-def _unknown_doorways(passed: Mask, explained: Mask, hits: Array) -> Mask:
+def _unknown_doorways(passed: Mask, explained: Mask, hits: Array, settings: MeasurementModelSettings) -> Mask:
     """(N,) rays that pass a wall together where a door may be that nobody has noticed yet.
 
     It is no wider than a door, and rays end as expected on both sides of it; few of them can be new at once.
@@ -101,14 +112,15 @@ def _unknown_doorways(passed: Mask, explained: Mask, hits: Array) -> Mask:
     found = 0
     for first, last in runs(passed):
         width_m = float(np.linalg.norm(hits[last - 1] - hits[first]))
-        beside = explained[max(0, first - _BESIDE) : first].any() and explained[last : last + _BESIDE].any()
-        if width_m < _WIDEST_DOOR_M and beside and found < _NEW_DOORS:
+        near = settings.beside
+        beside = explained[max(0, first - near) : first].any() and explained[last : last + near].any()
+        if width_m < settings.widest_door_m and beside and found < settings.new_doors:
             doubtful[first:last] = True
             found += 1
     return doubtful
 
 
-def _at_openings(openings: Array, origin: Array, azimuths_rad: Array, ranges_m: Array) -> Mask:
+def _at_openings(openings: Array, origin: Array, azimuths_rad: Array, ranges_m: Array, post_m: float) -> Mask:
     """(N,) rays that meet the outline where a door is."""
     met = np.isfinite(ranges_m)
     directions = np.stack([np.cos(azimuths_rad), np.sin(azimuths_rad)], axis=1)
@@ -119,18 +131,20 @@ def _at_openings(openings: Array, origin: Array, azimuths_rad: Array, ranges_m: 
         along = (end - start) / width_m
         offset = hits - start
         station, away = offset @ along, offset @ np.array([-along[1], along[0]])
-        there |= (station > -_POST_M) & (station < width_m + _POST_M) & (np.abs(away) < _POST_M)
+        there |= (station > -post_m) & (station < width_m + post_m) & (np.abs(away) < post_m)
     return there & met
 
 
-def expected_ranges(walls: Walls, origin: Array, azimuths_rad: Array) -> tuple[Array, Array, Array]:
-    """Nearest and farthest wall (N,) within a narrow window about each azimuth, and the cosine of incidence there.
+def expected_ranges(
+    walls: Walls, origin: Array, azimuths_rad: Array, window_rad: float = MeasurementModelSettings.window_rad
+) -> tuple[Array, Array, Array]:
+    """Nearest and farthest wall (N,) within ``window_rad`` of each azimuth, and the cosine of incidence there.
 
     The window takes up what an error of the heading does at grazing angles and at the edge of a corner. Infinite where
     no wall is met; azimuths are evenly spaced, all around.
     """
     ranges, incidence = wall_ranges(walls, origin, azimuths_rad)
-    window = 2 * int(np.ceil(_WINDOW_RAD * len(azimuths_rad) / (2.0 * np.pi))) + 1
+    window = 2 * int(np.ceil(window_rad * len(azimuths_rad) / (2.0 * np.pi))) + 1
     nearest, farthest = minimum_filter1d(ranges, window, mode="wrap"), maximum_filter1d(ranges, window, mode="wrap")
     return nearest, farthest, incidence
 

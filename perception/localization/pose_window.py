@@ -16,8 +16,19 @@ from perception.localization.alignment import Alignment
 
 Array = NDArray[np.float64]
 
-POSES = 30
-_NOMINAL_STD_M = 0.003
+
+@dataclass(frozen=True, kw_only=True)
+class PoseWindowSettings:
+    """Size of the window and what its factors are worth."""
+
+    poses: int = 30
+    """As many as are kept, three seconds of them. Chosen."""
+    nominal_std_m: float = 0.003
+    """How far a corner of a measured room may be off. Chosen: some millimeters."""
+    relinearize_at: float = 0.002
+    """Change of a variable, meters or radians, from which iSAM2 linearizes anew. Chosen: below what is measured."""
+    huber: float = 1.5
+    """Standard deviations from which on a corner counts less: near the usual 1.345."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -30,15 +41,22 @@ class LandmarkSighting:
 
 
 class PoseWindow:
-    """The last 30 poses of the robot in one parent frame, tied by odometry, landmarks and scan alignments."""
+    """The last poses of the robot in one parent frame, tied by odometry, landmarks and scan alignments."""
 
-    def __init__(self, pose: Pose2, covariance: Array, landmarks: Array | None = None) -> None:
+    def __init__(
+        self,
+        pose: Pose2,
+        covariance: Array,
+        landmarks: Array | None = None,
+        settings: PoseWindowSettings = PoseWindowSettings(),
+    ) -> None:
         """``covariance``: (3, 3) of ``pose`` in the base frame. ``landmarks``: (N, 2) nominal, parent frame."""
         parameters = gtsam.ISAM2Params()
-        parameters.setRelinearizeThreshold(0.002)
+        parameters.setRelinearizeThreshold(settings.relinearize_at)
         parameters.relinearizeSkip = 1
         parameters.setFactorization("QR")  # Cholesky fails where a vague pose meets sharp odometry
-        self._smoother = gtsam.IncrementalFixedLagSmoother(POSES - 0.5, parameters)
+        self._smoother = gtsam.IncrementalFixedLagSmoother(settings.poses - 0.5, parameters)
+        self._settings = settings
         self._landmarks = np.empty((0, 2)) if landmarks is None else landmarks
         self._known: set[int] = set()
         self._count = 0
@@ -73,7 +91,7 @@ class PoseWindow:
             graph.add(gtsam.PriorFactorPose2(key, to_gtsam(alignment.pose), information))
         for sighting in sightings:
             self._add_landmark(graph, values, sighting.index)
-            graph.add(_sighting_factor(key, sighting))
+            graph.add(_sighting_factor(key, sighting, self._settings.huber))
         self._update(graph, values)
 
     def _add_landmark(self, graph: gtsam.NonlinearFactorGraph, values: gtsam.Values, index: int) -> None:
@@ -82,7 +100,8 @@ class PoseWindow:
         self._known.add(index)
         nominal = self._landmarks[index]
         values.insert(L(index), nominal)
-        graph.add(gtsam.PriorFactorPoint2(L(index), nominal, gtsam.noiseModel.Isotropic.Sigma(2, _NOMINAL_STD_M)))
+        noise = gtsam.noiseModel.Isotropic.Sigma(2, self._settings.nominal_std_m)
+        graph.add(gtsam.PriorFactorPoint2(L(index), nominal, noise))
 
     def _update(self, graph: gtsam.NonlinearFactorGraph, values: gtsam.Values) -> None:
         now = float(self._count)
@@ -94,10 +113,10 @@ class PoseWindow:
         self.covariance = (covariance + covariance.T) / 2.0
 
 
-def _sighting_factor(key: int, sighting: LandmarkSighting) -> gtsam.BearingRangeFactor2D:
+def _sighting_factor(key: int, sighting: LandmarkSighting, huber: float) -> gtsam.BearingRangeFactor2D:
     distance = max(float(np.linalg.norm(sighting.point)), 0.2)
     noise = gtsam.noiseModel.Robust.Create(
-        gtsam.noiseModel.mEstimator.Huber.Create(1.5),
+        gtsam.noiseModel.mEstimator.Huber.Create(huber),
         gtsam.noiseModel.Diagonal.Sigmas(np.array([sighting.std_m / distance, sighting.std_m])),
     )
     bearing = gtsam.Rot2(float(np.arctan2(sighting.point[1], sighting.point[0])))

@@ -11,17 +11,24 @@ from __future__ import annotations
 import asyncio
 import logging
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from perception.crossing import door_being_crossed, find_robot, lose_robot, take_back
 from perception.geometry.planar import Pose2
 from perception.lidar.slice import OutlineSlicer
-from perception.localization.continuity import continuity
+from perception.localization.continuity import ContinuitySettings, continuity
 from perception.localization.doorways import doorway_fit, doorway_model
-from perception.localization.fitness import FitnessMonitor
-from perception.localization.global_localization import Hypothesis, Sight, decide, hypotheses, known_rooms
+from perception.localization.fitness import FitnessMonitor, FitnessSettings
+from perception.localization.global_localization import (
+    GlobalLocalizationSettings,
+    Hypothesis,
+    Sight,
+    decide,
+    hypotheses,
+    known_rooms,
+)
 from perception.localization.measurement_model import fit_of
 from perception.localization.robot_pose import robot_pose_at
 from perception.localization.room_model import room_model
@@ -34,33 +41,42 @@ from scene_graph.snapshot import Snapshot
 
 logger = logging.getLogger(__name__)
 
-_WORTH_NAMING = 0.01
-_WORTH_WRITING = 0.05
-_SURELY_INSIDE_M = 0.3
-
 
 @dataclass(frozen=True, kw_only=True)
 class RelocalizationSettings:
-    """Pace of the search.
-
-    ``search_every_s``: between searches. ``settle_s``: after this long without a decision the robot looks around, at
-    most ``looks`` times; one that was not carried doubts the room first, as from elsewhere it could not. ``step_m``:
-    between views that are kept, ``sights`` of them at most. ``continuous``: share of a view that the one before must
-    have shown, ``soon_s`` before it at most; ``breaks`` views in a row that do not agree with the last good one mean
-    that the robot was carried. ``blame_s``: after this long without any place that fits, a robot that was not carried
-    doubts the room; after ``trust_s`` it goes on from where its wheels say.
-    """
+    """Pace of the search, and all that the agent works with."""
 
     search_every_s: float = 0.5
+    """Between searches. Chosen: every fifth scan."""
     settle_s: float = 1.5
+    """After this long without a decision the robot looks around; one that was not carried doubts the room first, as
+    from elsewhere it could not. Chosen: three searches."""
     looks: int = 2
+    """Most often that it looks around. Chosen."""
     step_m: float = 0.5
+    """Between views that are kept. Chosen: nearer ones show the same."""
     sights: int = 5
+    """Views that are kept at most. Chosen: their odometry drifts apart."""
     continuous: float = 0.55
+    """Share of a view that the one before must have shown. Chosen: about half."""
     soon_s: float = 0.6
+    """How much earlier the one before may be. Chosen: some scans may be missing."""
     breaks: int = 2
+    """Views in a row that do not agree with the last good one, from which on the robot was carried. Chosen: one
+    may be chance."""
     blame_s: float = 6.0
+    """After this long without any place that fits, a robot that was not carried doubts the room. Chosen."""
     trust_s: float = 30.0
+    """After this long it goes on from where its wheels say. Chosen."""
+    worth_naming: float = 0.01
+    """Least probability of a place that is spoken of. Chosen."""
+    worth_writing: float = 0.05
+    """Least change of the confidence that is written. Chosen: everybody who reads the graph is told of each."""
+    surely_inside_m: float = 0.3
+    """From a room's outline: less may be a doorway, or an error of the pose."""
+    fitness: FitnessSettings = field(default_factory=FitnessSettings)
+    localization: GlobalLocalizationSettings = field(default_factory=GlobalLocalizationSettings)
+    continuity: ContinuitySettings = field(default_factory=ContinuitySettings)
 
 
 class Relocalization:
@@ -81,16 +97,16 @@ class Relocalization:
         memory: WorkingMemory,
         buffer: SensorBuffer,
         *,
-        settings: RelocalizationSettings | None = None,
+        settings: RelocalizationSettings = RelocalizationSettings(),
         slicer: OutlineSlicer | None = None,
         period_s: float = 0.2,
     ) -> None:
         self.period_s = period_s
         self.found: list[Hypothesis] = []
         self._memory, self._buffer = memory, buffer
-        self._settings = settings or RelocalizationSettings()
+        self._settings = settings
         self._slicer = slicer or OutlineSlicer()
-        self._monitor = FitnessMonitor()
+        self._monitor = FitnessMonitor(settings=settings.fitness)
         self._scan_stamp_s = -np.inf
         self._search = _Search()
         self._view = _View()
@@ -124,8 +140,9 @@ class Relocalization:
             self._monitor.rest(stamp_scan_s)
         else:
             doors = doorway_model(snapshot, room)
-            fit = fit_of(sight.outline, room.walls, doors.openings, pose.T_parent_base)
-            doorways = doorway_fit(sight.scan, doors, pose.T_parent_base)
+            settings = self._settings.localization
+            fit = fit_of(sight.outline, room.walls, doors.openings, pose.T_parent_base, settings.model)
+            doorways = doorway_fit(sight.scan, doors, pose.T_parent_base, settings.doorways)
             self._monitor.add(room.room_id, depth_m, fit, doorways, stamp_scan_s)
         carried = self._view.changed(sight, self._settings)
         if self._view.broken:
@@ -140,7 +157,7 @@ class Relocalization:
         robot, confidence = snapshot.robot, self._monitor.confidence
         if robot is None or robot.confidence == confidence:
             return
-        if confidence in {0.0, 1.0} or abs(robot.confidence - confidence) > _WORTH_WRITING:
+        if confidence in {0.0, 1.0} or abs(robot.confidence - confidence) > self._settings.worth_writing:
             with self._memory.edit(self.name, stamp_s) as tx:
                 tx.put(replace(tx.snapshot.robot or robot, confidence=confidence))
 
@@ -167,9 +184,11 @@ class Relocalization:
         if not waited or not isinstance(room, RoomNode):
             return False
         T_room_base = Pose2.from_se3(snapshot.transform(room.id, ROBOT_ID))
-        fits = any(one.same_as(replace(one, room_id=room.id, T_room_base=T_room_base)) for one in self.found)
+        here = [replace(one, room_id=room.id, T_room_base=T_room_base) for one in self.found]
+        within = self._settings.localization
+        fits = any(one.same_as(place, within) for one, place in zip(self.found, here, strict=True))
         model = room_model(snapshot, room.id)
-        inside = model is not None and model.depth_m(T_room_base.position_m) > _SURELY_INSIDE_M
+        inside = model is not None and model.depth_m(T_room_base.position_m) > self._settings.surely_inside_m
         blames = not fits and inside and room.id not in self._blamed
         trusts = search.since_s is not None and stamp_s >= search.since_s + self._settings.trust_s
         if not fits and (self.found or not (blames or trusts)):
@@ -197,15 +216,15 @@ class Relocalization:
             return
         search.next_s = stamp_s + settings.search_every_s
         rooms = known_rooms(self._memory.building(), self._monitor.usual_shares())
-        self.found = await asyncio.to_thread(hypotheses, [*search.sights, sight], rooms)
+        self.found = await asyncio.to_thread(hypotheses, [*search.sights, sight], rooms, settings.localization)
         if not self.found and search.sights:
             search.sights, search.decided = (), None
             return
-        decided = decide(self.found)
+        decided = decide(self.found, settings.localization)
         if decided is None:
             search.decided = None
             self._go_on(sight, stamp_s)
-        elif search.confirms(decided, sight):
+        elif search.confirms(decided, sight, settings.localization):
             self._restore(decided, sight, stamp_s)
         else:
             search.decided = (decided, sight.T_odom_base)
@@ -214,7 +233,7 @@ class Relocalization:
         """Keep the view, say what is possible, and look around when that may help."""
         search, settings = self._search, self._settings
         search.keep(sight, settings)
-        names = sorted({one.room_id for one in self.found if one.weight > _WORTH_NAMING})
+        names = sorted({one.room_id for one in self.found if one.weight > settings.worth_naming})
         if names != search.named:
             search.named = names
             logger.info("this could be %s", " or ".join(names) if names else "no room that I know")
@@ -272,7 +291,7 @@ class _View:
         """Whether what is seen is another place than a moment ago, for long enough to be sure."""
         before = self.last
         late = before is None or sight.scan.stamp_s > before.scan.stamp_s + settings.soon_s
-        if late or before is None or continuity(before, sight) >= settings.continuous:
+        if late or before is None or continuity(before, sight, settings.continuity) >= settings.continuous:
             self.last, self.broken = sight, 0
         else:
             self.broken += 1
@@ -301,10 +320,10 @@ class _Search:
         if not any(sight.T_odom_base.distance_m(other.T_odom_base) < settings.step_m for other in self.sights):
             self.sights = (*self.sights, sight)[-settings.sights :]
 
-    def confirms(self, decided: Hypothesis, sight: Sight) -> bool:
+    def confirms(self, decided: Hypothesis, sight: Sight, settings: GlobalLocalizationSettings) -> bool:
         """Whether the search before this one decided for the same place, given how the robot moved since."""
         if self.decided is None:
             return False
         before, T_odom_before = self.decided
         moved = T_odom_before.inverse() @ sight.T_odom_base
-        return decided.same_as(replace(before, T_room_base=before.T_room_base @ moved))
+        return decided.same_as(replace(before, T_room_base=before.T_room_base @ moved), settings)

@@ -15,8 +15,23 @@ from scene_graph.snapshot import Snapshot
 
 Array = NDArray[np.float64]
 
-THICKEST_WALL_M = 0.6
-_PARALLEL_RAD = float(np.deg2rad(12.0))
+
+@dataclass(frozen=True, kw_only=True)
+class DualDoorSettings:
+    """When two sides of a wall are of one door."""
+
+    thickest_wall_m: float = 0.6
+    """Between its two faces. Chosen: old houses' outer walls."""
+    parallel_rad: float = float(np.deg2rad(12.0))
+    """Between these faces: errors of the layout's headings."""
+    slack_m: float = 0.15
+    """Errors of the layout where a door is looked for in the other room."""
+    thicker_m: float = 0.1
+    """By which a wall may seem thicker than the thickest: errors of the layout."""
+    aside_m: float = 0.2
+    """Between the middles of the two sides, along the wall: errors of the layout."""
+    wider_m: float = 0.15
+    """Between their widths: errors of their posts, before all are measured."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -32,12 +47,20 @@ class SeenFrom:
     thickness_m: float
 
 
-def place_in(room: RoomModel, T_room_door: Pose2, *, slack_m: float = 0.15) -> SeenFrom | None:
+def place_in(
+    room: RoomModel,
+    T_room_door: Pose2,
+    settings: DualDoorSettings = DualDoorSettings(),
+    *,
+    slack_m: float | None = None,
+) -> SeenFrom | None:
     """Where in ``room`` a door of the neighboring room must be, given its frame in ``room``.
 
     The door's frame has y pointing into its own room; seen from here, the gap is in the wall whose normal points the
-    other way, at most a wall's thickness away. ``slack_m``: error that the layout may have.
+    other way, at most a wall's thickness away. ``slack_m``: error that the layout may have, if it
+    is not the usual one.
     """
+    slack_m = settings.slack_m if slack_m is None else slack_m
     through = -T_room_door.rotation()[:, 1]
     best: SeenFrom | None = None
     for wall in range(len(room.polygon)):
@@ -45,22 +68,28 @@ def place_in(room: RoomModel, T_room_door: Pose2, *, slack_m: float = 0.15) -> S
         length_m = float(np.linalg.norm(end - start))
         along = (end - start) / length_m
         normal = np.array([-along[1], along[0]])
-        if float(normal @ through) < np.cos(_PARALLEL_RAD):
+        if float(normal @ through) < np.cos(settings.parallel_rad):
             continue
         thickness_m = -float(normal @ (T_room_door.position_m - start))
         station_m = float(along @ (T_room_door.position_m - start))
-        fits = -slack_m < thickness_m < THICKEST_WALL_M + slack_m and -slack_m < station_m < length_m + slack_m
+        fits = -slack_m < thickness_m < settings.thickest_wall_m + slack_m and -slack_m < station_m < length_m + slack_m
         if fits and (best is None or abs(thickness_m) < abs(best.thickness_m)):
             best = SeenFrom(wall=wall, station_m=station_m, thickness_m=thickness_m)
     return best
 
 
-def same_door(T_root_first: Pose2, T_root_second: Pose2, widths_m: tuple[float, float]) -> bool:
+def same_door(
+    T_root_first: Pose2,
+    T_root_second: Pose2,
+    widths_m: tuple[float, float],
+    settings: DualDoorSettings = DualDoorSettings(),
+) -> bool:
     """Whether two doors, each known from its own room, can be the two sides of one gap."""
-    facing = abs(wrap(T_root_first.yaw_rad - T_root_second.yaw_rad + np.pi)) < _PARALLEL_RAD
+    facing = abs(wrap(T_root_first.yaw_rad - T_root_second.yaw_rad + np.pi)) < settings.parallel_rad
     between = T_root_first.inverse() @ T_root_second
-    across = -0.15 < -between.y_m < THICKEST_WALL_M + 0.1
-    return bool(facing and across and abs(between.x_m) < 0.2 and abs(widths_m[0] - widths_m[1]) < 0.15)
+    across = -settings.slack_m < -between.y_m < settings.thickest_wall_m + settings.thicker_m
+    alike = abs(between.x_m) < settings.aside_m and abs(widths_m[0] - widths_m[1]) < settings.wider_m
+    return bool(facing and across and alike)
 
 
 def root_pose(snapshot: Snapshot, frame: str) -> Pose2:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from perception.crossing import in_doubt, nothing_left
 from perception.geometry.planar import Pose2
@@ -12,9 +12,15 @@ from scene_graph.memory import WorkingMemory
 from scene_graph.nodes import ROBOT_ID
 from scene_graph.snapshot import Snapshot
 
-_QUIET_S = 4.0
-_OUT_M = 0.3
-"""Farther beyond the outline than in a doorway, in which the robot may well stand."""
+
+@dataclass(frozen=True, kw_only=True)
+class ExplorationSettings:
+    """When nothing is left to explore."""
+
+    quiet_s: float = 4.0
+    """For so long nobody has asked for more: every agent has had its turn often. Chosen."""
+    out_m: float = 0.3
+    """Beyond a room's outline, farther than in a doorway, in which the robot may well stand."""
 
 
 class ExplorationJudge:
@@ -25,8 +31,8 @@ class ExplorationJudge:
     come back in first, once.
     """
 
-    def __init__(self, memory: WorkingMemory) -> None:
-        self._memory = memory
+    def __init__(self, memory: WorkingMemory, settings: ExplorationSettings = ExplorationSettings()) -> None:
+        self._memory, self._settings = memory, settings
         self._quiet_since_s: float | None = None
         self._called_in = False
 
@@ -38,7 +44,7 @@ class ExplorationJudge:
             self._quiet_since_s = None
         elif self._quiet_since_s is None:
             self._quiet_since_s = stamp_s
-        quiet = self._quiet_since_s is not None and stamp_s >= self._quiet_since_s + _QUIET_S
+        quiet = self._quiet_since_s is not None and stamp_s >= self._quiet_since_s + self._settings.quiet_s
         if quiet and not snapshot.root.explored and self._call_in(agent, stamp_s):
             return
         if quiet != snapshot.root.explored:
@@ -48,7 +54,7 @@ class ExplorationJudge:
     def _call_in(self, agent: str, stamp_s: float) -> bool:
         """Ask for the robot to come back into its room, if it is not there and has not been asked before."""
         snapshot = self._memory.snapshot()
-        room = _left_room(snapshot)
+        room = _left_room(snapshot, self._settings.out_m)
         if room is None or self._called_in:
             return False
         self._called_in = True
@@ -73,11 +79,11 @@ class ExplorationJudge:
                 tx.remove(*ended)
 
 
-def _left_room(snapshot: Snapshot) -> str | None:
+def _left_room(snapshot: Snapshot, out_m: float) -> str | None:
     """The room that the robot hangs from, if it stands outside of it."""
     edge = snapshot.parent(ROBOT_ID)
     room = room_model(snapshot, edge.source) if edge is not None else None
     if edge is None or room is None or in_doubt(snapshot):
         return None
     depth_m = room.depth_m(Pose2.from_se3(edge.T_source_target).position_m)
-    return room.room_id if depth_m < -_OUT_M else None
+    return room.room_id if depth_m < -out_m else None

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from perception.crossing import cross_affordance, match_key
-from perception.doors.insertion import door_label, free_door_id, hang
+from perception.doors.insertion import DoorNodeSettings, door_label, free_door_id, hang
 from perception.doors.posts import MeasuredGap
 from perception.geometry.planar import Pose2
 from perception.localization.room_model import RoomModel
@@ -19,14 +19,30 @@ from scene_graph.memory import Transaction
 from scene_graph.nodes import AffordanceKind, AffordanceNode, CrossingStatus, DoorNode
 from scene_graph.snapshot import Snapshot
 
-WALKED_STD_M = 0.012
-UNWALKED_STD_M = 0.05
-PREDICTED_CONFIDENCE = 0.7
-_PREDICTED_STD_M = 0.03
-_PREDICTED_WALL_STD_M = 0.1
+
+@dataclass(frozen=True, kw_only=True)
+class JoiningSettings:
+    """How sure is what a passage says about its two rooms."""
+
+    walked_std_m: float = 0.012
+    """Of the way through a door that was driven: odometry over a meter and the poses on either side."""
+    unwalked_std_m: float = 0.05
+    """The same where the layout alone has it. Chosen."""
+    predicted_confidence: float = 0.7
+    """Of a door, and of a wall, known from its other side only: less than of one whose post is measured."""
+    predicted_wall_std_m: float = 0.1
+    """Of a wall that only its door tells of: how thick walls differ."""
+    doors: DoorNodeSettings = field(default_factory=DoorNodeSettings)
 
 
-def put_dual(tx: Transaction, door: DoorNode, room: RoomModel, place: SeenFrom, stamp_s: float) -> DoorNode:
+def put_dual(
+    tx: Transaction,
+    door: DoorNode,
+    room: RoomModel,
+    place: SeenFrom,
+    stamp_s: float,
+    settings: JoiningSettings = JoiningSettings(),
+) -> DoorNode:
     """The far side of ``door`` in ``room``, where it was predicted; the door concept will measure it.
 
     Where the room's wall there has not been seen, the door is what tells of it.
@@ -36,13 +52,13 @@ def put_dual(tx: Transaction, door: DoorNode, room: RoomModel, place: SeenFrom, 
     center_m = float(np.clip(place.station_m, door.width_m / 2.0, length_m - door.width_m / 2.0))
     wall_id = wall_id_of(room.room_id, place.wall)
     if wall_id not in tx.snapshot:
-        doubt = {"std_m": _PREDICTED_WALL_STD_M, "confidence": PREDICTED_CONFIDENCE}
+        doubt = {"std_m": settings.predicted_wall_std_m, "confidence": settings.predicted_confidence}
         tx.put(*wall_elements(room.polygon, room.room_id, place.wall, stamp_s=stamp_s, **doubt))
-    gap = MeasuredGap(center_m=center_m, width_m=door.width_m, std_m=_PREDICTED_STD_M, posts=0)
+    gap = MeasuredGap(center_m=center_m, width_m=door.width_m, std_m=settings.doors.predicted_std_m, posts=0)
     dual = DoorNode(
         id=door_id,
-        label=door_label(door.width_m),
-        confidence=PREDICTED_CONFIDENCE,
+        label=door_label(door.width_m, settings.doors),
+        confidence=settings.predicted_confidence,
         rooms=(room.room_id, None),
         width_m=door.width_m,
         height_m=door.height_m,
@@ -59,7 +75,14 @@ def put_dual(tx: Transaction, door: DoorNode, room: RoomModel, place: SeenFrom, 
     return dual
 
 
-def join(tx: Transaction, first: DoorNode, second: DoorNode, T_near_far: Pose2, *, std_m: float = WALKED_STD_M) -> None:
+def join(
+    tx: Transaction,
+    first: DoorNode,
+    second: DoorNode,
+    T_near_far: Pose2,
+    *,
+    std_m: float = JoiningSettings.walked_std_m,
+) -> None:
     """Two door nodes are one physical door, and its two rooms are known.
 
     ``T_near_far``: how the room of ``second`` lies in that of ``first`` by what was driven between them, with the

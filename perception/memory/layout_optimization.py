@@ -33,9 +33,18 @@ Wall = tuple[str, int]
 """A wall by its room and its index in the room's outline."""
 
 _RIGID: Mapping[Wall, float] = {}
-_HUBER = 3.0
-_STEPS = 20
-_CONVERGED = 1e-6
+
+
+@dataclass(frozen=True, kw_only=True)
+class LayoutOptimizationSettings:
+    """How errors are spread, and until when."""
+
+    huber: float = 3.0
+    """Standard deviations from which on a door counts less: it may have been matched wrongly."""
+    steps: int = 20
+    """Of Gauss-Newton at most. Chosen: far more than it takes."""
+    converged: float = 1e-6
+    """Length of a step, in meters and radians, after which no other follows. Chosen: far below what matters."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -91,6 +100,7 @@ def lay_out(
     guesses: Mapping[str, Pose2],
     passages: Sequence[Passage],
     wall_std_m: Mapping[Wall, float] = _RIGID,
+    settings: LayoutOptimizationSettings = LayoutOptimizationSettings(),
 ) -> dict[str, PlacedRoom]:
     """Poses and wall shifts of all rooms that passages connect with the first, which stays where it is.
 
@@ -100,6 +110,7 @@ def lay_out(
         guesses: where every room is thought to be.
         passages: the doors known from both sides.
         wall_std_m: how well the walls' offsets along their normals are known; walls that are not named do not shift.
+        settings: how errors are spread.
     """
     reached = _reached(first_room, passages)
     rooms = {room: R(index) for index, room in enumerate(reached)}
@@ -107,16 +118,16 @@ def lay_out(
     values = gtsam.Values()
     for room, key in rooms.items():
         values.insert(key, to_gtsam(guesses[room]))
-    graph = _graph(rooms[first_room], first, rooms, {}, inside)
+    graph = _graph(rooms[first_room], first, rooms, {}, inside, settings.huber)
     values = gtsam.LevenbergMarquardtOptimizer(graph, values).optimize()
     walls = _free_walls(inside, wall_std_m)
     if walls:
-        graph = _graph(rooms[first_room], first, rooms, walls, inside)
+        graph = _graph(rooms[first_room], first, rooms, walls, inside, settings.huber)
         for wall, key in walls.items():
             values.insert(key, np.zeros(1))
             noise = gtsam.noiseModel.Isotropic.Sigma(1, wall_std_m[wall])
             graph.add(gtsam.PriorFactorVector(key, np.zeros(1), noise))
-        values = _refined(graph, values)
+        values = _refined(graph, values, settings)
     return _placed(rooms, walls, values, gtsam.Marginals(graph, values))
 
 
@@ -126,26 +137,29 @@ def _graph(
     rooms: Mapping[str, int],
     walls: Mapping[Wall, int],
     passages: Sequence[Passage],
+    huber: float,
 ) -> gtsam.NonlinearFactorGraph:
     """What the doors say, and where the first room, whose key is ``anchor``, lies."""
     graph = gtsam.NonlinearFactorGraph()
     noise = gtsam.noiseModel.Gaussian.Covariance(first.covariance)
     graph.add(gtsam.PriorFactorPose2(anchor, to_gtsam(first.T_root_room), noise))
     for passage in passages:
-        graph.add(_factor(passage, rooms, walls))
+        graph.add(_factor(passage, rooms, walls, huber))
     return graph
 
 
-def _refined(graph: gtsam.NonlinearFactorGraph, values: gtsam.Values) -> gtsam.Values:
+def _refined(
+    graph: gtsam.NonlinearFactorGraph, values: gtsam.Values, settings: LayoutOptimizationSettings
+) -> gtsam.Values:
     """Gauss-Newton from rigid rooms in place, which is near enough that no step needs to be checked.
 
     Step by step, because GTSAM's optimizers call factors written in Python from several threads, which then wait for
     each other: a thousand rooms take half a minute instead of a second.
     """
-    for _ in range(_STEPS):
+    for _ in range(settings.steps):
         step = graph.linearize(values).optimize()
         values = values.retract(step)
-        if step.norm() < _CONVERGED:
+        if step.norm() < settings.converged:
             break
     return values
 
@@ -187,20 +201,22 @@ def _in_loops(passages: Sequence[Passage]) -> list[Passage]:
         left = kept
 
 
-def _factor(passage: Passage, rooms: Mapping[str, int], walls: Mapping[Wall, int]) -> gtsam.NoiseModelFactor:
+def _factor(
+    passage: Passage, rooms: Mapping[str, int], walls: Mapping[Wall, int], huber: float
+) -> gtsam.NoiseModelFactor:
     """What a door says about two rooms, and about the two walls that it is in where these may shift."""
     first, second = rooms[passage.first], rooms[passage.second]
     both = passage.walls()
     if both is None or both[0] not in walls or both[1] not in walls:
-        noise = _robust(passage.room_covariance())
+        noise = _robust(passage.room_covariance(), huber)
         return gtsam.BetweenFactorPose2(first, second, to_gtsam(passage.T_first_second), noise)
     keys = [first, second, *(walls[wall] for wall in both)]
-    return gtsam.CustomFactor(_robust(passage.covariance), keys, partial(_error_at_door, passage))
+    return gtsam.CustomFactor(_robust(passage.covariance, huber), keys, partial(_error_at_door, passage))
 
 
-def _robust(covariance: Array) -> gtsam.noiseModel.Base:
+def _robust(covariance: Array, huber: float) -> gtsam.noiseModel.Base:
     return gtsam.noiseModel.Robust.Create(
-        gtsam.noiseModel.mEstimator.Huber.Create(_HUBER), gtsam.noiseModel.Gaussian.Covariance(covariance)
+        gtsam.noiseModel.mEstimator.Huber.Create(huber), gtsam.noiseModel.Gaussian.Covariance(covariance)
     )
 
 

@@ -7,7 +7,7 @@ twin of an office has its own.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,7 +18,7 @@ from perception.geometry.polygon import shared_area
 from perception.localization.doorways import Doorway, DoorwayModel, doorway_model
 from perception.localization.global_localization import GlobalLocalizationSettings, KnownRoom, Sight, hypotheses
 from perception.localization.room_model import RoomModel, room_model
-from perception.memory.dual_doors import place_in, root_pose
+from perception.memory.dual_doors import DualDoorSettings, place_in, root_pose
 from perception.memory.registration import register_outline
 from scene_graph.nodes import ROOT_ID, DoorNode, DoorState, ObjectNode, RoomNode
 from scene_graph.snapshot import Snapshot
@@ -28,25 +28,35 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, kw_only=True)
 class LoopClosureSettings:
-    """What a known room must stand up to.
-
-    ``drift_m``, ``drift_rad``: errors of the layout that its own covariance does not know of, one standard deviation.
-    ``gate``: chi-square of the way from where the layout has it. ``explained``, ``passed``: shares of the scan.
-    ``margin``: by which logarithm of the odds one candidate must beat another room. ``overlap``: shared area from which
-    two rooms cannot both be there; ``touch`` from which their shapes are compared. ``door_m``: farthest that a door is
-    from itself. ``misfit_m``: farthest that a corner is.
-    """
+    """What a known room must stand up to."""
 
     drift_m: float = 0.15
+    """Errors of the layout that its own covariance does not know of, one standard deviation. Chosen."""
     drift_rad: float = 0.04
+    """The same of headings."""
     gate: float = 16.0
+    """Chi-square of the way from where the layout has it: four standard deviations."""
     explained: float = 0.75
+    """Least share of the scan on its walls, as of a pose that is believed (``localization.fitness``)."""
     passed: float = 0.03
+    """Largest share behind them."""
     margin: float = 5.0
+    """By which logarithm of the odds one candidate must beat another room. Chosen: 150 to one."""
     overlap: float = 0.5
+    """Shared area from which two rooms cannot both be there. Chosen: half of both together."""
     touch: float = 0.1
+    """And from which their shapes are compared. Chosen: more than a thin wall that lies wrong."""
     door_m: float = 0.45
+    """Farthest that a door, or a piece of furniture, is from itself: three times the drift."""
     misfit_m: float = 0.12
+    """Farthest that a corner is from itself once one outline is laid on the other. Chosen."""
+    entrance_m: float = 0.5
+    """Farthest that the door which the robot came through is from where the layout has it."""
+    entrance_wider_m: float = 0.6
+    """And how much wider its doorway may seem for that."""
+    localization: GlobalLocalizationSettings = field(default_factory=lambda: GlobalLocalizationSettings(tries=6))
+    """Fewer tries per room than for a lost robot: there is a guess."""
+    dual: DualDoorSettings = field(default_factory=DualDoorSettings)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -70,14 +80,13 @@ def recognize(
     T_near_base: Pose2,
     sight: Sight,
     door: DoorNode,
-    settings: LoopClosureSettings | None = None,
+    settings: LoopClosureSettings = LoopClosureSettings(),
 ) -> Recognized | None:
     """The known room that ``sight`` shows behind ``door``, which the robot came through; ``None`` when it is a new one.
 
     ``T_near_base``: where the robot is, in the room that it came from. Two rooms that both could be it are not decided
     between.
     """
-    settings = settings or LoopClosureSettings()
     near = door.rooms[0]
     found: list[tuple[float, Recognized]] = []
     for room in snapshot.of_type(RoomNode):
@@ -88,8 +97,8 @@ def recognize(
         std_m, std_rad = _drift(snapshot, near, room.id, settings)
         if model.depth_m(guess.position_m) < -np.sqrt(settings.gate) * std_m:
             continue
-        doors = _with_entrance(snapshot, model, door, guess @ T_near_base.inverse())
-        for one in hypotheses([sight], [KnownRoom(room=model, doors=doors)], GlobalLocalizationSettings(tries=6)):
+        doors = _with_entrance(snapshot, model, door, guess @ T_near_base.inverse(), settings)
+        for one in hypotheses([sight], [KnownRoom(room=model, doors=doors)], settings.localization):
             surprise = _surprise(guess, one.T_room_base, std_m, std_rad)
             fits = one.fit.explained >= settings.explained and one.fit.passed <= settings.passed and one.conditioned
             T_room_near = one.T_room_base @ T_near_base.inverse()
@@ -105,14 +114,16 @@ def recognize(
 
 
 def same_room(
-    snapshot: Snapshot, room_id: str, door: DoorNode | None = None, settings: LoopClosureSettings | None = None
+    snapshot: Snapshot,
+    room_id: str,
+    door: DoorNode | None = None,
+    settings: LoopClosureSettings = LoopClosureSettings(),
 ) -> SameRoom | None:
     """An older room that a newly measured one, entered through ``door``, turns out to be.
 
     Two rooms cannot take the same place. Where the layout has them only touch, they are one if one outline can be laid
     on the other within what the layout may be off, and doors and furniture agree.
     """
-    settings = settings or LoopClosureSettings()
     new = room_model(snapshot, room_id)
     if new is None:
         return None
@@ -140,13 +151,12 @@ def leads_nowhere_else(
     room: RoomModel,
     door: DoorNode,
     T_room_near: Pose2,
-    settings: LoopClosureSettings | None = None,
+    settings: LoopClosureSettings = LoopClosureSettings(),
 ) -> bool:
     """Whether ``door``, seen from ``room``, is not at a door that is known to lead to another one.
 
     ``T_room_near``: where the room that ``door`` was found from would be.
     """
-    settings = settings or LoopClosureSettings()
     T_room_door = T_room_near @ Pose2.from_se3(snapshot.transform(door.rooms[0], door.id))
     for other in snapshot.of_type(DoorNode):
         if other.rooms[0] == room.room_id and match_of(snapshot, other.id) not in (None, door.id):
@@ -158,14 +168,17 @@ def leads_nowhere_else(
     return True
 
 
-def _with_entrance(snapshot: Snapshot, room: RoomModel, door: DoorNode, T_room_near: Pose2) -> DoorwayModel:
+def _with_entrance(
+    snapshot: Snapshot, room: RoomModel, door: DoorNode, T_room_near: Pose2, settings: LoopClosureSettings
+) -> DoorwayModel:
     """The doors of a room with the one that the robot would have come through, which nobody may have seen from it."""
     doors = doorway_model(snapshot, room)
     T_room_door = T_room_near @ Pose2.from_se3(snapshot.transform(door.rooms[0], door.id))
-    place = place_in(room, T_room_door, slack_m=0.5)
+    place = place_in(room, T_room_door, settings.dual, slack_m=settings.entrance_m)
     if place is None:
         return doors
-    entrance = Doorway(wall=place.wall, center_m=place.station_m, width_m=door.width_m + 0.6, state=DoorState.UNKNOWN)
+    width_m = door.width_m + settings.entrance_wider_m
+    entrance = Doorway(wall=place.wall, center_m=place.station_m, width_m=width_m, state=DoorState.UNKNOWN)
     return replace(doors, doorways=(*doors.doorways, entrance))
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+from dataclasses import dataclass, field
 
 from perception.crossing import (
     DOOR_AGENT,
@@ -19,9 +20,9 @@ from perception.lidar.slice import OutlineSlicer
 from perception.localization.global_localization import Sight
 from perception.localization.robot_pose import RobotPose, robot_pose_at
 from perception.localization.room_model import RoomModel, room_model
-from perception.memory.dual_doors import place_in, root_pose, same_door, through_door, unmatched_doors
-from perception.memory.joining import UNWALKED_STD_M, join, put_dual, remove_room
-from perception.memory.loop_closure import recognize, same_room
+from perception.memory.dual_doors import DualDoorSettings, place_in, root_pose, same_door, through_door, unmatched_doors
+from perception.memory.joining import JoiningSettings, join, put_dual, remove_room
+from perception.memory.loop_closure import LoopClosureSettings, recognize, same_room
 from perception.sensing import SensorBuffer
 from scene_graph.edges import HasIntentionEdge, IntentionAction, IntentionStatus, RtEdge
 from scene_graph.memory import Transaction, WorkingMemory
@@ -30,10 +31,26 @@ from scene_graph.snapshot import Snapshot
 
 logger = logging.getLogger(__name__)
 
-_OUT_M = 0.05
-_AWAY_M = 0.6
-_NEAR_DOOR_M = 2.0
-_ATTEMPTS = 2
+
+@dataclass(frozen=True, kw_only=True)
+class TransitionSettings:
+    """Where one room ends for the robot and the next begins."""
+
+    out_m: float = 0.05
+    """Beyond a room's outline, and within the next one's: errors of the pose and of both."""
+    away_m: float = 0.6
+    """So far beyond it the robot is behind a door, whether or not it was asked to cross one: the thickest walls."""
+    near_door_m: float = 2.0
+    """A door that it goes through is not farther. Chosen."""
+    attempts: int = 2
+    """Crossings that do not lead out of the room before the door is given up. Chosen."""
+    entered_std: float = 0.03
+    """Of the pose in a known room behind a door, meters: both sides of it and the wall between."""
+    closed_std: float = 0.05
+    """The same when two rooms turn out to be one: what their outlines differ."""
+    loop_closure: LoopClosureSettings = field(default_factory=LoopClosureSettings)
+    dual: DualDoorSettings = field(default_factory=DualDoorSettings)
+    joining: JoiningSettings = field(default_factory=JoiningSettings)
 
 
 class RoomTransition:
@@ -45,9 +62,10 @@ class RoomTransition:
         memory: WorkingMemory,
         buffer: SensorBuffer,
         *,
+        settings: TransitionSettings = TransitionSettings(),
         slicer: OutlineSlicer | None = None,
     ) -> None:
-        self._agent = agent
+        self._agent, self._settings = agent, settings
         self._memory = memory
         self._buffer = buffer
         self._slicer = slicer or OutlineSlicer()
@@ -69,7 +87,7 @@ class RoomTransition:
         if pose is None or room is None or door_being_crossed(snapshot) is not None or in_doubt(snapshot):
             return
         depth_m = room.depth_m(pose.T_parent_base.position_m)
-        if depth_m < -_OUT_M and self._enter_known(snapshot, pose):
+        if depth_m < -self._settings.out_m and self._enter_known(snapshot, pose):
             return
         crossed = _crossing_done(snapshot)
         if crossed is not None and crossed[0].rooms[0] != room.room_id:
@@ -78,7 +96,7 @@ class RoomTransition:
             self._stayed_inside(*crossed)
         elif crossed is not None:
             self._enter_unknown(pose, crossed[0])
-        elif depth_m < -_AWAY_M and not snapshot.intentions(IntentionStatus.GRANTED):
+        elif depth_m < -self._settings.away_m and not snapshot.intentions(IntentionStatus.GRANTED):
             door = _nearest_door(snapshot, room, pose.T_parent_base)
             if door is not None and door.crossing is CrossingStatus.UNCROSSED:
                 self._enter_unknown(pose, door)
@@ -91,12 +109,13 @@ class RoomTransition:
                 continue
             far = room_model(snapshot, snapshot.door(other_id).rooms[0])
             T_near_door = Pose2.from_se3(snapshot.transform(pose.parent, door.id))
-            if far is None or T_near_door.distance_m(pose.T_parent_base) > _NEAR_DOOR_M:
+            if far is None or T_near_door.distance_m(pose.T_parent_base) > self._settings.near_door_m:
                 continue
             T_far_base = through_door(snapshot, door.id, other_id).inverse() @ pose.T_parent_base
-            if far.depth_m(T_far_base.position_m) > _OUT_M:
+            if far.depth_m(T_far_base.position_m) > self._settings.out_m:
                 with self._memory.edit(self._agent, self._stamp_s) as tx:
-                    move_robot(tx, far.room_id, T_far_base, self._buffer.odometry[-1].stamp_s, std=0.03)
+                    newest_s, std = self._buffer.odometry[-1].stamp_s, self._settings.entered_std
+                    move_robot(tx, far.room_id, T_far_base, newest_s, std)
                 logger.info("entered %s through %s", far.room_id, door.id, extra={"room": far.room_id})
                 return True
         return False
@@ -106,7 +125,7 @@ class RoomTransition:
         scan, known = self._buffer.scan, None
         if scan is not None:
             sight = Sight(scan=scan, outline=self._slicer.cut(scan), T_odom_base=pose.T_odom_base)
-            known = recognize(self._memory.building(), pose.T_parent_base, sight, door)
+            known = recognize(self._memory.building(), pose.T_parent_base, sight, door, self._settings.loop_closure)
         if known is not None:
             self._memory.load(known.room_id, agent=self._agent, stamp_s=self._stamp_s)
         with self._memory.edit(self._agent, self._stamp_s) as tx:
@@ -129,7 +148,7 @@ class RoomTransition:
         self._stayed[door.id] = self._stayed.get(door.id, 0) + 1
         with self._memory.edit(self._agent, self._stamp_s) as tx:
             tx.remove(edge.key)
-            if self._stayed[door.id] >= _ATTEMPTS:
+            if self._stayed[door.id] >= self._settings.attempts:
                 tx.put(given_up(door, "crossing it did not lead out of the room"))
 
     def _finish_crossing(self) -> None:
@@ -138,7 +157,7 @@ class RoomTransition:
         door, current = door_being_crossed(snapshot), snapshot.current_room
         if door is None or current is None or current == door.rooms[0]:
             return
-        same = same_room(self._memory.building(), current, door)
+        same = same_room(self._memory.building(), current, door, self._settings.loop_closure)
         if same is not None:
             snapshot = self._memory.load(same.room_id, agent=self._agent, stamp_s=self._stamp_s)
         with self._memory.edit(self._agent, self._stamp_s) as tx:
@@ -149,7 +168,8 @@ class RoomTransition:
             pose = robot_pose_at(snapshot, self._buffer, self._stamp_s)
             if pose is not None:
                 T_known_base = same.T_old_new @ pose.T_parent_base
-                move_robot(tx, same.room_id, T_known_base, self._buffer.odometry[-1].stamp_s, std=0.05)
+                newest_s, std = self._buffer.odometry[-1].stamp_s, self._settings.closed_std
+                move_robot(tx, same.room_id, T_known_base, newest_s, std)
             remove_room(tx, current)
             self._attach(tx, door, same.room_id, same.T_old_new @ T_new_near)
         logger.info("%s is %s; closed a loop", current, same.room_id, extra={"room": same.room_id})
@@ -159,12 +179,23 @@ class RoomTransition:
         snapshot = tx.snapshot
         room = room_model(snapshot, room_id)
         T_room_door = T_room_near @ Pose2.from_se3(snapshot.transform(door.rooms[0], door.id))
-        place = place_in(room, T_room_door) if room is not None else None
+        place = place_in(room, T_room_door, self._settings.dual) if room is not None else None
         if room is None or place is None:
             tx.put(given_up(door, "no wall of the room behind it has this door"))
             return
-        dual = _door_at(snapshot, room_id, T_room_door, door.width_m) or put_dual(tx, door, room, place, self._stamp_s)
-        join(tx, door, dual, T_room_near.inverse())
+        joining = self._settings.joining
+        dual = self._door_at(snapshot, room_id, T_room_door, door.width_m)
+        dual = dual or put_dual(tx, door, room, place, self._stamp_s, joining)
+        join(tx, door, dual, T_room_near.inverse(), std_m=joining.walked_std_m)
+
+    def _door_at(self, snapshot: Snapshot, room_id: str, T_room_door: Pose2, width_m: float) -> DoorNode | None:
+        """An unmatched door of the room that can be the other side of one at ``T_room_door``."""
+        for door in unmatched_doors(snapshot):
+            if door.rooms[0] == room_id:
+                T_room_own = Pose2.from_se3(snapshot.transform(room_id, door.id))
+                if same_door(T_room_door, T_room_own, (width_m, door.width_m), self._settings.dual):
+                    return door
+        return None
 
     def _match_doors(self) -> None:
         """Two doors found from two rooms may be the two sides of one, though nobody went through it."""
@@ -176,10 +207,10 @@ class RoomTransition:
                 if first.rooms[0] == second.rooms[0]:
                     continue
                 poses = root_pose(snapshot, first.id), root_pose(snapshot, second.id)
-                if same_door(*poses, (first.width_m, second.width_m)):
+                if same_door(*poses, (first.width_m, second.width_m), self._settings.dual):
                     T_near_far = root_pose(snapshot, first.rooms[0]).inverse() @ root_pose(snapshot, second.rooms[0])
                     with self._memory.edit(self._agent, self._stamp_s) as tx:
-                        join(tx, first, second, T_near_far, std_m=UNWALKED_STD_M)
+                        join(tx, first, second, T_near_far, std_m=self._settings.joining.unwalked_std_m)
                     logger.info("%s and %s are one door", first.id, second.id, extra={"door": first.id})
                     return
 
@@ -197,7 +228,8 @@ class RoomTransition:
         for door in new:
             pose = root_pose(snapshot, door.id)
             for other in stored:
-                if same_door(pose, root_pose(building, other.id), (door.width_m, other.width_m)):
+                widths_m = door.width_m, other.width_m
+                if same_door(pose, root_pose(building, other.id), widths_m, self._settings.dual):
                     self._memory.load(other.id, agent=self._agent, stamp_s=self._stamp_s)
 
 
@@ -225,13 +257,3 @@ def _nearest_door(snapshot: Snapshot, room: RoomModel, T_room_base: Pose2) -> Do
         key=lambda door: Pose2.from_se3(snapshot.transform(room.room_id, door.id)).distance_m(T_room_base),
         default=None,
     )
-
-
-def _door_at(snapshot: Snapshot, room_id: str, T_room_door: Pose2, width_m: float) -> DoorNode | None:
-    """An unmatched door of the room that can be the other side of one at ``T_room_door``."""
-    for door in unmatched_doors(snapshot):
-        if door.rooms[0] == room_id:
-            T_room_own = Pose2.from_se3(snapshot.transform(room_id, door.id))
-            if same_door(T_room_door, T_room_own, (width_m, door.width_m)):
-                return door
-    return None

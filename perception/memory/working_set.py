@@ -19,9 +19,10 @@ logger = logging.getLogger(__name__)
 
 @dataclass(frozen=True, kw_only=True)
 class WorkingSetSettings:
-    """``linger_s``: how long a room stays after nobody needs it, so that turning back in a door loads nothing."""
+    """How long rooms are held."""
 
     linger_s: float = 5.0
+    """A room stays for so long after nobody needs it, so that turning back in a door loads nothing. Chosen."""
 
 
 class WorkingSet:
@@ -33,10 +34,10 @@ class WorkingSet:
     goes when the new one stands. While the robot is in no room, everything stays as it is.
     """
 
-    def __init__(self, agent: str, memory: WorkingMemory, settings: WorkingSetSettings | None = None) -> None:
+    def __init__(self, agent: str, memory: WorkingMemory, settings: WorkingSetSettings = WorkingSetSettings()) -> None:
         self._agent = agent
         self._memory = memory
-        self._settings = settings or WorkingSetSettings()
+        self._settings = settings
         self._idle_since_s: dict[str, float] = {}
         self._way: tuple[tuple[Topology, str, frozenset[str]], frozenset[str]] | None = None
 

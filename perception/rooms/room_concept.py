@@ -4,33 +4,21 @@ from __future__ import annotations
 
 import asyncio
 import logging
-from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from perception.crossing import (
-    OUTDOORS,
-    door_being_crossed,
-    given_up,
-    in_doubt,
-    is_lost,
-    move_robot,
-    take_back,
-    taken_back,
-    uncrossed,
-)
+from perception.crossing import OUTDOORS, door_being_crossed, given_up, is_lost, taken_back, uncrossed
 from perception.geometry.planar import Pose2
-from perception.lidar.range_noise import calmed
-from perception.lidar.slice import OutlineScan, OutlineSlicer
+from perception.lidar.range_noise import CalmingSettings, calmed
+from perception.lidar.slice import OutlineSlicer
 from perception.lifecycle import LifeCycle, Verdict
 from perception.localization.robot_pose import RobotPose, robot_pose_at
-from perception.localization.room_model import RoomModel, room_model
-from perception.rooms.maintenance.adjustment import LocalAdjustment
-from perception.rooms.maintenance.outline_fitness import OutlineFitness, Stretch
-from perception.rooms.maintenance.revision import let_stand, missing_walls, revise_room, same_place
-from perception.rooms.maintenance.shifted_walls import shift_walls, wall_stds
+from perception.localization.room_model import room_model
+from perception.ports import RobotShape
+from perception.rooms.maintenance.revision import let_stand, revise_room, same_place
+from perception.rooms.maintenance.room_maintenance import RoomMaintenance, RoomMaintenanceSettings
 from perception.rooms.survey.insertion import insert_room, propose_visit, withdraw
 from perception.rooms.survey.instance import MeasuredRoom
 from perception.rooms.survey.survey import Survey, SurveySettings
@@ -46,15 +34,29 @@ Array = NDArray[np.float64]
 logger = logging.getLogger(__name__)
 
 UNMEASURABLE = "the room behind it could not be measured"
-_ATTEMPTS = 8
-_LOOK_S = 1.5
-_RETURNS = 4
-_WELL_INSIDE_M = 0.35
-_REVISIONS = 2
-_WORTH_WRITING = 0.05
-_USUAL_NOISE_M = 0.015
-_STRANDED_S = 4.0
-_MOVED_STD_M = 0.01
+
+
+@dataclass(frozen=True, kw_only=True)
+class RoomSettings:
+    """Patience of the room concept, and all that it works with."""
+
+    attempts: int = 8
+    """Vantage points before a room is taken as it is. Chosen."""
+    look_s: float = 1.5
+    """How long it looks around at each. Chosen: fifteen scans."""
+    returns: int = 4
+    """Times that the robot may come back through a door without a room behind it before it is given up. Chosen."""
+    well_inside_m: float = 0.35
+    """Depth in the known room from which on the robot is back in it: more than a doorway."""
+    stranded_s: float = 4.0
+    """After this long without a way further into a room it is taken as it looks. Chosen."""
+    lowest_m: float = 0.10
+    """Returns below are floor, not obstacles: five standard deviations of the usual range noise."""
+    usual_height_m: float = 2.5
+    """Of a room whose walls' top nobody has seen."""
+    calming: CalmingSettings = field(default_factory=CalmingSettings)
+    survey: SurveySettings = field(default_factory=SurveySettings)
+    maintenance: RoomMaintenanceSettings = field(default_factory=RoomMaintenanceSettings)
 
 
 class RoomConcept:
@@ -67,25 +69,23 @@ class RoomConcept:
         memory: WorkingMemory,
         buffer: SensorBuffer,
         *,
-        settings: SurveySettings | None = None,
+        settings: RoomSettings = RoomSettings(),
+        shape: RobotShape = RobotShape(),
         slicer: OutlineSlicer | None = None,
         period_s: float = 0.1,
     ) -> None:
         self.period_s = period_s
         self._memory = memory
         self._buffer = buffer
-        self._settings = settings or SurveySettings()
+        self._settings, self._shape = settings, shape
         self._slicer = slicer or OutlineSlicer()
-        self._survey = Survey(self._settings)
+        self._survey = self._new_survey()
+        self._maintenance = RoomMaintenance(self.name, memory, settings.maintenance)
         self._scan_stamp_s = -np.inf
         self._stamp_s = 0.0
         self._arrived_s: dict[float, float] = {}
         self._stranded_s = np.inf
         self._returns: dict[str, int] = {}
-        self._fitness: dict[str, OutlineFitness] = {}
-        self._adjustment = LocalAdjustment()
-        self._revised: dict[str, int] = {}
-        self._judge = False
         self._life = LifeCycle(
             "room",
             explain=self._explain,
@@ -102,6 +102,9 @@ class RoomConcept:
             await asyncio.to_thread(self._survey.solve, stamp_s)
         self._life.tick()
 
+    def _new_survey(self) -> Survey:
+        return Survey(self._settings.survey, self._shape)
+
     def _observe(self, snapshot: Snapshot) -> None:
         """Collect a view when the robot stands in no known room: before the first, or beyond the current one."""
         scan = self._buffer.scan
@@ -112,38 +115,16 @@ class RoomConcept:
         if pose is None or is_lost(snapshot):
             return
         if self._survey.started and self._survey.parent != pose.parent:
-            self._survey = Survey(self._settings)
+            self._survey = self._new_survey()
         model = room_model(snapshot, pose.parent)
         if model is None or not model.contains(pose.T_parent_base.position_m):
             self._survey.known = model
             self._survey.add(self._slicer.cut(scan), pose)
             return
-        if self._survey.started and model.depth_m(pose.T_parent_base.position_m) > _WELL_INSIDE_M:
+        if self._survey.started and model.depth_m(pose.T_parent_base.position_m) > self._settings.well_inside_m:
             self._abandon(snapshot)
         if door_being_crossed(snapshot) is None:
-            fitness = self._fitness.get(model.room_id)
-            if fitness is None or not np.array_equal(fitness.polygon, model.polygon):
-                fitness = self._fitness[model.room_id] = OutlineFitness(model.polygon)
-            self._judge |= fitness.add(self._slicer.cut(scan), pose.T_parent_base)
-            self._adjust(snapshot, model, self._slicer.cut(scan), pose)
-
-    def _adjust(self, snapshot: Snapshot, model: RoomModel, scan: OutlineScan, pose: RobotPose) -> None:
-        """Move walls of the room that are surely not quite where they are believed to be."""
-        if in_doubt(snapshot) or snapshot.room(model.room_id).status is not RoomStatus.PERMANENT:
-            self._adjustment.doubt()
-            return
-        if not self._adjustment.add(model, scan, pose):
-            return
-        shifts = self._adjustment.solve(wall_stds(snapshot, model))
-        if shifts is None:
-            return
-        self._adjustment.reset()
-        with self._memory.edit(self.name, self._stamp_s) as tx:
-            moved = shift_walls(tx, model, shifts, self._stamp_s)
-            if moved:
-                move_robot(tx, model.room_id, pose.T_parent_base @ shifts.T_base_moved, scan.stamp_s, _MOVED_STD_M)
-        if moved:
-            logger.info("adjusted %s: %s", model.room_id, shifts, extra={"room": model.room_id})
+            self._maintenance.observe(snapshot, model, self._slicer.cut(scan), pose, self._stamp_s)
 
     # The four stages of the life cycle.
 
@@ -168,35 +149,9 @@ class RoomConcept:
 
     def _maintain(self) -> Verdict:
         """A room that stands is kept, unless what is seen contradicts it: then it is taken back and measured again."""
-        snapshot = self._memory.snapshot()
-        room_id = snapshot.current_room
-        fitness = self._fitness.get(room_id) if room_id is not None else None
-        if room_id is None or fitness is None or not self._judge or _room_needed(snapshot):
-            return Verdict.DONE
-        self._judge = False
-        self._publish(snapshot.room(room_id), fitness)
-        if self._revised.get(room_id, 0) < _REVISIONS:
-            against = missing_walls(snapshot, room_id, fitness)
-            if against:
-                self._take_back(room_id, against)
+        if not _room_needed(self._memory.snapshot()) and self._maintenance.run(self._stamp_s):
+            self._survey = self._new_survey()
         return Verdict.DONE
-
-    def _publish(self, room: RoomNode, fitness: OutlineFitness) -> None:
-        """Let the room's confidence be its running fitness: what of its walls is lately seen where it should be."""
-        if abs(fitness.recent - room.confidence) > _WORTH_WRITING:
-            with self._memory.edit(self.name, self._stamp_s) as tx:
-                tx.put(replace(room, confidence=fitness.recent))
-
-    def _take_back(self, room_id: str, against: Sequence[Stretch]) -> None:
-        self._revised[room_id] = self._revised.get(room_id, 0) + 1
-        del self._fitness[room_id]
-        self._survey = Survey(self._settings)
-        with self._memory.edit(self.name, self._stamp_s) as tx:
-            take_back(tx, room_id)
-        length_m = max(stretch.end_m - stretch.start_m for stretch in against)
-        logger.info(
-            "%.1f m of a wall of %s are not there; measuring it again", length_m, room_id, extra={"room": room_id}
-        )
 
     def _affordances(self) -> Verdict:
         """Withdraw a visit to a room that needs no measuring any more."""
@@ -215,7 +170,7 @@ class RoomConcept:
             self._stranded_s = np.inf
             return begun
         self._stranded_s = min(self._stranded_s, self._stamp_s)
-        if self._stamp_s < self._stranded_s + _STRANDED_S:
+        if self._stamp_s < self._stranded_s + self._settings.stranded_s:
             return Verdict.BUSY
         self._stranded_s = np.inf
         logger.info("no way leads further into what looks like a room")
@@ -226,9 +181,9 @@ class RoomConcept:
         arrived_s = self._arrived_s.setdefault(intention.proposed_s, self._stamp_s)
         if self._survey.closed:
             return self._conclude(snapshot, pose)
-        if self._stamp_s < arrived_s + _LOOK_S:
+        if self._stamp_s < arrived_s + self._settings.look_s:
             return Verdict.BUSY
-        if len(self._survey.places) >= _ATTEMPTS:
+        if len(self._survey.places) >= self._settings.attempts:
             return self._conclude(snapshot, pose)
         return self._propose(pose, intention.target) or self._conclude(snapshot, pose)
 
@@ -262,14 +217,22 @@ class RoomConcept:
         intention = own_intention(snapshot)
         room_id = intention.target if intention else next_id(snapshot, "room")
         with self._memory.edit(self.name, self._stamp_s) as tx:
-            insert_room(tx, room, room_id, status=self._status, height_m=self._height_m, stamp_s=self._scan_stamp_s)
+            insert_room(
+                tx,
+                room,
+                room_id,
+                status=self._status,
+                height_m=self._height_m,
+                stamp_s=self._scan_stamp_s,
+                settings=self._settings.survey.instance,
+            )
         self._say("stands", room_id, room)
-        self._survey = Survey(self._settings)
+        self._survey = self._new_survey()
         return Verdict.DONE
 
     def _revise(self, doubted: RoomNode, room: MeasuredRoom | None) -> Verdict:
         """The room that was taken back stands as it was measured now, or for want of that as it was."""
-        if room is not None and not same_place(doubted, room):
+        if room is not None and not same_place(doubted, room, self._settings.maintenance.revision):
             logger.info("what was measured is not %s; it stands as it was", doubted.id, extra={"room": doubted.id})
             room = None
         with self._memory.edit(self.name, self._stamp_s) as tx:
@@ -277,11 +240,18 @@ class RoomConcept:
                 let_stand(tx, doubted)
             else:
                 revise_room(
-                    tx, room, doubted.id, status=self._status, height_m=self._height_m, stamp_s=self._scan_stamp_s
+                    tx,
+                    room,
+                    doubted.id,
+                    status=self._status,
+                    height_m=self._height_m,
+                    stamp_s=self._scan_stamp_s,
+                    settings=self._settings.maintenance.revision,
+                    instance=self._settings.survey.instance,
                 )
         if room is not None:
             self._say("is revised", doubted.id, room)
-        self._survey = Survey(self._settings)
+        self._survey = self._new_survey()
         return Verdict.DONE
 
     @property
@@ -290,7 +260,7 @@ class RoomConcept:
 
     @property
     def _height_m(self) -> float:
-        return self._slicer.ceiling_m or self._slicer.wall_top_m or 2.5
+        return self._slicer.ceiling_m or self._slicer.wall_top_m or self._settings.usual_height_m
 
     def _say(self, happened: str, room_id: str, room: MeasuredRoom) -> None:
         sides = np.ptp(room.polygon, axis=0)
@@ -313,7 +283,7 @@ class RoomConcept:
             tx.put(given_up(door, reason))
             withdraw(tx)
         logger.info("gave up on %s: %s", door.id, reason, extra={"door": door.id})
-        self._survey = Survey(self._settings)
+        self._survey = self._new_survey()
         return Verdict.NO
 
     def _abandon(self, snapshot: Snapshot) -> None:
@@ -323,17 +293,18 @@ class RoomConcept:
             withdraw(tx)
             if door is not None:
                 self._returns[door.id] = self._returns.get(door.id, 0) + 1
-                again = self._returns[door.id] < _RETURNS
+                again = self._returns[door.id] < self._settings.returns
                 tx.put(uncrossed(door) if again else given_up(door, UNMEASURABLE))
-        self._survey = Survey(self._settings)
+        self._survey = self._new_survey()
 
     def _obstacles_base(self) -> Array:
         """(N, 2) returns at the height of the robot's body."""
         scan = self._buffer.scan
         if scan is None:
             return np.empty((0, 2))
-        ranges_m = calmed(scan.ranges_m.astype(np.float64), _USUAL_NOISE_M).astype(np.float32)
-        return scan_points_between(replace(scan, ranges_m=ranges_m), 0.10, 1.7)[:, :2]
+        settings = self._settings
+        ranges_m = calmed(scan.ranges_m.astype(np.float64), settings.calming).astype(np.float32)
+        return scan_points_between(replace(scan, ranges_m=ranges_m), settings.lowest_m, self._shape.height_m)[:, :2]
 
 
 def own_intention(snapshot: Snapshot) -> HasIntentionEdge | None:

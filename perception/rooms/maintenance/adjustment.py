@@ -10,7 +10,7 @@ furniture that reaches the ceiling and hides four fifths of a wall from all side
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,44 +19,53 @@ from perception.geometry.planar import Pose2
 from perception.lidar.slice import OutlineScan
 from perception.localization.robot_pose import RobotPose
 from perception.localization.room_model import RoomModel
-from perception.rooms.maintenance.wall_sightings import ShiftCost
+from perception.rooms.maintenance.wall_sightings import ShiftCost, SightingSettings
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
-_ROUNDS = 6
-_VIEW_GATE = 3.0
-
 
 @dataclass(frozen=True, kw_only=True)
 class AdjustmentSettings:
-    """When a view is taken, and when a wall is moved.
-
-    ``every_m``, ``every_s``: way and time between views. ``apart_m``: a view replaces an older one from nearer than
-    this; ``views`` are kept. ``inside_m``: least depth in the room. ``pose_std_m``: of a pose that may be believed.
-    ``seen_from``: number of places that must agree on a wall to ``agree_m``, and ``agreeing`` share of all that say
-    anything about it; ``nearer_from``: when it is nearer than believed, as furniture would be. ``least_m``: smallest
-    shift worth a change, ``sigmas`` its standard deviations. ``most_m``: what is off by more is no adjustment but
-    another outline. ``firmest_m``: no wall is known better than this. How far the walls that are off are to be moved is
-    told with the others held, to ``held_m``, and what was believed about them ``loose`` times as vague.
-    """
+    """When a view is taken, and when a wall is moved."""
 
     every_m: float = 0.4
+    """Way between views. Chosen: from nearer places the same furniture hides the same walls."""
     every_s: float = 2.0
+    """Or time. Chosen: twenty scans."""
     apart_m: float = 0.4
+    """A view replaces an older one from nearer than this."""
     views: int = 24
+    """That are kept. Chosen: several from everywhere in a usual room."""
     inside_m: float = 0.3
+    """Least depth in the room: from a doorway little of it is seen."""
     pose_std_m: float = 0.1
+    """Of a pose that may be believed. Chosen."""
     seen_from: int = 5
+    """Number of places that must agree on a wall. Chosen."""
     nearer_from: int = 8
+    """When it is nearer than believed, as furniture would be."""
     agree_m: float = 0.015
+    """How well they must agree. Chosen: somewhat above what averages over a scan are off."""
     agreeing: float = 0.75
+    """Share of all places that say anything about the wall. Chosen."""
     least_m: float = 0.008
+    """Smallest shift worth a change. Chosen: nobody who drives by the outline would notice less."""
     sigmas: float = 3.0
+    """And its standard deviations."""
     most_m: float = 0.3
+    """What is off by more is no adjustment but another outline."""
     firmest_m: float = 0.003
+    """No wall is known better than this. Chosen: about how flat walls are."""
     held_m: float = 0.0005
+    """How far the walls that are off are to be moved is told with the others held to this."""
     loose: float = 5.0
+    """And with what was believed about them so many times as vague. Chosen."""
+    rounds: int = 6
+    """Of reweighting. Chosen: weights have settled by then."""
+    view_gate: float = 3.0
+    """Misfit of a view, in standard deviations, from which on it counts less."""
+    sightings: SightingSettings = field(default_factory=SightingSettings)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -78,8 +87,8 @@ class WallShifts:
 class LocalAdjustment:
     """Evidence about the walls of the room that the robot is in; forgotten when it enters another one."""
 
-    def __init__(self, settings: AdjustmentSettings | None = None) -> None:
-        self._settings = settings or AdjustmentSettings()
+    def __init__(self, settings: AdjustmentSettings = AdjustmentSettings()) -> None:
+        self._settings = settings
         self.reset()
 
     def reset(self) -> None:
@@ -107,7 +116,7 @@ class LocalAdjustment:
         self._last, self._last_s = here, scan.stamp_s
         if self._newest is not None:
             self._keep(self._newest)
-        self._newest = ShiftCost.of(scan, pose, model.walls)
+        self._newest = ShiftCost.of(scan, pose, model.walls, settings.sightings)
         return True
 
     def _due(self, here: Pose2, stamp_s: float) -> bool:
@@ -145,11 +154,11 @@ class LocalAdjustment:
         """Shifts (K,) and their standard deviations, by iteratively reweighted least squares."""
         shifts = np.zeros(len(std_m))
         spread = np.diag(std_m**2)
-        for _ in range(_ROUNDS):
+        for _ in range(self._settings.rounds):
             variance = std_m * np.maximum(std_m, np.abs(shifts))
             information, vector = np.diag(1.0 / variance), np.zeros(len(std_m))
             for view in self._views:
-                weight = min(1.0, _VIEW_GATE / max(view.misfit(shifts), 1e-9))
+                weight = min(1.0, self._settings.view_gate / max(view.misfit(shifts), 1e-9))
                 information += weight * view.information
                 vector += weight * view.vector
             spread = np.asarray(np.linalg.inv(information), dtype=np.float64)

@@ -6,19 +6,18 @@ corners are replaced, and doors move to the wall that is now where they are.
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from perception.crossing import cross_affordance, match_of, move_robot
-from perception.doors.insertion import WIDEST_DOOR_M
 from perception.geometry.planar import Pose2, diagonal_covariance, spatial_covariance
 from perception.geometry.polygon import shared_area, wall_lengths
-from perception.localization.doorways import doors_in
+from perception.localization.doorways import DoorSizes, doors_in
 from perception.rooms.maintenance.outline_fitness import OutlineFitness, Stretch
 from perception.rooms.survey.insertion import withdraw
-from perception.rooms.survey.instance import MeasuredRoom, room_elements
+from perception.rooms.survey.instance import InstanceSettings, MeasuredRoom, room_elements
 from scene_graph.edges import RtEdge
 from scene_graph.geometry.se3 import SE3
 from scene_graph.identifiers import wall_id_of
@@ -28,13 +27,26 @@ from scene_graph.snapshot import Snapshot
 
 Array = NDArray[np.float64]
 
-_SAME_WALL_M = 0.3
-_PARALLEL = 0.95
-_CORNER_M = 0.35
-_SHARED = 0.6
+
+@dataclass(frozen=True, kw_only=True)
+class RevisionSettings:
+    """When a stretch of wall is missing, and what of the old outline is found in the new one."""
+
+    corner_m: float = 0.35
+    """A contradicted stretch that ends so near to a corner goes on to it. Chosen: rays near corners tell nothing."""
+    widest_door_m: float = DoorSizes.widest_m
+    """Such a stretch, if it is wider, is no door: a part of the room is behind it."""
+    shared: float = 0.6
+    """Share of the smaller outline that must lie in the other for both to be one room. Chosen: clearly most."""
+    same_wall_m: float = 0.3
+    """Farthest that a door moves to a wall; one that leads nowhere and is farther from all was none. Chosen."""
+    parallel: float = 0.95
+    """Cosine of the angle between a door and its wall: eighteen degrees. Chosen: walls are at right angles."""
 
 
-def missing_walls(snapshot: Snapshot, room_id: str, fitness: OutlineFitness) -> list[Stretch]:
+def missing_walls(
+    snapshot: Snapshot, room_id: str, fitness: OutlineFitness, settings: RevisionSettings = RevisionSettings()
+) -> list[Stretch]:
     """Contradicted stretches of a room's walls that no door explains, not even a suspected one.
 
     An opening wider than a door that goes on to a corner is no door: a part of the room is behind it.
@@ -45,8 +57,8 @@ def missing_walls(snapshot: Snapshot, room_id: str, fitness: OutlineFitness) -> 
         wall_id, length_m = wall_id_of(room_id, stretch.wall), float(lengths[stretch.wall])
         if wall_id not in snapshot:
             continue
-        to_corner = stretch.start_m < _CORNER_M or stretch.end_m > length_m - _CORNER_M
-        wide = stretch.end_m - stretch.start_m > WIDEST_DOOR_M
+        to_corner = stretch.start_m < settings.corner_m or stretch.end_m > length_m - settings.corner_m
+        wide = stretch.end_m - stretch.start_m > settings.widest_door_m
         if (wide and to_corner) or not any(
             start_m < stretch.end_m and stretch.start_m < end_m
             for start_m, end_m in _door_spans(snapshot, wall_id, length_m)
@@ -64,14 +76,14 @@ def _door_spans(snapshot: Snapshot, wall_id: str, length_m: float) -> list[tuple
     ]
 
 
-def same_place(before: RoomNode, measured: MeasuredRoom) -> bool:
+def same_place(before: RoomNode, measured: MeasuredRoom, settings: RevisionSettings = RevisionSettings()) -> bool:
     """Whether what was measured anew lies, for the most part, where the room was thought to be.
 
     The smaller of the two must be mostly within the other: a part may turn out to be missing, or to have been missed.
     """
     old, new = np.array(before.polygon_m), measured.T_parent_room.apply(measured.polygon)
     before_area, area, shared = shared_area(old, new)
-    return shared > _SHARED * max(1, min(before_area, area))
+    return shared > settings.shared * max(1, min(before_area, area))
 
 
 def let_stand(tx: Transaction, room: RoomNode) -> None:
@@ -81,7 +93,15 @@ def let_stand(tx: Transaction, room: RoomNode) -> None:
 
 
 def revise_room(
-    tx: Transaction, measured: MeasuredRoom, room_id: str, *, status: RoomStatus, height_m: float, stamp_s: float
+    tx: Transaction,
+    measured: MeasuredRoom,
+    room_id: str,
+    *,
+    status: RoomStatus,
+    height_m: float,
+    stamp_s: float,
+    settings: RevisionSettings = RevisionSettings(),
+    instance: InstanceSettings = InstanceSettings(),
 ) -> None:
     """Replace the outline of a room that was taken back. ``measured.T_parent_room`` is relative to its old frame.
 
@@ -92,7 +112,7 @@ def revise_room(
     before = snapshot.room(room_id)
     T_room_measured = measured.T_parent_room
     renewed = replace(measured, polygon=T_room_measured.apply(measured.polygon))
-    elements = room_elements(renewed, room_id, status=status, height_m=height_m, stamp_s=stamp_s)
+    elements = room_elements(renewed, room_id, status=status, height_m=height_m, stamp_s=stamp_s, settings=instance)
     written = {element.id for element in elements if not isinstance(element, RtEdge)}
     walls = [node.id for node in snapshot.of_type(WallNode) if node.parent_room == room_id]
     doors = [
@@ -105,7 +125,7 @@ def revise_room(
     if place is not None and place.wall_shifts_m:
         tx.put(replace(place, wall_shifts_m=()))
     for door, T_room_door in doors:
-        _rehang(tx, door, T_room_door, renewed.polygon, room_id, written, stamp_s)
+        _rehang(tx, door, T_room_door, renewed.polygon, room_id, written, stamp_s, settings)
     for wall_id in walls:
         corner_id = "corner_" + wall_id.removeprefix("wall_")
         for stale in (corner_id, wall_id):
@@ -133,6 +153,7 @@ def _rehang(
     room_id: str,
     written: set[str],
     stamp_s: float,
+    settings: RevisionSettings,
 ) -> None:
     """Hang a door from the nearest wall that runs along it; without one it was none, unless it leads somewhere."""
     starts, ends = polygon, np.roll(polygon, -1, axis=0)
@@ -143,10 +164,10 @@ def _rehang(
     away = np.linalg.norm(offset - station[:, None] * along, axis=1)
     heading = np.array([np.cos(T_room_door.yaw_rad), np.sin(T_room_door.yaw_rad)])
     exists = np.array([wall_id_of(room_id, k) in written for k in range(len(polygon))])
-    away = np.where((along @ heading > _PARALLEL) & exists, away, np.inf)
+    away = np.where((along @ heading > settings.parallel) & exists, away, np.inf)
     wall = int(np.argmin(away))
     leads_somewhere = match_of(tx.snapshot, door.id) is not None
-    if not np.isfinite(away[wall]) or (away[wall] > _SAME_WALL_M and not leads_somewhere):
+    if not np.isfinite(away[wall]) or (away[wall] > settings.same_wall_m and not leads_somewhere):
         for gone in (cross_affordance(door.id), door.id):
             if gone in tx.snapshot:
                 tx.remove(gone)

@@ -7,7 +7,7 @@ everything else that was measured in it keep their places. Doors keep theirs alo
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,13 +26,22 @@ from scene_graph.snapshot import Snapshot
 
 Array = NDArray[np.float64]
 
-_SHORTEST_M = 0.05
-_LEAST_SINE = 0.3
-_UNSEEN_STD_M = 0.02
 _ACROSS = 1  # a wall's y axis, into the room
 
 
-def wall_stds(snapshot: Snapshot, model: RoomModel) -> Array:
+@dataclass(frozen=True, kw_only=True)
+class ShiftSettings:
+    """Which shifts an outline allows, and how well its walls are known."""
+
+    shortest_m: float = 0.05
+    """Shortest wall that may be left. Chosen: shorter ones would turn round."""
+    least_sine: float = 0.3
+    """Of the angle between two walls that meet in a corner: seventeen degrees. Chosen: flatter ones fix no corner."""
+    unseen_std_m: float = 0.02
+    """Added for a wall that was not seen at all when it was measured, in part for one that was in part. Chosen."""
+
+
+def wall_stds(snapshot: Snapshot, model: RoomModel, settings: ShiftSettings = ShiftSettings()) -> Array:
     """(K,) standard deviations in meters of the walls' places across themselves, as the graph has them.
 
     The less of a wall was seen when it was measured, the less sure it is beyond its covariance.
@@ -43,28 +52,30 @@ def wall_stds(snapshot: Snapshot, model: RoomModel) -> Array:
         wall, edge = snapshot.get(wall_id), snapshot.parent(wall_id)
         if wall is not None and edge is not None:
             std_m = np.sqrt(edge.covariance[_ACROSS, _ACROSS])
-            stds[k] = np.hypot(std_m, _UNSEEN_STD_M * (1.0 - wall.confidence))
+            stds[k] = np.hypot(std_m, settings.unseen_std_m * (1.0 - wall.confidence))
     return stds
 
 
-def shifted_outline(polygon: Array, shift_m: Array) -> Array | None:
+def shifted_outline(polygon: Array, shift_m: Array, settings: ShiftSettings = ShiftSettings()) -> Array | None:
     """(N, 2) ``polygon`` with each wall moved (N,) into the room; ``None`` when a wall would turn round or vanish."""
     walls = Walls.of_polygon(polygon)
     normals, offsets = walls.normal, walls.offset_m + shift_m
     moved = polygon.copy()
     for k in range(len(polygon)):
         both = normals[[k - 1, k]]
-        if abs(np.linalg.det(both)) > _LEAST_SINE:
+        if abs(np.linalg.det(both)) > settings.least_sine:
             moved[k] = np.linalg.solve(both, offsets[[k - 1, k]])
         elif shift_m[k - 1] != 0.0 or shift_m[k] != 0.0:
             return None
     lengths = ((np.roll(moved, -1, axis=0) - moved) * walls.along).sum(axis=1)
-    return moved if (lengths > _SHORTEST_M).all() else None
+    return moved if (lengths > settings.shortest_m).all() else None
 
 
-def shift_walls(tx: Transaction, model: RoomModel, shifts: WallShifts, stamp_s: float) -> bool:
+def shift_walls(
+    tx: Transaction, model: RoomModel, shifts: WallShifts, stamp_s: float, settings: ShiftSettings = ShiftSettings()
+) -> bool:
     """Move walls, the corners at their ends and the doors in them; whether the outline allows it."""
-    polygon = shifted_outline(model.polygon, shifts.shift_m)
+    polygon = shifted_outline(model.polygon, shifts.shift_m, settings)
     if polygon is None:
         return False
     snapshot, room_id = tx.snapshot, model.room_id

@@ -21,39 +21,51 @@ from perception.localization.robot_pose import RobotPose
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
-_CORNER_M = 0.12
-_BIN_M = 0.1
-_HUBER = 1.5
-_FIT_ROUNDS = 3
-_FEWEST = 8
-_LEAST_SIGMA_M = 0.005
-
 
 @dataclass(frozen=True, kw_only=True)
 class SightingSettings:
-    """``reach_m``: how far from its place a wall is looked for, in steps of ``step_m``. ``gate_m``: returns this near
-    to a surface, and three standard deviations of the ranges, are on it. ``share``, ``least_m``: how much of a wall's
-    length a scan must see of it, and ``other_share`` when it is not in its place, to ``place_m``; ``behind_m``: length
-    of another surface behind it that makes it none. A line about which returns spread more than ``flat_m`` and ``flat``
-    times the noise of the ranges is of two surfaces. ``floor_m``: error of a wall's distance that averaging over a scan
-    does not remove; ``correlated``: how many neighboring returns err together. ``slack_m``, ``slack_rad``: what walls
-    that are off may have done to the pose, which was told from them.
-    """
+    """What is a wall in a scan, and how well it tells where the wall is."""
 
     reach_m: float = 0.32
+    """How far from its place a wall is looked for: four steps."""
     step_m: float = 0.08
+    """Between places where it is looked for: less than twice the gate."""
     gate_m: float = 0.045
+    """Returns this near to a surface, or three standard deviations of the ranges, are on it. Chosen."""
     place_m: float = 0.03
+    """A wall is in its place to so much. Chosen: errors of the pose."""
     share: float = 0.35
+    """Of a wall's length that a scan must see of it. Chosen: furniture hides the rest."""
     other_share: float = 0.6
+    """The same where it is not in its place: it may as well be furniture."""
     least_m: float = 0.4
+    """Length that must be seen of a short wall. Chosen: as wide as a narrow cupboard."""
     behind_m: float = 0.15
+    """Length of another surface behind it that makes it none. Chosen: one and a half bins."""
     flat_m: float = 0.015
+    """A line about which returns spread more is of two surfaces. Chosen."""
     flat: float = 1.5
+    """Or more than so many times the noise of the ranges."""
     floor_m: float = 0.004
+    """Error of a wall's distance that averaging over a scan does not remove. Chosen: walls are not flatter."""
     correlated: float = 9.0
+    """How many neighboring returns err together. Chosen."""
     slack_m: float = 0.1
+    """What walls that are off may have done to the pose, which was told from them. Chosen: a third of the reach."""
     slack_rad: float = 0.02
+    """The same of its heading."""
+    corner_m: float = 0.12
+    """So near to its ends a wall is not looked at: returns there may be the next wall's. Chosen: two gates and more."""
+    bin_m: float = 0.1
+    """Stations in which returns make a wall seen. Chosen: about the spacing of rays that graze it."""
+    huber: float = 1.5
+    """Standard deviations from which on a return counts less: near the usual 1.345."""
+    fit_rounds: int = 3
+    """Of fitting anew. Chosen: medians and weights have settled by then."""
+    fewest: int = 8
+    """Returns of a wall, as of a line in ``lidar.corners``."""
+    least_sigma_m: float = 0.005
+    """Least spread of returns, so that a few that agree by chance are not believed too much. Chosen."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -89,21 +101,20 @@ class WallLines:
 
 
 def wall_lines(
-    scan: OutlineScan, T_room_base: Pose2, walls: Walls, settings: SightingSettings | None = None
+    scan: OutlineScan, T_room_base: Pose2, walls: Walls, settings: SightingSettings = SightingSettings()
 ) -> WallLines:
     """The lines of ``walls`` that ``scan``, taken at ``T_room_base``, shows."""
-    settings = settings or SightingSettings()
     points = T_room_base.apply(scan.points_base)
     offset = points @ walls.normal.T - walls.offset_m
     station = points @ walls.along.T - (walls.start * walls.along).sum(axis=1)
     gate_m = max(settings.gate_m, 3.0 * scan.noise_m)
     flat_m = max(settings.flat_m, settings.flat * scan.noise_m)
-    within = (np.abs(offset) < settings.reach_m + gate_m) & (station > _CORNER_M)
-    within &= station < walls.length_m - _CORNER_M
+    within = (np.abs(offset) < settings.reach_m + gate_m) & (station > settings.corner_m)
+    within &= station < walls.length_m - settings.corner_m
     within &= walls.normal @ T_room_base.position_m - walls.offset_m > settings.reach_m
     rows: list[tuple[float, ...]] = []
     mixed = np.zeros(len(walls.offset_m), dtype=bool)
-    for k in np.flatnonzero(within.sum(axis=0) >= _FEWEST).tolist():
+    for k in np.flatnonzero(within.sum(axis=0) >= settings.fewest).tolist():
         near = np.flatnonzero(within[:, k])
         found, mixed[k] = _surface(offset[near, k], station[near, k], float(walls.length_m[k]), gate_m, settings)
         if found is not None:
@@ -118,40 +129,40 @@ def _surface(
     offset: Array, station: Array, length_m: float, gate_m: float, settings: SightingSettings
 ) -> tuple[Mask | None, bool]:
     """(N,) returns on the wall, ``None`` when too little is seen of it, and whether another surface is behind it."""
-    bins = (station / _BIN_M).astype(np.int64)
+    bins = (station / settings.bin_m).astype(np.int64)
     starts = np.arange(-settings.reach_m, settings.reach_m + 1e-6, settings.step_m)
     for start_m in starts[np.argsort(np.abs(starts))].tolist():
         center_m = start_m
-        for _ in range(_FIT_ROUNDS):
+        for _ in range(settings.fit_rounds):
             on = np.abs(offset - center_m) < gate_m
             center_m = float(np.median(offset[on])) if on.any() else center_m
         in_place = abs(center_m) < settings.place_m
         share = settings.share if in_place else settings.other_share
-        if _length_m(bins[on]) < max(settings.least_m, share * (length_m - 2.0 * _CORNER_M)):
+        if _length_m(bins[on], settings) < max(settings.least_m, share * (length_m - 2.0 * settings.corner_m)):
             continue
-        mixed = not in_place and _length_m(bins[offset < center_m - 2.0 * gate_m]) >= settings.behind_m
+        mixed = not in_place and _length_m(bins[offset < center_m - 2.0 * gate_m], settings) >= settings.behind_m
         return (None, True) if mixed else (on, False)
     return None, False
 
 
-def _length_m(bins: NDArray[np.int64]) -> float:
+def _length_m(bins: NDArray[np.int64], settings: SightingSettings) -> float:
     """Length of wall on which returns with these station bins lie."""
-    return _BIN_M * len(np.unique(bins))
+    return settings.bin_m * len(np.unique(bins))
 
 
 def _line(offset: Array, station: Array, settings: SightingSettings) -> tuple[float, float, float, float, float]:
     """Offset at the mean station, slope, the standard deviations of both, and the returns' spread; Huber's weights."""
     lever = station - station.mean()
     mean_m, slope = float(np.median(offset)), 0.0
-    for _ in range(_FIT_ROUNDS):
+    for _ in range(settings.fit_rounds):
         residual = offset - mean_m - slope * lever
-        sigma_m = max(_LEAST_SIGMA_M, 1.4826 * float(np.median(np.abs(residual))))
-        weight = np.minimum(1.0, _HUBER * sigma_m / np.maximum(np.abs(residual), 1e-9))
+        sigma_m = max(settings.least_sigma_m, 1.4826 * float(np.median(np.abs(residual))))
+        weight = np.minimum(1.0, settings.huber * sigma_m / np.maximum(np.abs(residual), 1e-9))
         total, first, second = weight.sum(), (weight * lever).sum(), (weight * lever**2).sum()
         moments = np.array([[total, first], [first, second]])
         mean_m, slope = np.linalg.solve(moments, [(weight * offset).sum(), (weight * lever * offset).sum()]).tolist()
     variance = settings.correlated * sigma_m**2
-    half_m = max(float(station.max() - station.min()) / 2.0, _BIN_M)
+    half_m = max(float(station.max() - station.min()) / 2.0, settings.bin_m)
     return (
         mean_m,
         slope,
@@ -181,10 +192,9 @@ class ShiftCost:
 
     @classmethod
     def of(
-        cls, scan: OutlineScan, pose: RobotPose, walls: Walls, settings: SightingSettings | None = None
+        cls, scan: OutlineScan, pose: RobotPose, walls: Walls, settings: SightingSettings = SightingSettings()
     ) -> ShiftCost:
         """The cost of ``scan``, taken at ``pose`` in the room's frame."""
-        settings = settings or SightingSettings()
         lines = wall_lines(scan, pose.T_parent_base, walls, settings)
         seen, jacobian = np.eye(len(walls.offset_m))[lines.wall], _by_pose(lines, walls, pose.T_parent_base)
         weight, turned = lines.offset_std_m**-2.0, lines.slope_std**-2.0

@@ -8,9 +8,8 @@ as high as the walls are told by ``portals``.
 
 from __future__ import annotations
 
-from collections import deque
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 
 import numpy as np
@@ -18,42 +17,48 @@ from numpy.typing import NDArray
 
 from perception.geometry.planar import Pose2
 from perception.geometry.runs import runs
-from perception.rooms.outline.portals import Portal, find_portals
+from perception.rooms.outline.cells import cell_of, flood, slits, thin, without_crannies
+from perception.rooms.outline.portals import Portal, PortalSettings, find_portals
 from perception.rooms.views.facets import Facets
-from perception.rooms.views.line_profile import STATION_STEP_M, LineProfile, end_of_wall
+from perception.rooms.views.line_profile import LineProfile, LineProfileSettings, end_of_wall
 from perception.rooms.views.view import View
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
-_RUN = 4  # stations
-_CORNERS = 4  # gates
-
 
 @dataclass(frozen=True, kw_only=True)
 class ArrangementSettings:
-    """Lengths in meters.
-
-    ``gate_m``: returns this near to a line support it. ``shortest_wall_m``: least supported length of a line.
-    ``separation_m``: nearer parallel lines are one. ``blocked``: share of rays ending at a place on a line that make it
-    wall there; low, as most rays pass below a low lintel. ``wall``: share of a stretch that must be wall to block it.
-    ``free``: share of a cell that must have been seen through, ``free_thin`` if it is thinner than ``thin_m``, as tall
-    furniture then hides most of it. ``views``: how many of the views are asked.
-    ``narrowest_m``: what is narrower is no part of the room, but a door's reveal or the room
-    behind it, half seen under its lintel.
-    """
+    """Which lines and cells there are, and which of them are walls and room."""
 
     gate_m: float = 0.06
+    """Returns this near to a line support it: three standard deviations of the usual range noise."""
     shortest_wall_m: float = 0.2
+    """Least supported length of a line. Chosen: that of a narrow nook's back."""
     separation_m: float = 0.09
+    """Nearer parallel lines are one: one and a half gates."""
     blocked: float = 0.2
+    """Share of rays ending at a place on a line that make it wall there; low, as most rays pass below a low lintel."""
     wall: float = 0.5
+    """Share of a stretch that must be wall to block it. Chosen: most of it."""
     free: float = 0.5
+    """Share of a cell that must have been seen through. Chosen: most of it."""
     free_thin: float = 0.2
+    """The same of a thin one, as tall furniture then hides most of it."""
     thin_m: float = 1.0
+    """What is thinner is thin. Chosen: less than twice a wardrobe."""
     free_margin_m: float = 0.06
+    """How far beyond a place a ray must go to have seen through it: a gate."""
     views: int = 24
+    """How many of the views are asked. Chosen: for speed."""
     narrowest_m: float = 0.4
+    """What is narrower is no part of the room, but a door's reveal, or the room behind half seen under its lintel."""
+    run: int = 4
+    """Stations of wall, and of opening beside it, that make an end of a wall. Chosen: less may be chance."""
+    corner_gates: float = 4.0
+    """Gates from which on a stretch is longer than its corners, so that rays that end in these tell nothing of it."""
+    profile: LineProfileSettings = field(default_factory=LineProfileSettings)
+    portals: PortalSettings = field(default_factory=PortalSettings)
 
     def for_noise(self, noise_m: float) -> ArrangementSettings:
         """Gates wide enough for ranges with this standard deviation."""
@@ -117,25 +122,33 @@ def arrange(
     x_facing: Facets,
     y_facing: Facets,
     direction_rad: float,
-    settings: ArrangementSettings | None = None,
+    settings: ArrangementSettings = ArrangementSettings(),
 ) -> Arrangement | None:
     """The arrangement of all wall lines, with the cells of the room that the last view was taken in.
 
     ``None`` when fewer than two lines across each axis were seen.
     """
-    settings = settings or ArrangementSettings()
     xs = np.array(wall_offsets(x_facing, settings))
     ys = np.array(wall_offsets(y_facing, settings))
     if len(xs) < 2 or len(ys) < 2:
         return None
     turn = Pose2(0.0, 0.0, direction_rad)
     turned = [view.moved(turn.inverse() @ view.T_frame_base) for view in _spread(views, settings.views)]
-    across_x = LineProfile.of(turned, xs, _stations(ys), 0, settings.gate_m)
-    across_y = LineProfile.of(turned, ys, _stations(xs), 1, settings.gate_m)
+    step_m = settings.profile.station_step_m
+    across_x = LineProfile.of(turned, xs, _stations(ys, step_m), 0, settings.gate_m, settings=settings.profile)
+    across_y = LineProfile.of(turned, ys, _stations(xs, step_m), 1, settings.gate_m, settings=settings.profile)
     portals = [
         portal
         for profile, facets, crossing in ((across_x, x_facing, y_facing), (across_y, y_facing, x_facing))
-        for portal in find_portals(turned, profile, facets, crossing, blocked=settings.blocked, gate_m=settings.gate_m)
+        for portal in find_portals(
+            turned,
+            profile,
+            facets,
+            crossing,
+            blocked=settings.blocked,
+            gate_m=settings.gate_m,
+            settings=settings.portals,
+        )
     ]
     xs, ys = (
         _with_edges(xs, _edges(across_y, y_facing, portals, settings), settings),
@@ -147,33 +160,33 @@ def arrange(
     blocked_x |= _portal_mask(portals, xs, ys, 0)
     blocked_y |= _portal_mask(portals, ys, xs, 1).T
     robot = turned[-1].T_frame_base.position_m
-    seen = free > np.where(_thin(xs, ys, settings.thin_m), settings.free_thin, settings.free)
-    blocked_x |= _slits(seen, blocked_x, ys, settings.narrowest_m)
-    blocked_y |= _slits(seen.T, blocked_y.T, xs, settings.narrowest_m).T
-    inside = _flood(seen, blocked_x, blocked_y, _cell(xs, ys, robot))
-    inside = _without_crannies(inside, xs, ys, settings.narrowest_m)
+    seen = free > np.where(thin(xs, ys, settings.thin_m), settings.free_thin, settings.free)
+    blocked_x |= slits(seen, blocked_x, ys, settings.narrowest_m)
+    blocked_y |= slits(seen.T, blocked_y.T, xs, settings.narrowest_m).T
+    inside = flood(seen, blocked_x, blocked_y, cell_of(xs, ys, robot))
+    inside = without_crannies(inside, xs, ys, settings.narrowest_m)
     passed = (*_passed(across_x, settings), *_passed(across_y, settings))
     return Arrangement(xs=xs, ys=ys, inside=inside, portals=tuple(portals), passed=passed)
 
 
 def _passed(profile: LineProfile, settings: ArrangementSettings) -> list[Portal]:
     """Stretches of the profile's lines, long enough to matter, that most rays go beyond."""
-    through = profile.told & ~profile.wall(settings.blocked)
+    through, half_m = profile.told & ~profile.wall(settings.blocked), profile.settings.station_step_m / 2.0
     return [
         Portal(
             axis=profile.axis,
             offset_m=float(offset),
-            low_m=float(profile.stations[first]) - STATION_STEP_M / 2.0,
-            high_m=float(profile.stations[last - 1]) + STATION_STEP_M / 2.0,
+            low_m=float(profile.stations[first]) - half_m,
+            high_m=float(profile.stations[last - 1]) + half_m,
         )
         for offset, row in zip(profile.lines, through, strict=True)
         for first, last in runs(row)
-        if last - first > _RUN
+        if last - first > settings.run
     ]
 
 
-def _stations(crossing: Array) -> Array:
-    return np.arange(crossing[0] + STATION_STEP_M / 2.0, crossing[-1], STATION_STEP_M)
+def _stations(crossing: Array, step_m: float) -> Array:
+    return np.arange(crossing[0] + step_m / 2.0, crossing[-1], step_m)
 
 
 def _portal_mask(portals: Sequence[Portal], lines: Array, crossing: Array, axis: int) -> Mask:
@@ -222,7 +235,7 @@ def _blocked_share(
     tell nothing about a stretch that is longer than these.
     """
     vague, sure = (_wall_share(views, lines, crossing, axis, settings, corners=corners) for corners in (True, False))
-    return np.where(np.diff(crossing) > _CORNERS * settings.gate_m, sure, vague)
+    return np.where(np.diff(crossing) > settings.corner_gates * settings.gate_m, sure, vague)
 
 
 def _wall_share(
@@ -250,19 +263,19 @@ def _edges(
     wall, told = profile.wall(settings.blocked), profile.told
     for k, line in enumerate(profile.lines):
         on_line = facets.near(float(line), 1.5 * settings.gate_m)
-        for index, wall_first in _changes(wall[k], told[k] & ~wall[k]):
-            middle_m = float(profile.stations[index]) - STATION_STEP_M / 2.0
-            edge_m = end_of_wall(on_line, middle_m, wall_first=wall_first)
+        for index, wall_first in _changes(wall[k], told[k] & ~wall[k], settings.run):
+            middle_m = float(profile.stations[index]) - settings.profile.station_step_m / 2.0
+            edge_m = end_of_wall(on_line, middle_m, wall_first=wall_first, end_m=settings.profile.end_m)
             if edge_m is not None:
                 edges.append(edge_m)
     return edges + [end for one in portals if one.axis == profile.axis for end in (one.low_m, one.high_m)]
 
 
-def _changes(wall: Mask, opened: Mask) -> list[tuple[int, bool]]:
+def _changes(wall: Mask, opened: Mask, run: int) -> list[tuple[int, bool]]:
     """Indices at which a long enough run of wall meets a long enough run of opening, and whether wall came first."""
     found: list[tuple[int, bool]] = []
-    for index in range(_RUN, len(wall) - _RUN + 1):
-        before, after = slice(index - _RUN, index), slice(index, index + _RUN)
+    for index in range(run, len(wall) - run + 1):
+        before, after = slice(index - run, index), slice(index, index + run)
         if wall[before].all() and opened[after].all():
             found.append((index, True))
         elif opened[before].all() and wall[after].all():
@@ -287,61 +300,3 @@ def _samples(lines: Array) -> list[Array]:
         margin = min(0.08, 0.3 * (end - start))
         parts.append(np.linspace(start + margin, end - margin, count))
     return parts
-
-
-def _cell(xs: Array, ys: Array, point: Array) -> tuple[int, int]:
-    column = int(np.clip(np.searchsorted(xs, point[0]) - 1, 0, len(xs) - 2))
-    row = int(np.clip(np.searchsorted(ys, point[1]) - 1, 0, len(ys) - 2))
-    return column, row
-
-
-def _thin(xs: Array, ys: Array, thin_m: float) -> Mask:
-    """Cells that are thinner than ``thin_m`` along one of the axes."""
-    return np.minimum(np.diff(xs)[:, None], np.diff(ys)[None, :]) < thin_m
-
-
-def _slits(seen: Mask, blocked: Mask, crossing: Array, narrowest_m: float) -> Mask:
-    """(lines, stretches) stretches of lines across the first axis that let through, but are too narrow together."""
-    columns = np.pad(seen, ((1, 1), (0, 0)))
-    passable = ~blocked & columns[:-1] & columns[1:]
-    return passable & ~_wide_enough(passable.T, crossing, narrowest_m).T
-
-
-def _without_crannies(inside: Mask, xs: Array, ys: Array, narrowest_m: float) -> Mask:
-    """The room without cells in which it is narrower than ``narrowest_m`` along either axis."""
-    kept = inside
-    while True:
-        wide = _wide_enough(kept, xs, narrowest_m) & _wide_enough(kept.T, ys, narrowest_m).T
-        if not wide.any() or (wide == kept).all():
-            return kept
-        kept = wide
-
-
-def _wide_enough(inside: Mask, offsets: Array, narrowest_m: float) -> Mask:
-    """Cells whose run of inside cells along the first axis is at least ``narrowest_m`` long."""
-    wide = np.zeros_like(inside)
-    for row in range(inside.shape[1]):
-        for first, last in runs(inside[:, row]):
-            wide[first:last, row] = offsets[last] - offsets[first] >= narrowest_m
-    return wide
-
-
-def _flood(free: Mask, blocked_x: Mask, blocked_y: Mask, start: tuple[int, int]) -> Mask:
-    """Free cells reachable from ``start`` across stretches that are not walls."""
-    inside = np.zeros_like(free)
-    inside[start] = True
-    queue = deque([start])
-    columns, rows = free.shape
-    while queue:
-        i, j = queue.popleft()
-        steps = (
-            (i + 1, j, i + 1 < columns and not blocked_x[i + 1, j]),
-            (i - 1, j, i > 0 and not blocked_x[i, j]),
-            (i, j + 1, j + 1 < rows and not blocked_y[i, j + 1]),
-            (i, j - 1, j > 0 and not blocked_y[i, j]),
-        )
-        for column, row, passable in steps:
-            if passable and free[column, row] and not inside[column, row]:
-                inside[column, row] = True
-                queue.append((column, row))
-    return inside

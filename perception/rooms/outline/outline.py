@@ -3,32 +3,57 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from perception.geometry.planar import Pose2
 from perception.geometry.polygon import inward_normal, wall_lengths
+from perception.ports import RobotShape
 from perception.rooms.outline.arrangement import ArrangementSettings, arrange
-from perception.rooms.outline.entrance import entrance
+from perception.rooms.outline.entrance import EntranceSettings, entrance
 from perception.rooms.outline.portals import Portal
 from perception.rooms.outline.tracing import trace
-from perception.rooms.views.facets import Facets, longest_gap, sort_by_axis
-from perception.rooms.views.line_profile import STATION_STEP_M
+from perception.rooms.views.facets import Facets, FacetSettings, longest_gap, sort_by_axis
 from perception.rooms.views.view import View, dominant_direction
 
 Array = NDArray[np.float64]
 
-_CORNER_CLEARANCE_M = 0.10
 _ON_WALL_M2 = 1e-9
 _NO_WALL_M = 1e-6
-_HARMLESS_GAP_M = 0.4
-_DEEPEST_REVEAL_M = 0.45
-_LEVEL_M = 0.1
-_VAGUE_BACK = 0.5
-_MOSTLY_SEEN = 0.75
-RECTILINEAR = 0.9
+
+
+@dataclass(frozen=True, kw_only=True)
+class ClosureSettings:
+    """When an outline counts as closed: walls were seen all around."""
+
+    rectilinear: float = 0.9
+    """Share of the seen wall length along the two axes. Chosen: a little may stand askew."""
+    harmless_gap_m: float = 0.4
+    """An unseen stretch that could not hide another part of the room: narrower than the robot."""
+    seen: float = 0.5
+    """Share of each wall that returned rays. Chosen: most of it."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class OutlineSettings:
+    """What becomes of the traced cells' boundary, and the stages before it."""
+
+    corner_clearance_m: float = 0.10
+    """At either end of a wall returns may be of the next one. Chosen: nearly two gates."""
+    deepest_reveal_m: float = 0.45
+    """Of an opening: the thickest walls."""
+    level_m: float = 0.1
+    """By how much the two sides of a reveal may differ. Chosen."""
+    vague_back: float = 0.5
+    """Share of a recess's back that hardly returns rays when it is an opening. Chosen: most of it."""
+    mostly_seen: float = 0.75
+    """Share of a wall that makes the entrance in it certain. Chosen."""
+    closure: ClosureSettings = field(default_factory=ClosureSettings)
+    facets: FacetSettings = field(default_factory=FacetSettings)
+    arrangement: ArrangementSettings = field(default_factory=ArrangementSettings)
+    entrance: EntranceSettings = field(default_factory=EntranceSettings)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -50,53 +75,59 @@ class Outline:
     sigma_m: float
     direction_rad: float
     rectilinear: float
+    closure: ClosureSettings = ClosureSettings()
 
     @property
     def closed(self) -> bool:
         """Whether walls were seen all around, without a stretch that could hide another part of the room."""
-        return bool(
-            self.rectilinear > RECTILINEAR and (self.gap_m < _HARMLESS_GAP_M).all() and (self.support > 0.5).all()
-        )
+        least = self.closure
+        seen = (self.gap_m < least.harmless_gap_m).all() and (self.support > least.seen).all()
+        return bool(self.rectilinear > least.rectilinear and seen)
 
     def frontiers(self) -> list[tuple[Array, Array]]:
         """Unseen stretches of wall, longest first: middle point and unit normal into the room."""
         starts, ends = self.polygon, np.roll(self.polygon, -1, axis=0)
-        order = [int(k) for k in np.argsort(-self.gap_m, kind="stable") if self.gap_m[k] >= _HARMLESS_GAP_M]
+        least_m = self.closure.harmless_gap_m
+        order = [int(k) for k in np.argsort(-self.gap_m, kind="stable") if self.gap_m[k] >= least_m]
         return [(self.gap_center[k], inward_normal(starts[k], ends[k])) for k in order]
 
 
-def find_outline(views: Sequence[View], settings: ArrangementSettings | None = None) -> Outline | None:
+def find_outline(
+    views: Sequence[View], settings: OutlineSettings = OutlineSettings(), shape: RobotShape = RobotShape()
+) -> Outline | None:
     """The outline of the room in which the last view was taken, or ``None`` when too few walls are seen."""
     noise_m = float(np.median([view.scan.noise_m for view in views]))
-    settings = (settings or ArrangementSettings()).for_noise(noise_m)
+    settings = replace(settings, arrangement=settings.arrangement.for_noise(noise_m))
     direction_rad, rectilinear = dominant_direction(views)
-    x_facing, y_facing = sort_by_axis(views, direction_rad)
-    arrangement = arrange(views, x_facing, y_facing, direction_rad, settings)
+    x_facing, y_facing = sort_by_axis(views, direction_rad, settings.facets)
+    arrangement = arrange(views, x_facing, y_facing, direction_rad, settings.arrangement)
     if arrangement is None:
         return None
     polygon, portals = trace(arrangement), list(arrangement.portals)
     passed = arrangement.passed
     walls = _refine(polygon, x_facing, y_facing, portals, passed, settings)
     while True:
-        if (step := _false_step(polygon, walls, settings)) is not None:
+        if (step := _false_step(polygon, walls, settings.arrangement.gate_m)) is not None:
             polygon = _straightened(polygon, step)
             if wall_lengths(polygon).min() < _NO_WALL_M:
                 return None
-        elif (reveal := _reveal(polygon, walls)) is not None:
+        elif (reveal := _reveal(polygon, walls, settings)) is not None:
             polygon, portal = _cut(polygon, reveal)
             portals.append(portal)
         else:
             break
         walls = _refine(polygon, x_facing, y_facing, portals, passed, settings)
     path = Pose2(0.0, 0.0, -direction_rad).apply(np.array([view.T_frame_base.position_m for view in views]))
-    came_in = entrance(polygon, path)
+    came_in = entrance(polygon, path, settings.entrance, shape)
     if came_in is not None:
         opened = _refine(polygon, x_facing, y_facing, [*portals, came_in], passed, settings)
-        walls = [new if old.support > _MOSTLY_SEEN else old for old, new in zip(walls, opened, strict=True)]
-    return _outline_of(polygon, walls, direction_rad, rectilinear)
+        walls = [new if old.support > settings.mostly_seen else old for old, new in zip(walls, opened, strict=True)]
+    return _outline_of(polygon, walls, direction_rad, rectilinear, settings.closure)
 
 
-def _outline_of(polygon: Array, walls: list[_MeasuredWall], direction_rad: float, rectilinear: float) -> Outline:
+def _outline_of(
+    polygon: Array, walls: list[_MeasuredWall], direction_rad: float, rectilinear: float, closure: ClosureSettings
+) -> Outline:
     """The traced polygon with its measured walls, turned back into the frame of the views."""
     turn = Pose2(0.0, 0.0, direction_rad)
     return Outline(
@@ -108,6 +139,7 @@ def _outline_of(polygon: Array, walls: list[_MeasuredWall], direction_rad: float
         sigma_m=float(np.median([wall.sigma_m for wall in walls])),
         direction_rad=direction_rad,
         rectilinear=rectilinear,
+        closure=closure,
     )
 
 
@@ -130,7 +162,7 @@ def _refine(
     y_facing: Facets,
     portals: Sequence[Portal],
     passed: Sequence[Portal],
-    settings: ArrangementSettings,
+    settings: OutlineSettings,
 ) -> list[_MeasuredWall]:
     """Put each wall at the mean of the returns along it."""
     return [
@@ -145,27 +177,28 @@ def _measure(
     facets_by_axis: tuple[Facets, Facets],
     portals: Sequence[Portal],
     passed: Sequence[Portal],
-    settings: ArrangementSettings,
+    settings: OutlineSettings,
 ) -> _MeasuredWall:
     """``passed`` stretches were not seen to be wall, however sparse the returns on a wall seen at a grazing angle are;
     those in ``portals`` are closed by what is known of the wall beside them.
     """
+    arrangement, step_m = settings.arrangement, settings.arrangement.profile.station_step_m
     across = 0 if abs(start[0] - end[0]) < abs(start[1] - end[1]) else 1
     nominal = float(start[across])
     low, high = sorted((float(start[1 - across]), float(end[1 - across])))
-    clearance = min(_CORNER_CLEARANCE_M, 0.3 * (high - low))
+    clearance = min(settings.corner_clearance_m, 0.3 * (high - low))
     low, high = low + clearance, high - clearance
-    facets = facets_by_axis[across].near(nominal, 1.5 * settings.gate_m).between(low, high)
+    facets = facets_by_axis[across].near(nominal, 1.5 * arrangement.gate_m).between(low, high)
     seen = facets.seen(low, high)
     stations = low + (np.arange(len(seen)) + 0.5) * (high - low) / len(seen)
-    for one in _on_line(passed, across, nominal, settings):
+    for one in _on_line(passed, across, nominal, arrangement):
         seen &= (stations < one.low_m) | (stations > one.high_m)
-    for portal in _on_line(portals, across, nominal, settings):
-        seen |= (stations > portal.low_m - STATION_STEP_M) & (stations < portal.high_m + STATION_STEP_M)
+    for portal in _on_line(portals, across, nominal, arrangement):
+        seen |= (stations > portal.low_m - step_m) & (stations < portal.high_m + step_m)
     first, count = longest_gap(seen)
     bin_m = (high - low) / len(seen)
     gap_station = low + (first + count / 2.0) * bin_m
-    offset_m, sigma_m = _center(facets.offset_m, nominal, settings.gate_m)
+    offset_m, sigma_m = _center(facets.offset_m, nominal, arrangement.gate_m)
     return _MeasuredWall(
         across=across,
         offset_m=offset_m,
@@ -191,14 +224,14 @@ def _intersections(polygon: Array, walls: list[_MeasuredWall]) -> Array:
     return refined
 
 
-def _false_step(polygon: Array, walls: Sequence[_MeasuredWall], settings: ArrangementSettings) -> int | None:
+def _false_step(polygon: Array, walls: Sequence[_MeasuredWall], gate_m: float) -> int | None:
     """Index of a wall that is only a step between two others which, when measured, turn out to be one surface."""
     count = len(polygon)
     steps = np.roll(polygon, -1, axis=0) - polygon
     for k in range(count if count > 4 else 0):
         before, after = k - 1, (k + 1) % count
         onward = float(steps[before] @ steps[after]) > 0.0
-        if onward and abs(walls[before].offset_m - walls[after].offset_m) < settings.gate_m:
+        if onward and abs(walls[before].offset_m - walls[after].offset_m) < gate_m:
             return k
     return None
 
@@ -223,7 +256,7 @@ def _without_needless(polygon: Array) -> Array:
         polygon = np.delete(polygon, int(np.argmin(turning)), axis=0)
 
 
-def _reveal(polygon: Array, walls: Sequence[_MeasuredWall]) -> int | None:
+def _reveal(polygon: Array, walls: Sequence[_MeasuredWall], settings: OutlineSettings) -> int | None:
     """Index of the first of four corners that are a shallow recess whose back hardly returns rays: no part of the room,
     but the reveal of an opening in a straight wall.
     """
@@ -236,9 +269,10 @@ def _reveal(polygon: Array, walls: Sequence[_MeasuredWall]) -> int | None:
     for k in range(count):
         before, out, back, home = k - 1, k, (k + 1) % count, (k + 2) % count
         recess = (turns[before], turns[out], turns[back], turns[home]) == (-1.0, 1.0, 1.0, -1.0)
-        shallow = max(lengths[out], lengths[home]) < _DEEPEST_REVEAL_M
-        level = abs(lengths[out] - lengths[home]) < _LEVEL_M
-        vague = walls[back].support < _VAGUE_BACK or walls[back].gap_m > _VAGUE_BACK * lengths[back]
+        shallow = max(lengths[out], lengths[home]) < settings.deepest_reveal_m
+        level = abs(lengths[out] - lengths[home]) < settings.level_m
+        share = settings.vague_back
+        vague = walls[back].support < share or walls[back].gap_m > share * lengths[back]
         if recess and shallow and level and vague:
             return k
     return None

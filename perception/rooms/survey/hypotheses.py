@@ -17,24 +17,29 @@ from perception.localization.motion_model import odometry_covariance
 from perception.rooms.survey.measurement import Fit
 from perception.rooms.views.view import View
 
-_SLACK = np.diag([0.03, 0.03, 0.02]) ** 2
-
 
 @dataclass(frozen=True, kw_only=True)
 class HypothesesSettings:
-    """``judges``: views that every hypothesis must explain. ``sharpness``: of the weights, per view fully explained.
-    ``closed``: head start of an outline with walls all around, as a share of one view. ``alike_m``: outlines whose
-    corners are nearer are one. ``kept``: particles at most; those of less than ``least`` weight are dropped.
-    ``clear``: how many times likelier than the next one the most likely must be for the evidence to have decided.
-    """
+    """How particles are weighed, and how many are kept."""
 
     judges: int = 6
+    """Views that every hypothesis must explain. Chosen: spread over the survey, for speed."""
     sharpness: float = 4.0
+    """Of the weights, per view fully explained. Chosen: views of one survey are not independent."""
     closed: float = 0.1
+    """Head start of an outline with walls all around, as a share of one view. Chosen."""
     alike_m: float = 0.15
+    """Outlines whose corners are nearer are one. Chosen: one and a half stations."""
     kept: int = 6
+    """Particles at most. Chosen: for speed."""
     least: float = 0.005
+    """Those of less weight are dropped."""
     clear: float = 5.0
+    """How many times likelier than the next one the most likely must be for the evidence to have decided. Chosen."""
+    slack_m: float = 0.03
+    """Standard deviation of where a view is, beyond odometry's: errors of the pose at the last view. Chosen."""
+    slack_rad: float = 0.02
+    """And of its heading."""
 
 
 @dataclass(kw_only=True)
@@ -92,12 +97,14 @@ class OutlineHypotheses:
 
     def _score(self, fit: Fit, judges: Sequence[View]) -> float:
         """How many of the views the outline explains, each by its share of returns on walls."""
+        settings = self.settings
+        slack = np.diag([settings.slack_m, settings.slack_m, settings.slack_rad]) ** 2
         walls, last = Walls.of_polygon(fit.outline.polygon), fit.views[-1]
-        total = self.settings.closed if fit.outline.closed else 0.0
+        total = settings.closed if fit.outline.closed else 0.0
         for view in judges:
             moved = last.T_odom_base.inverse() @ view.T_odom_base
             guess = last.T_frame_base @ moved
-            found = align(view.scan.points_base, walls, guess, odometry_covariance(moved) + _SLACK)
+            found = align(view.scan.points_base, walls, guess, odometry_covariance(moved) + slack)
             total += found.matched if found is not None else 0.0
         return total
 

@@ -21,8 +21,19 @@ from scene_graph.nodes import CornerNode, RoomNode, RoomStatus, WallNode
 
 Array = NDArray[np.float64]
 
-_SEEN_WALL = 0.5  # share of a partial room's wall that must have been seen to put it in the graph
-_CONFIRMED_M = 0.10
+
+@dataclass(frozen=True, kw_only=True)
+class InstanceSettings:
+    """What of a fit goes into the graph, and how sure it is."""
+
+    seen_wall: float = 0.5
+    """Share of a partial room's wall that must have been seen to put it in the graph. Chosen: most of it."""
+    confirmed_m: float = 0.10
+    """So near to a corner of the outline an optimized corner confirms it. Chosen: five times its usual error."""
+    votes: int = 3
+    """Views that an optimized corner must have been seen in to confirm one. Chosen: two may be chance."""
+    least_std_m: float = 0.001
+    """Added to the standard deviation of every wall: averages of many returns are not that sure. Chosen."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -43,7 +54,14 @@ class MeasuredRoom:
     confidence: float
 
 
-def measured_room(fit: Fit, parent_covariance: Array, T_view_base: Pose2, *, least_matched: float) -> MeasuredRoom:
+def measured_room(
+    fit: Fit,
+    parent_covariance: Array,
+    T_view_base: Pose2,
+    *,
+    least_matched: float,
+    settings: InstanceSettings = InstanceSettings(),
+) -> MeasuredRoom:
     """Put a fit into its room frame.
 
     Args:
@@ -51,6 +69,7 @@ def measured_room(fit: Fit, parent_covariance: Array, T_view_base: Pose2, *, lea
         parent_covariance: (3, 3) of the pose in the parent at the first view.
         T_view_base: where the base is now, seen from the last view.
         least_matched: share of returns on the outline that a view needs to tie the room to the parent.
+        settings: what confirms a corner.
     """
     T_frame_base = fit.views[-1].T_frame_base @ T_view_base
     T_frame_room = _room_frame(fit.outline, T_frame_base)
@@ -69,7 +88,7 @@ def measured_room(fit: Fit, parent_covariance: Array, T_view_base: Pose2, *, lea
         T_parent_room=fit.in_parent[anchor] @ T_anchor_room,
         covariance=adjoint @ covariance @ adjoint.T,
         T_room_base=T_room_base,
-        confidence=_confidence(fit),
+        confidence=_confidence(fit, settings),
     )
 
 
@@ -98,19 +117,25 @@ def _first_left_corner(polygon: Array, T_room_base: Pose2) -> int:
     return int(np.argmin(bearing))
 
 
-def _confidence(fit: Fit) -> float:
+def _confidence(fit: Fit, settings: InstanceSettings) -> float:
     """Share of the outline's corners that optimized corner landmarks voted for, times the share of wall seen."""
     lengths = wall_lengths(fit.outline.polygon)
     seen = float((fit.outline.support * lengths).sum() / lengths.sum())
-    voted = np.array([corner.point for corner in fit.corners if corner.votes >= 3]).reshape(-1, 2)
+    voted = np.array([corner.point for corner in fit.corners if corner.votes >= settings.votes]).reshape(-1, 2)
     if len(voted) == 0:
         return 0.5 * seen
     distance = np.linalg.norm(fit.outline.polygon[:, None] - voted[None], axis=2).min(axis=1)
-    return float(np.clip(seen * (0.5 + 0.5 * (distance < _CONFIRMED_M).mean()), 0.0, 1.0))
+    return float(np.clip(seen * (0.5 + 0.5 * (distance < settings.confirmed_m).mean()), 0.0, 1.0))
 
 
 def room_elements(
-    room: MeasuredRoom, room_id: str, *, status: RoomStatus, height_m: float, stamp_s: float
+    room: MeasuredRoom,
+    room_id: str,
+    *,
+    status: RoomStatus,
+    height_m: float,
+    stamp_s: float,
+    settings: InstanceSettings = InstanceSettings(),
 ) -> list[RoomNode | WallNode | CornerNode | RtEdge]:
     """Room, walls and corners with the edges that hang them, without the room's own ``rt`` edge."""
     polygon = room.polygon
@@ -124,8 +149,8 @@ def room_elements(
         )
     ]
     for k in range(len(polygon)):
-        if status is RoomStatus.PERMANENT or room.wall_seen[k] > _SEEN_WALL:
-            std_m = float(room.wall_std_m[k]) + 0.001
+        if status is RoomStatus.PERMANENT or room.wall_seen[k] > settings.seen_wall:
+            std_m = float(room.wall_std_m[k]) + settings.least_std_m
             confidence = float(np.clip(room.wall_seen[k], 0.0, 1.0))
             elements += wall_elements(polygon, room_id, k, std_m=std_m, confidence=confidence, stamp_s=stamp_s)
     return elements

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,27 +13,46 @@ from perception.geometry.walls import Walls
 from perception.lidar.slice import OutlineScan
 from perception.localization.alignment import Alignment, AlignmentSettings, align
 from perception.localization.motion_model import odometry_covariance
-from perception.rooms.outline.freeform import freeform_outline
-from perception.rooms.outline.outline import RECTILINEAR, Outline, find_outline
-from perception.rooms.survey.pose_graph import VotedCorner, optimize
-from perception.rooms.views.view import View
+from perception.ports import RobotShape
+from perception.rooms.outline.freeform import FreeformSettings, freeform_outline
+from perception.rooms.outline.outline import Outline, OutlineSettings, find_outline
+from perception.rooms.survey.pose_graph import PoseGraphSettings, VotedCorner, optimize
+from perception.rooms.views.view import View, ViewSettings
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, kw_only=True)
 class MeasurementSettings:
-    """How much is kept and how often it is refined.
-
-    ``views``: at most this many are kept. ``rounds``: of poses from outline and outline from poses. Views closer
-    together than ``step_m`` and ``step_rad`` are kept only up to ``resting_views`` in a row.
-    """
+    """How much is kept and how often it is refined, and the stages of it."""
 
     views: int = 60
+    """At most this many are kept. Chosen: for speed."""
     rounds: int = 2
+    """Of poses from outline and outline from poses. Chosen."""
     step_m: float = 0.08
+    """Views closer together than this, and than the turn, are kept only up to some in a row. Chosen."""
     step_rad: float = 0.10
+    """Turn between views."""
     resting_views: int = 12
+    """Kept from one place. Chosen: averages over so many are sharp enough."""
+    well_matched: float = 0.6
+    """Share of returns on the outline from which on a view fits. Chosen: furniture as high as the slice hides some."""
+    vague_m: float = 0.4
+    """Standard deviation of where a view is searched for that does not fit: after a long way odometry leads astray."""
+    vague_rad: float = 0.25
+    """And of its heading."""
+    turns_rad: tuple[float, ...] = (0.0, 0.08, -0.08, 0.16, -0.16)
+    """Headings that such a search begins from. Chosen: an alignment finds what is nearer than half of the steps."""
+    view: ViewSettings = field(default_factory=ViewSettings)
+    pose_graph: PoseGraphSettings = field(default_factory=PoseGraphSettings)
+    alignment: AlignmentSettings = field(default_factory=AlignmentSettings)
+    wide: AlignmentSettings = field(
+        default_factory=lambda: AlignmentSettings(gates_m=(0.6, 0.4, 0.25, 0.15, 0.10, 0.08))
+    )
+    """Of the search: from one and a half of its standard deviations down to what noise explains."""
+    outline: OutlineSettings = field(default_factory=OutlineSettings)
+    freeform: FreeformSettings = field(default_factory=FreeformSettings)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -55,17 +74,11 @@ class Fit:
         return next((k for k, share in enumerate(self.matched) if share >= least_matched), len(self.views) - 1)
 
 
-_WELL_MATCHED = 0.6
-_VAGUE = diagonal_covariance(0.4, 0.4, 0.25)
-_WIDE = AlignmentSettings(gates_m=(0.6, 0.4, 0.25, 0.15, 0.10, 0.08))
-_TURNS_RAD = (0.0, 0.08, -0.08, 0.16, -0.16)
-
-
 class RoomMeasurement:
     """Collects views of one room. ``T_parent_base`` of each view is what the graph said when it was taken."""
 
-    def __init__(self, settings: MeasurementSettings | None = None) -> None:
-        self.settings = settings or MeasurementSettings()
+    def __init__(self, settings: MeasurementSettings = MeasurementSettings(), shape: RobotShape = RobotShape()) -> None:
+        self.settings, self._shape = settings, shape
         self._views: list[View] = []
         self._in_parent: list[Pose2] = []
         self._resting = 0
@@ -83,7 +96,7 @@ class RoomMeasurement:
         else:
             self._resting = 0
         first = self._views[0].T_odom_base if self._views else T_odom_base
-        self._views.append(View.of(scan, first.inverse() @ T_odom_base, T_odom_base))
+        self._views.append(View.of(scan, first.inverse() @ T_odom_base, T_odom_base, self.settings.view))
         self._in_parent.append(T_parent_base)
         if len(self._views) > self.settings.views:
             self._thin()
@@ -105,15 +118,15 @@ class RoomMeasurement:
         """Pose graph first, then outline and poses in turn; ``None`` when no outline comes out."""
         if not self._views:
             return None
-        solution = optimize(self._views)
+        solution = optimize(self._views, self.settings.pose_graph)
         views = [view.moved(pose) for view, pose in zip(self._views, solution.poses, strict=True)]
-        outline = _find(views)
+        outline = _find(views, self.settings, self._shape)
         matched = [0.0] * len(views)
         for _ in range(self.settings.rounds):
             if outline is None:
                 return None
-            views, matched = _align_all(views, outline)
-            outline = _find(views)
+            views, matched = _align_all(views, outline, self.settings)
+            outline = _find(views, self.settings, self._shape)
         if outline is None:
             return None
         return Fit(
@@ -125,28 +138,31 @@ class RoomMeasurement:
         )
 
 
-def _find(views: Sequence[View]) -> Outline | None:
+def _find(views: Sequence[View], settings: MeasurementSettings, shape: RobotShape) -> Outline | None:
     """The rectilinear outline, or where walls are not at right angles what one view shows."""
-    outline = find_outline(views)
-    if outline is not None and outline.rectilinear > RECTILINEAR:
+    outline, closure = find_outline(views, settings.outline, shape), settings.outline.closure
+    if outline is not None and outline.rectilinear > closure.rectilinear:
         return outline
-    return freeform_outline(views) or outline
+    return freeform_outline(views, settings.freeform, closure) or outline
 
 
-def _search(view: View, walls: Walls, guess: Pose2) -> Alignment | None:
+def _search(view: View, walls: Walls, guess: Pose2, settings: MeasurementSettings) -> Alignment | None:
     """The pose near ``guess``, or where the pose graph had the view, at which it fits well; after a long way between
     two views odometry leads astray.
     """
+    vague = diagonal_covariance(settings.vague_m, settings.vague_m, settings.vague_rad)
     found = [
-        align(view.scan.points_base, walls, origin @ Pose2(0.0, 0.0, turn_rad), _VAGUE, _WIDE)
+        align(view.scan.points_base, walls, origin @ Pose2(0.0, 0.0, turn_rad), vague, settings.wide)
         for origin in (guess, view.T_frame_base)
-        for turn_rad in _TURNS_RAD
+        for turn_rad in settings.turns_rad
     ]
     best = max((one for one in found if one is not None), key=lambda one: one.matched, default=None)
-    return best if best is not None and best.matched >= _WELL_MATCHED else None
+    return best if best is not None and best.matched >= settings.well_matched else None
 
 
-def _align_all(views: Sequence[View], outline: Outline) -> tuple[list[View], list[float]]:
+def _align_all(
+    views: Sequence[View], outline: Outline, settings: MeasurementSettings
+) -> tuple[list[View], list[float]]:
     """Each view put where it fits the outline best, led by odometry from its successor.
 
     Goes backward from the newest view: the newest stand well inside the room, the oldest may have been taken in the
@@ -161,9 +177,9 @@ def _align_all(views: Sequence[View], outline: Outline) -> tuple[list[View], lis
             moved = placed[-1].T_odom_base.inverse() @ view.T_odom_base
             guess = placed[-1].T_frame_base @ moved
             covariance = odometry_covariance(moved) + np.diag([2e-3, 2e-3, 5e-4]) ** 2
-        found = align(view.scan.points_base, walls, guess, covariance)
-        if found is None or found.matched < _WELL_MATCHED:
-            found = _search(view, walls, guess) or found
+        found = align(view.scan.points_base, walls, guess, covariance, settings.alignment)
+        if found is None or found.matched < settings.well_matched:
+            found = _search(view, walls, guess, settings) or found
         placed.append(view.moved(found.pose if found else guess))
         matched.append(found.matched if found and found.conditioned else 0.0)
     return placed[::-1], matched[::-1]

@@ -16,8 +16,17 @@ from perception.rooms.views.view import View
 
 Array = NDArray[np.float64]
 
-_SAME_CORNER_M = 0.35
-_SIGHTING_FLOOR_M = 0.005
+
+@dataclass(frozen=True, kw_only=True)
+class PoseGraphSettings:
+    """Which sightings are of one corner, and what they are worth."""
+
+    same_corner_m: float = 0.35
+    """Farthest from a track's mean, by dead reckoning. Chosen: less than a nook is wide."""
+    sighting_floor_m: float = 0.005
+    """Error of a corner that its lines' returns do not tell. Chosen: walls are not flatter."""
+    huber: float = 1.5
+    """Standard deviations from which on a sighting counts less: near the usual 1.345."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -36,9 +45,9 @@ class Solution:
     corners: tuple[VotedCorner, ...]
 
 
-def optimize(views: Sequence[View]) -> Solution:
+def optimize(views: Sequence[View], settings: PoseGraphSettings = PoseGraphSettings()) -> Solution:
     """Poses and corners that explain odometry and corner sightings best; the first view stays where it is."""
-    tracks = _associate(views)
+    tracks = _associate(views, settings.same_corner_m)
     graph = gtsam.NonlinearFactorGraph()
     values = gtsam.Values()
     graph.add(gtsam.PriorFactorPose2(X(0), _pose(views[0].T_frame_base), gtsam.noiseModel.Isotropic.Sigma(3, 1e-5)))
@@ -51,7 +60,7 @@ def optimize(views: Sequence[View]) -> Solution:
     for j, track in enumerate(tracks):
         values.insert(L(j), track.point)
         for k, index in track.sightings:
-            _add_sighting(graph, views[k], k, index, j)
+            _add_sighting(graph, views[k], k, index, j, settings)
     result = gtsam.LevenbergMarquardtOptimizer(graph, values).optimize()
     poses = [result.atPose2(X(k)) for k in range(len(views))]
     return Solution(
@@ -71,14 +80,14 @@ class _Track:
     sightings: list[tuple[int, int]]
 
 
-def _associate(views: Sequence[View]) -> list[_Track]:
+def _associate(views: Sequence[View], same_corner_m: float) -> list[_Track]:
     """Corners of successive views that lie close together by dead reckoning; tracks with one sighting are dropped."""
     tracks: list[_Track] = []
     for k, view in enumerate(views):
         for index, sighting in enumerate(view.corners):
             point = view.T_frame_base.apply(sighting.point)
             nearest = min(tracks, key=lambda track: float(np.linalg.norm(track.point - point)), default=None)
-            if nearest is None or float(np.linalg.norm(nearest.point - point)) > _SAME_CORNER_M:
+            if nearest is None or float(np.linalg.norm(nearest.point - point)) > same_corner_m:
                 tracks.append(_Track(point=point, sightings=[(k, index)]))
             elif all(seen != k for seen, _ in nearest.sightings):
                 nearest.sightings.append((k, index))
@@ -86,12 +95,14 @@ def _associate(views: Sequence[View]) -> list[_Track]:
     return [track for track in tracks if len(track.sightings) > 1]
 
 
-def _add_sighting(graph: gtsam.NonlinearFactorGraph, view: View, k: int, index: int, landmark: int) -> None:
+def _add_sighting(
+    graph: gtsam.NonlinearFactorGraph, view: View, k: int, index: int, landmark: int, settings: PoseGraphSettings
+) -> None:
     sighting = view.corners[index]
     distance = max(float(np.linalg.norm(sighting.point)), 0.2)
-    std_m = float(np.hypot(sighting.std_m, _SIGHTING_FLOOR_M))
+    std_m = float(np.hypot(sighting.std_m, settings.sighting_floor_m))
     noise = gtsam.noiseModel.Robust.Create(
-        gtsam.noiseModel.mEstimator.Huber.Create(1.5),
+        gtsam.noiseModel.mEstimator.Huber.Create(settings.huber),
         gtsam.noiseModel.Diagonal.Sigmas(np.array([std_m / distance, std_m])),
     )
     bearing = gtsam.Rot2(float(np.arctan2(sighting.point[1], sighting.point[0])))

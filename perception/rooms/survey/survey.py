@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,35 +12,44 @@ from perception.geometry.polygon import inside, shared_area
 from perception.lidar.slice import OutlineScan
 from perception.localization.robot_pose import RobotPose
 from perception.localization.room_model import RoomModel
-from perception.rooms.survey.hypotheses import OutlineHypotheses
-from perception.rooms.survey.instance import MeasuredRoom, measured_room
-from perception.rooms.survey.measurement import Fit, RoomMeasurement
-from perception.rooms.survey.vantage import freest_way, next_vantage
+from perception.ports import RobotShape
+from perception.rooms.survey.hypotheses import HypothesesSettings, OutlineHypotheses
+from perception.rooms.survey.instance import InstanceSettings, MeasuredRoom, measured_room
+from perception.rooms.survey.measurement import Fit, MeasurementSettings, RoomMeasurement
+from perception.rooms.survey.vantage import VantageSettings, freest_way, next_vantage
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, kw_only=True)
 class SurveySettings:
-    """Priors and patience.
-
-    ``shortest_side_m``, ``longest_side_m``: of the bounding rectangle. ``views``: least number for a room. ``agree_m``:
-    two successive fits must agree this well. ``wall_std_m``: of every wall. ``surrounded``: share of directions with
-    anything in them below which the robot stands outdoors. ``least_matched``: share of returns on the outline in a view
-    that may tie the room to where the robot came from; in a doorway about half of them are. ``feels``: how often the
-    robot drives on where nothing fits. ``shared``: share of the known room that a new one may cover.
-    """
+    """Priors and patience, and the stages of a survey."""
 
     shortest_side_m: float = 0.9
+    """Of the bounding rectangle: the robot hardly fits into less."""
     longest_side_m: float = 45.0
+    """The same: a LiDAR does not see farther."""
     views: int = 8
+    """Least number for a room. Chosen: nearly a second."""
     agree_m: float = 0.012
+    """Two successive fits must agree this well. Chosen: about what a room's walls may be off."""
     wall_std_m: float = 0.004
+    """Of every wall. Chosen."""
     surrounded: float = 0.7
+    """Share of directions with anything in them below which the robot stands outdoors. Chosen."""
     least_matched: float = 0.3
+    """Share of returns on the outline in a view that may tie the room to where the robot came from; in a doorway about
+    half of them are."""
     solve_every_s: float = 0.5
+    """Between fits, more with many views. Chosen: one takes tens to hundreds of milliseconds."""
     feels: int = 4
+    """How often the robot drives on where nothing fits. Chosen."""
     shared: float = 0.2
+    """Share of the known room that a new one may cover: errors of both outlines and the pose."""
+    measurement: MeasurementSettings = field(default_factory=MeasurementSettings)
+    hypotheses: HypothesesSettings = field(default_factory=HypothesesSettings)
+    vantage: VantageSettings = field(default_factory=VantageSettings)
+    instance: InstanceSettings = field(default_factory=InstanceSettings)
 
 
 class Survey:
@@ -53,14 +62,14 @@ class Survey:
         known: the room that the robot came from, in its parent frame.
     """
 
-    def __init__(self, settings: SurveySettings | None = None) -> None:
-        self.settings = settings or SurveySettings()
+    def __init__(self, settings: SurveySettings = SurveySettings(), shape: RobotShape = RobotShape()) -> None:
+        self.settings, self._shape = settings, shape
         self.fit: Fit | None = None
         self.known: RoomModel | None = None
         self.places: list[Array] = []
-        self.hypotheses = OutlineHypotheses()
+        self.hypotheses = OutlineHypotheses(settings=settings.hypotheses)
         self._settled = False
-        self._measurement = RoomMeasurement()
+        self._measurement = RoomMeasurement(settings.measurement, shape)
         self._first: RobotPose | None = None
         self._solved_s = -np.inf
         self._solved_views = 0
@@ -156,7 +165,9 @@ class Survey:
             return self._feel_the_way(obstacles_base)
         T_frame_base = self._now(self.fit, pose)
         obstacles = T_frame_base.apply(obstacles_base)
-        place = next_vantage(self.fit.outline, obstacles, self.places, T_frame_base.position_m)
+        place = next_vantage(
+            self.fit.outline, obstacles, self.places, T_frame_base.position_m, self.settings.vantage, self._shape
+        )
         if place is None:
             return None
         self.places.append(place)
@@ -167,7 +178,7 @@ class Survey:
         """Where to look from when the views fit no room yet, a few times."""
         if self._solved_views < self.settings.views or self._felt >= self.settings.feels:
             return None
-        place = freest_way(obstacles_base)
+        place = freest_way(obstacles_base, self.settings.vantage, self._shape)
         if place is None:
             return None
         self._felt += 1
@@ -179,7 +190,13 @@ class Survey:
         if fit is None or self._first is None:
             return None
         T_view_base = fit.views[-1].T_odom_base.inverse() @ pose.T_odom_base
-        return measured_room(fit, self._first.covariance, T_view_base, least_matched=self.settings.least_matched)
+        return measured_room(
+            fit,
+            self._first.covariance,
+            T_view_base,
+            least_matched=self.settings.least_matched,
+            settings=self.settings.instance,
+        )
 
     @staticmethod
     def _now(fit: Fit, pose: RobotPose) -> Pose2:

@@ -14,8 +14,15 @@ from perception.rooms.views.view import View
 
 Array = NDArray[np.float64]
 
-_HALF_WINDOW_M = 0.18
-_AXIS_TOLERANCE_RAD = float(np.deg2rad(20.0))
+
+@dataclass(frozen=True, kw_only=True)
+class FacetSettings:
+    """Which surface a return is on."""
+
+    half_window_m: float = 0.18
+    """Of the returns whose direction tells the surface's. Chosen: nine standard deviations of the usual range noise."""
+    axis_tolerance_rad: float = float(np.deg2rad(20.0))
+    """How far from an axis a surface may face. Chosen: what noise does in so short a window."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -62,7 +69,9 @@ def longest_gap(seen: NDArray[np.bool_]) -> tuple[int, int]:
     return first, last - first
 
 
-def sort_by_axis(views: Sequence[View], direction_rad: float) -> tuple[Facets, Facets]:
+def sort_by_axis(
+    views: Sequence[View], direction_rad: float, settings: FacetSettings = FacetSettings()
+) -> tuple[Facets, Facets]:
     """Returns facing x and facing y of the frame turned by ``direction_rad``."""
     turn = Pose2(0.0, 0.0, -direction_rad)
     x_facing: list[Array] = []
@@ -71,10 +80,10 @@ def sort_by_axis(views: Sequence[View], direction_rad: float) -> tuple[Facets, F
         points = turn.apply(view.points_frame())
         if len(points) < 5:
             continue
-        angle, reach = _surface(points)
+        angle, reach = _surface(points, settings.half_window_m)
         rows = np.column_stack([points, reach])
-        x_facing.append(rows[np.abs(np.abs(angle) - np.pi / 2) < _AXIS_TOLERANCE_RAD])
-        y_facing.append(rows[np.abs(angle) < _AXIS_TOLERANCE_RAD])
+        x_facing.append(rows[np.abs(np.abs(angle) - np.pi / 2) < settings.axis_tolerance_rad])
+        y_facing.append(rows[np.abs(angle) < settings.axis_tolerance_rad])
     across_x = np.concatenate(x_facing) if x_facing else np.empty((0, 3))
     across_y = np.concatenate(y_facing) if y_facing else np.empty((0, 3))
     return (
@@ -83,7 +92,7 @@ def sort_by_axis(views: Sequence[View], direction_rad: float) -> tuple[Facets, F
     )
 
 
-def _surface(points: Array) -> tuple[Array, Array]:
+def _surface(points: Array, half_window_m: float) -> tuple[Array, Array]:
     """Angle (N,) in (-pi/2, pi/2] of the surface through each return, and how far along it the return speaks.
 
     Principal direction of the returns within a window of about fixed length, through running sums over the scan.
@@ -91,7 +100,7 @@ def _surface(points: Array) -> tuple[Array, Array]:
     count = len(points)
     following = np.linalg.norm(np.roll(points, -1, axis=0) - points, axis=1)
     spacing = np.clip(np.minimum(following, np.roll(following, 1)), 2e-3, 2.0)
-    half = np.clip(np.ceil(_HALF_WINDOW_M / spacing), 3, min(60, (count - 1) // 2)).astype(np.int64)
+    half = np.clip(np.ceil(half_window_m / spacing), 3, min(60, (count - 1) // 2)).astype(np.int64)
     x, y = points[:, 0] - points[:, 0].mean(), points[:, 1] - points[:, 1].mean()
     columns = np.column_stack([np.ones(count), x, y, x * x, x * y, y * y])
     wrapped = np.concatenate([columns, columns, columns])

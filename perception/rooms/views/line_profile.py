@@ -14,9 +14,17 @@ from perception.rooms.views.view import View
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
-STATION_STEP_M = 0.1
-END_M = 0.3
-_AGREE = 0.7
+
+@dataclass(frozen=True, kw_only=True)
+class LineProfileSettings:
+    """Where along lines rays are asked about, and what is made of their ends."""
+
+    station_step_m: float = 0.1
+    """Between stations. Chosen: a fifth of a narrow door."""
+    end_m: float = 0.3
+    """How far from where a wall seems to end its last return may be: three stations."""
+    agree: float = 0.7
+    """Share of the rays that must go the same way for a wall to face it. Chosen: clearly most."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -33,6 +41,7 @@ class LineProfile:
     ending: Array
     passing: Array
     towards: Array
+    settings: LineProfileSettings = LineProfileSettings()
 
     @classmethod
     def of(
@@ -43,6 +52,7 @@ class LineProfile:
         axis: int,
         gate_m: float,
         crossing: Array | None = None,
+        settings: LineProfileSettings = LineProfileSettings(),
     ) -> LineProfile:
         """Ask all views about all stations.
 
@@ -64,7 +74,15 @@ class LineProfile:
                 passing += clearance > gate_m
             ending += ended
             towards += np.where(ended, np.sign(incidence).reshape(ending.shape), 0.0)
-        return cls(axis=axis, lines=lines, stations=stations, ending=ending, passing=passing, towards=towards)
+        return cls(
+            axis=axis,
+            lines=lines,
+            stations=stations,
+            ending=ending,
+            passing=passing,
+            towards=towards,
+            settings=settings,
+        )
 
     @property
     def told(self) -> Mask:
@@ -74,7 +92,7 @@ class LineProfile:
     def faces(self, line: int, stations: slice) -> float:
         """1 or -1: which way the rays go that end on a stretch of a line; 0 when they do not agree."""
         towards, ended = float(self.towards[line, stations].sum()), float(self.ending[line, stations].sum())
-        return float(np.sign(towards)) if abs(towards) > _AGREE * ended else 0.0
+        return float(np.sign(towards)) if abs(towards) > self.settings.agree * ended else 0.0
 
     def wall(self, blocked: float) -> Mask:
         """(L, S) where more than ``blocked`` of the rays end."""
@@ -91,9 +109,12 @@ def _on_crossing(view: View, points: Array, axis: int, crossing: Array, gate_m: 
         return np.asarray((off_m <= gate_m) & (across_m < np.maximum(off_m, gate_m / 2.0)))
 
 
-def end_of_wall(on_line: Facets, about_m: float, *, wall_first: bool) -> float | None:
-    """Station of the last return on a wall that ends at about ``about_m``, or the first on one that begins there."""
-    near = on_line.station_m[np.abs(on_line.station_m - about_m) < END_M]
+def end_of_wall(on_line: Facets, about_m: float, *, wall_first: bool, end_m: float) -> float | None:
+    """Station of the last return on a wall that ends at about ``about_m``, or the first on one that begins there.
+
+    ``end_m``: how far from there it may be.
+    """
+    near = on_line.station_m[np.abs(on_line.station_m - about_m) < end_m]
     if len(near) == 0:
         return None
     return float(near.max() if wall_first else near.min())

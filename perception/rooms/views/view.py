@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,7 +14,18 @@ from perception.lidar.slice import OutlineScan
 
 Array = NDArray[np.float64]
 
-_GRAZING = 0.12  # cosine of incidence below which a ray says nothing about passing a line
+
+@dataclass(frozen=True, kw_only=True)
+class ViewSettings:
+    """What is made of one view, and how the direction of the walls is told from all."""
+
+    grazing: float = 0.12
+    """Cosine of incidence below which a ray says nothing about passing a line. Chosen: seven degrees."""
+    near_direction_rad: float = float(np.deg2rad(6.0))
+    """Lines this near to the walls' direction refine it. Chosen: several times a line's error."""
+    agreeing_rad: float = float(np.deg2rad(3.0))
+    """And this near they agree with it. Chosen."""
+    corners: CornerSettings = field(default_factory=CornerSettings)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -30,18 +41,22 @@ class View:
     scan: OutlineScan
     lines: tuple[WallLine, ...]
     corners: tuple[CornerSighting, ...]
+    settings: ViewSettings = ViewSettings()
 
     @classmethod
-    def of(cls, scan: OutlineScan, T_frame_base: Pose2, T_odom_base: Pose2) -> View:
+    def of(
+        cls, scan: OutlineScan, T_frame_base: Pose2, T_odom_base: Pose2, settings: ViewSettings = ViewSettings()
+    ) -> View:
         """The view of ``scan``, with its lines and corners detected."""
-        settings = CornerSettings().for_noise(scan.noise_m)
-        lines = detect_lines(scan.points_base, settings)
+        corners = settings.corners.for_noise(scan.noise_m)
+        lines = detect_lines(scan.points_base, corners)
         return cls(
             T_frame_base=T_frame_base,
             T_odom_base=T_odom_base,
             scan=scan,
             lines=tuple(lines),
-            corners=tuple(corners_of(lines, settings)),
+            corners=tuple(corners_of(lines, corners)),
+            settings=settings,
         )
 
     def moved(self, T_frame_base: Pose2) -> View:
@@ -77,7 +92,7 @@ class View:
         """
         beyond, direction, distance = self.beyond(points)
         incidence = (direction * normals).sum(axis=1)
-        tells = (np.abs(incidence) > _GRAZING) & (distance > self.scan.blind_m + margin_m)
+        tells = (np.abs(incidence) > self.settings.grazing) & (distance > self.scan.blind_m + margin_m)
         return np.where(tells, beyond * np.abs(incidence), np.nan), incidence
 
 
@@ -86,6 +101,7 @@ def dominant_direction(views: Sequence[View]) -> tuple[float, float]:
 
     Each line votes with its length at four times its angle, which makes the four directions of a rectilinear room one.
     """
+    settings = views[-1].settings
     angles = np.array(
         [view.T_frame_base.yaw_rad + np.arctan2(*line.direction[::-1]) for view in views for line in view.lines]
     )
@@ -96,11 +112,11 @@ def dominant_direction(views: Sequence[View]) -> tuple[float, float]:
     phase = float(np.angle((lengths * np.exp(1j * 4.0 * angles)).sum())) if len(angles) > 1 else strongest
     for _ in range(3):
         off = np.angle(np.exp(1j * (4.0 * angles - phase)))
-        near = np.abs(off) < 4.0 * np.deg2rad(6.0)
+        near = np.abs(off) < 4.0 * settings.near_direction_rad
         if not near.any():
             phase = strongest
             continue
         phase += float((lengths * off)[near].sum() / lengths[near].sum())
     off = np.angle(np.exp(1j * (4.0 * angles - phase)))
-    agreeing = np.abs(off) < 4.0 * np.deg2rad(3.0)
+    agreeing = np.abs(off) < 4.0 * settings.agreeing_rad
     return float(np.angle(np.exp(1j * phase))) / 4.0, float(lengths[agreeing].sum() / lengths.sum())

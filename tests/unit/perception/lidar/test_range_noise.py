@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from perception.geometry.planar import Pose2
-from perception.lidar.range_noise import calmed, range_noise_m
+from perception.lidar.range_noise import CalmingSettings, calmed, range_noise_m
 from unit.perception.lidar_house import Box, House, cast, rectangle
 
-USUAL_M = 0.02
+USUAL = CalmingSettings(usual_m=0.02)
 ROOM = House(rooms={"a": rectangle(5.0, 4.0)})
 MIDDLE = Pose2(2.2, 1.8, 0.3)
 
@@ -25,17 +25,17 @@ def test_noisy_ranges_come_nearer_to_the_truth_and_stay_unbiased(sigma_m: float)
     truth = cast(ROOM, MIDDLE, np.random.default_rng(0), sigma_m=0.0).ranges_m
     noisy = cast(ROOM, MIDDLE, np.random.default_rng(0), sigma_m=sigma_m).ranges_m
     returned = np.isfinite(truth)
-    error = calmed(noisy, USUAL_M)[returned] - truth[returned]
+    error = calmed(noisy, USUAL)[returned] - truth[returned]
     assert np.median(np.abs(error)) < 0.5 * sigma_m
     assert abs(float(np.mean(error))) < 0.005
 
 
 def test_usual_ranges_stay_as_they_are_and_nothing_returns_where_nothing_did() -> None:
     scan = cast(ROOM, MIDDLE, np.random.default_rng(0), sigma_m=0.015)
-    assert calmed(scan.ranges_m, USUAL_M) is scan.ranges_m
+    assert calmed(scan.ranges_m, USUAL) is scan.ranges_m
     gaps = np.full((2, 90), np.inf)
     gaps[:, ::3] = 2.0 + 0.1 * np.random.default_rng(0).standard_normal((2, 30))
-    assert (np.isfinite(calmed(gaps, USUAL_M)) == np.isfinite(gaps)).all()
+    assert (np.isfinite(calmed(gaps, USUAL)) == np.isfinite(gaps)).all()
 
 
 def test_a_thin_leg_before_a_wall_does_not_fade() -> None:
@@ -43,5 +43,5 @@ def test_a_thin_leg_before_a_wall_does_not_fade() -> None:
     truth = cast(leg, MIDDLE, np.random.default_rng(0), sigma_m=0.0).ranges_m
     on_leg = truth < cast(ROOM, MIDDLE, np.random.default_rng(0), sigma_m=0.0).ranges_m - 0.4
     assert on_leg.sum() > 10
-    seen = calmed(cast(leg, MIDDLE, np.random.default_rng(1), sigma_m=0.05).ranges_m, USUAL_M)
+    seen = calmed(cast(leg, MIDDLE, np.random.default_rng(1), sigma_m=0.05).ranges_m, USUAL)
     assert np.abs(seen[on_leg] - truth[on_leg]).max() < 0.2

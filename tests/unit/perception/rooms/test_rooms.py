@@ -361,7 +361,7 @@ def test_two_lines_that_turn_out_to_be_one_surface_are_one_wall_and_a_real_step_
     polygon = np.array([[0.0, 0.1], [0.3, 0.1], [0.3, 0.0], [4.0, 0.0], [4.0, 3.0], [0.0, 3.0]])
     walls = measured(polygon, [found_m, 0.3, 0.0, 4.0, 3.0, 0.0])
     polygon, walls = np.roll(polygon, -first, axis=0), walls[first:] + walls[:first]
-    step = _false_step(polygon, walls, ArrangementSettings())
+    step = _false_step(polygon, walls, ArrangementSettings().gate_m)
     assert (step is not None) == bool(steps)
     if step is not None:
         corners = {(round(x, 3), round(y, 3)) for x, y in _straightened(polygon, step).tolist()}
@@ -373,7 +373,7 @@ def test_a_recess_that_turns_out_to_be_level_with_its_wall_goes_with_both_its_st
         [[0.0, 0.0], [1.0, 0.0], [1.0, -0.1], [2.0, -0.1], [2.0, 0.0], [4.0, 0.0], [4.0, 3.0], [0.0, 3.0]]
     )
     walls = measured(polygon, [0.0, 1.0, 0.02, 2.0, 0.0, 4.0, 3.0, 0.0])
-    step = _false_step(polygon, walls, ArrangementSettings())
+    step = _false_step(polygon, walls, ArrangementSettings().gate_m)
     assert step is not None
     corners = {(round(x, 3), round(y, 3)) for x, y in _straightened(polygon, step).tolist()}
     assert corners in (

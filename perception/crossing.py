@@ -20,8 +20,6 @@ BEING_CROSSED = "being crossed"
 CLOSED_REASON = "closed"
 OUTDOORS = "nothing behind it looks like a room"
 DOOR_AGENT = "door_concept"
-LOST_STD = 1.0
-"""Meters and radians: how far off the guess of a lost robot may be, as far as the covariance has to say it."""
 
 
 def door_being_crossed(snapshot: Snapshot) -> DoorNode | None:
@@ -97,11 +95,11 @@ def move_robot(tx: Transaction, room_id: str, T_room_base: Pose2, stamp_s: float
     )
 
 
-def lose_robot(tx: Transaction) -> None:
+def lose_robot(tx: Transaction, std: float = 1.0) -> None:
     """Say that nobody knows where the robot is: it is in no room, and hangs from the root by the last guess.
 
     Whoever restores a building in which the robot may stand anywhere says it in the same way; the relocalization agent
-    then finds the place.
+    then finds the place. ``std``: meters and radians, how far off the guess may be, as far as a covariance can say it.
     """
     snapshot = tx.snapshot
     robot, edge = snapshot.robot, snapshot.parent(ROBOT_ID)
@@ -122,7 +120,7 @@ def lose_robot(tx: Transaction) -> None:
             source=ROOT_ID,
             target=ROBOT_ID,
             T_source_target=guess.to_se3(),
-            covariance=spatial_covariance(diagonal_covariance(LOST_STD, LOST_STD, LOST_STD)),
+            covariance=spatial_covariance(diagonal_covariance(std, std, std)),
             stamp_s=edge.stamp_s,
         ),
     )

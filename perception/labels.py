@@ -18,7 +18,6 @@ from scene_graph.nodes import DoorNode, ObjectNode, ObjectState, Point2, RoomNod
 from scene_graph.snapshot import Snapshot
 
 ROOM_LABELS = ("kitchen", "bedroom", "office", "living room", "dining room", "bathroom", "hall")
-_PRIOR = (0.16, 0.18, 0.13, 0.17, 0.10, 0.14, 0.12)
 
 # Chance to find at least one such thing in a room of each kind, in the order of ROOM_LABELS.
 _CHANCES: Mapping[str, tuple[float, ...]] = {
@@ -71,8 +70,6 @@ _MAKINGS: Mapping[str, frozenset[str]] = {
     "dining room": frozenset({"table", "dining table", "chairs"}),
     "bathroom": frozenset({"toilet", "bathtub", "shower"}),
 }
-# How much likelier a hall is than any other room to have 1, 2, 3, 4, 5 and more doors: other rooms are where ways end.
-_HALL_BY_DOORS = (0.1, 1.0, 6.0, 9.0, 25.0, 100.0)
 _SAME = {
     "refrigerator": "fridge", "cooker": "stove", "couch": "sofa", "television": "tv", "screen": "monitor",
     "computer": "laptop", "kitchen counter": "counter", "countertop": "counter", "worktop": "counter",
@@ -84,16 +81,39 @@ _SAME = {
 
 @dataclass(frozen=True, kw_only=True)
 class LabelSettings:
-    """``tell_from``: probability from which a label is said. ``switch_odds``: how many times likelier another one must
-    be to take its place: people have used the name by then. ``overlooked``: chance that a room of some kind shows
-    nothing of what makes it one.
-    """
+    """When a label is said, and what a room tells beside what stands in it."""
 
     period_s: float = 1.0
+    """Between looks at all rooms. Chosen: objects appear no faster."""
     tell_from: float = 0.55
+    """Probability from which a label is said. Chosen: clearly more than a half."""
     switch_odds: float = 3.0
+    """How many times likelier another one must be to take its place: people have used the name by then. Chosen."""
     floor: float = 0.01
+    """Least chance that a thing stands in a room of any kind: people put things anywhere. Chosen."""
     overlooked: float = 0.25
+    """Chance that a room of some kind shows nothing of what makes it one. Chosen: the robot sees most of a room."""
+    worth_writing: float = 0.02
+    """Least change of a label's probability that is written. Chosen."""
+    prior: tuple[float, ...] = (0.16, 0.18, 0.13, 0.17, 0.10, 0.14, 0.12)
+    """How common rooms of each kind are, in the order of ``ROOM_LABELS``. Chosen: as in usual homes and offices."""
+    hall_by_doors: tuple[float, ...] = (0.1, 1.0, 6.0, 9.0, 25.0, 100.0)
+    """How much likelier a hall is than any other room to have 1, 2, 3, 4, 5 and more doors: other rooms are where ways
+    end. Chosen."""
+    long: float = 3.0
+    """Length over width from which on a room is long."""
+    hall_if_long: float = 8.0
+    """How much likelier a hall is than any other room to be. Chosen."""
+    narrow: float = 2.2
+    """Length over width from which on a room is narrow,"""
+    narrow_m: float = 1.6
+    """or its width: what two people need to pass each other."""
+    hall_if_narrow: float = 4.0
+    """How much likelier a hall is than any other room to be. Chosen."""
+    hall_if_wide: float = 0.7
+    """And to be neither. Chosen."""
+    hall_if_bare: float = 1.5
+    """And to show nothing that tells. Chosen."""
 
 
 def room_label(
@@ -101,7 +121,7 @@ def room_label(
     *,
     polygon_m: tuple[Point2, ...] = (),
     doors: int = 0,
-    settings: LabelSettings | None = None,
+    settings: LabelSettings = LabelSettings(),
 ) -> tuple[str, float]:
     """The most likely use of a room and its probability; ``("", p)`` where it is not clear.
 
@@ -111,7 +131,6 @@ def room_label(
         doors: number of doors; many of them too, whatever stands in it.
         settings: when a label is said.
     """
-    settings = settings or LabelSettings()
     chances = label_chances(contents, polygon_m=polygon_m, doors=doors, settings=settings)
     best = max(chances, key=lambda label: chances[label])
     return (best if chances[best] >= settings.tell_from else ""), chances[best]
@@ -121,14 +140,14 @@ def label_chances(
     contents: Iterable[tuple[str, float]], *, polygon_m: tuple[Point2, ...], doors: int, settings: LabelSettings
 ) -> dict[str, float]:
     """Probability of every use that a room may have; arguments as in :func:`room_label`."""
-    log_odds = np.log(np.array(_PRIOR))
+    log_odds = np.log(np.array(settings.prior))
     evidence = _evidence(contents)
     for label, weight in sorted(evidence.items()):
         chances = np.maximum(np.array(_CHANCES[label]), settings.floor)
         log_odds = log_odds + weight * np.log(chances / chances.mean())
     if evidence:
         log_odds = log_odds + _missing_evidence(evidence, settings.overlooked)
-    log_odds = log_odds + _shape_evidence(polygon_m, doors, bare=not evidence)
+    log_odds = log_odds + _shape_evidence(polygon_m, doors, settings, bare=not evidence)
     weights = np.exp(log_odds - log_odds.max())
     probabilities = weights / weights.sum()
     return dict(zip(ROOM_LABELS, map(float, probabilities), strict=True))
@@ -162,19 +181,22 @@ def _missing_evidence(evidence: Mapping[str, float], overlooked: float) -> NDArr
     return missing
 
 
-def _shape_evidence(polygon_m: tuple[Point2, ...], doors: int, *, bare: bool) -> NDArray[np.float64]:
+def _shape_evidence(
+    polygon_m: tuple[Point2, ...], doors: int, settings: LabelSettings, *, bare: bool
+) -> NDArray[np.float64]:
     """Log likelihood ratio of shape and doors: only a hall is told by them."""
     evidence = np.zeros(len(ROOM_LABELS))
     hall = ROOM_LABELS.index("hall")
     if len(polygon_m) >= 3:
         length_m, width_m = _strip(np.asarray(polygon_m))
         ratio = length_m / max(width_m, 0.1)
-        narrow = ratio > 2.2 or width_m < 1.6
-        evidence[hall] += np.log(8.0) if ratio > 3.0 else np.log(4.0) if narrow else np.log(0.7)
+        narrow = ratio > settings.narrow or width_m < settings.narrow_m
+        likelier = settings.hall_if_narrow if narrow else settings.hall_if_wide
+        evidence[hall] += np.log(settings.hall_if_long if ratio > settings.long else likelier)
     if doors > 0:
-        evidence[hall] += np.log(_HALL_BY_DOORS[min(doors, len(_HALL_BY_DOORS)) - 1])
+        evidence[hall] += np.log(settings.hall_by_doors[min(doors, len(settings.hall_by_doors)) - 1])
     if bare:
-        evidence[hall] += np.log(1.5)
+        evidence[hall] += np.log(settings.hall_if_bare)
     return evidence
 
 
@@ -197,9 +219,9 @@ class RoomLabels:
 
     name = "room_labels"
 
-    def __init__(self, memory: WorkingMemory, settings: LabelSettings | None = None) -> None:
+    def __init__(self, memory: WorkingMemory, settings: LabelSettings = LabelSettings()) -> None:
         self._memory = memory
-        self._settings = settings or LabelSettings()
+        self._settings = settings
         self.period_s = self._settings.period_s
 
     async def step(self, stamp_s: float) -> None:
@@ -218,7 +240,7 @@ class RoomLabels:
             )
             label = self._label(room.label, chances)
             probability = round(chances[label], 3) if label else 0.0
-            if label != room.label or abs(probability - room.label_probability) > 0.02:
+            if label != room.label or abs(probability - room.label_probability) > self._settings.worth_writing:
                 edits.append(PutNode(replace(room, label=label, label_probability=probability)))
         self._memory.commit(edits, agent=self.name, stamp_s=stamp_s)
 

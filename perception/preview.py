@@ -13,14 +13,21 @@ from numpy.typing import NDArray
 from perception.panoptic import Instance, PanopticModel, PanopticScene
 from perception.ports import RgbdFrame
 
-SCALE = 2
-"""The picture is this much larger than the frame, so that labels can be read."""
 _GOLDEN_ANGLE_DEG = 137.508
 
 
-_SPECK_PX = 12
-"""Parts of a mask with a smaller outline are left out."""
-_TOLERANCE_PX = 1.0
+@dataclass(frozen=True, kw_only=True)
+class PreviewSettings:
+    """How pictures are made."""
+
+    scale: int = 2
+    """The picture is this much larger than the frame, so that labels can be read."""
+    jpeg_quality: int = 80
+    """Of 100. Chosen: looks like the frame at a tenth of the bytes."""
+    speck_px: float = 12.0
+    """Parts of a mask with a smaller outline are left out. Chosen: three pixels square."""
+    tolerance_px: float = 1.0
+    """How far an outline may be from its mask: a pixel."""
 
 
 class WatchedModel:
@@ -52,42 +59,45 @@ class Outline:
     parts_px: tuple[tuple[tuple[int, int], ...], ...]
 
 
-def outline_of(mask: NDArray[np.bool_]) -> Outline | None:
+def outline_of(mask: NDArray[np.bool_], settings: PreviewSettings = PreviewSettings()) -> Outline | None:
     """The outline of an (H, W) mask, to a pixel, without holes and specks; ``None`` if nothing is left."""
     found, _ = cv2.findContours(mask.astype(np.uint8), cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_SIMPLE)
-    large = sorted((part for part in found if cv2.arcLength(part, closed=True) >= _SPECK_PX), key=cv2.contourArea)
+    least_px = settings.speck_px
+    large = sorted((part for part in found if cv2.arcLength(part, closed=True) >= least_px), key=cv2.contourArea)
     if not large:
         return None
     x, y, width, height = cv2.boundingRect(np.concatenate(large))
-    parts = (cv2.approxPolyDP(part, _TOLERANCE_PX, closed=True)[:, 0, :].tolist() for part in reversed(large))
+    tolerance_px = settings.tolerance_px
+    parts = (cv2.approxPolyDP(part, tolerance_px, closed=True)[:, 0, :].tolist() for part in reversed(large))
     return Outline(
         box_px=(x, y, x + width, y + height),
         parts_px=tuple(tuple((int(u), int(v)) for u, v in part) for part in parts),
     )
 
 
-def frame_jpeg(frame: RgbdFrame) -> bytes:
+def frame_jpeg(frame: RgbdFrame, settings: PreviewSettings = PreviewSettings()) -> bytes:
     """``frame`` as JPEG, as it was taken."""
-    return _jpeg(cv2.cvtColor(frame.rgb, cv2.COLOR_RGB2BGR))
+    return _jpeg(cv2.cvtColor(frame.rgb, cv2.COLOR_RGB2BGR), settings.jpeg_quality)
 
 
-def preview_jpeg(frame: RgbdFrame, scene: PanopticScene) -> bytes:
+def preview_jpeg(frame: RgbdFrame, scene: PanopticScene, settings: PreviewSettings = PreviewSettings()) -> bytes:
     """``frame`` as JPEG with every instance outlined and labeled."""
     picture = cv2.cvtColor(frame.rgb, cv2.COLOR_RGB2BGR)
-    resized = cv2.resize(picture, None, fx=SCALE, fy=SCALE, interpolation=cv2.INTER_LINEAR)
+    scale = settings.scale
+    resized = cv2.resize(picture, None, fx=scale, fy=scale, interpolation=cv2.INTER_LINEAR)
     canvas: NDArray[np.uint8] = np.asarray(resized, dtype=np.uint8)
     for index, instance in enumerate(scene.instances):
-        _draw(canvas, instance, _color(index))
-    return _jpeg(canvas)
+        _draw(canvas, instance, _color(index), scale)
+    return _jpeg(canvas, settings.jpeg_quality)
 
 
-def _jpeg(picture: Any) -> bytes:
-    _, encoded = cv2.imencode(".jpg", picture, [cv2.IMWRITE_JPEG_QUALITY, 80])
+def _jpeg(picture: Any, quality: int) -> bytes:
+    _, encoded = cv2.imencode(".jpg", picture, [cv2.IMWRITE_JPEG_QUALITY, quality])
     return bytes(encoded)
 
 
-def _draw(picture: NDArray[np.uint8], instance: Instance, color: Sequence[int]) -> None:
-    mask = cv2.resize(instance.mask.astype(np.uint8), None, fx=SCALE, fy=SCALE, interpolation=cv2.INTER_NEAREST)
+def _draw(picture: NDArray[np.uint8], instance: Instance, color: Sequence[int], scale: int) -> None:
+    mask = cv2.resize(instance.mask.astype(np.uint8), None, fx=scale, fy=scale, interpolation=cv2.INTER_NEAREST)
     outlines, _ = cv2.findContours(mask, cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_SIMPLE)
     if not outlines:
         return

@@ -10,6 +10,7 @@ import logging
 from bisect import bisect_left
 from collections import deque
 from collections.abc import Awaitable, Callable
+from dataclasses import dataclass
 from functools import lru_cache
 from typing import TypeVar
 
@@ -23,10 +24,20 @@ from scene_graph.geometry.se3 import SE3, wrap_angle
 logger = logging.getLogger(__name__)
 
 Measurement = TypeVar("Measurement")
-_EXTRAPOLATION_LIMIT_S = 0.5
-SENSING_PERIOD_S = 0.1
-JOINTS_KEPT = 50
-"""Newest measurements of the joints: some seconds, as a frame may be as late."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class SensingSettings:
+    """How often sensors are asked, and what is kept."""
+
+    period_s: float = 0.1
+    """Between measurements: a LiDAR turns ten times a second."""
+    odometry: int = 600
+    """Kept, a minute at this rate: longer than any measurement waits."""
+    joints: int = 50
+    """Measurements of the joints that are kept: some seconds, as a frame may be as late."""
+    extrapolation_s: float = 0.5
+    """Longest that the base is taken to go on as it did. Chosen: longer, and it may have stopped."""
 
 
 def ray_directions_base(scan: LidarScan) -> NDArray[np.float64]:
@@ -83,15 +94,15 @@ class SensorBuffer:
         silent: sensor name -> time in seconds since which it has been silent.
     """
 
-    def __init__(self, port: SensorPort, *, history: int = 600) -> None:
-        self.port = port
-        self.odometry: deque[Odometry] = deque(maxlen=history)
+    def __init__(self, port: SensorPort, settings: SensingSettings = SensingSettings()) -> None:
+        self.port, self._settings = port, settings
+        self.odometry: deque[Odometry] = deque(maxlen=settings.odometry)
         self.scan: LidarScan | None = None
         self.scans = 0
         self.frame: RgbdFrame | None = None
         self.frame_before: RgbdFrame | None = None
         self.frames = 0
-        self._joints: deque[JointState] = deque(maxlen=JOINTS_KEPT)
+        self._joints: deque[JointState] = deque(maxlen=settings.joints)
         self.silent: dict[str, float] = {}
 
     def add_odometry(self, sample: Odometry) -> None:
@@ -132,12 +143,12 @@ class SensorBuffer:
     def odometry_at(self, stamp_s: float) -> SE3:
         """Pose of the base in the odometry frame at ``stamp_s``.
 
-        Interpolates linearly between samples and extrapolates with the newest velocity for at most half a second.
+        Interpolates linearly between samples and extrapolates with the newest velocity for a little while.
 
         Raises:
             OdometryUnavailable: no sample yet, or ``stamp_s`` lies outside the recorded span.
         """
-        return _pose_at(self.odometry.copy(), stamp_s)
+        return _pose_at(self.odometry.copy(), stamp_s, self._settings.extrapolation_s)
 
     def odometry_near(self, stamp_s: float) -> SE3:
         """As ``odometry_at``, at the recorded time nearest to ``stamp_s``.
@@ -148,15 +159,16 @@ class SensorBuffer:
         samples = self.odometry.copy()
         if not samples:
             raise OdometryUnavailable(stamp_s, None)
-        return _pose_at(samples, min(max(stamp_s, samples[0].stamp_s), samples[-1].stamp_s))
+        nearest_s = min(max(stamp_s, samples[0].stamp_s), samples[-1].stamp_s)
+        return _pose_at(samples, nearest_s, self._settings.extrapolation_s)
 
 
-def _pose_at(samples: deque[Odometry], stamp_s: float) -> SE3:
+def _pose_at(samples: deque[Odometry], stamp_s: float, extrapolation_s: float) -> SE3:
     """Between the samples nearest to ``stamp_s``, or a little after the newest."""
     if not samples:
         raise OdometryUnavailable(stamp_s, None)
     oldest, newest = samples[0], samples[-1]
-    if stamp_s < oldest.stamp_s - 1e-6 or stamp_s > newest.stamp_s + _EXTRAPOLATION_LIMIT_S:
+    if stamp_s < oldest.stamp_s - 1e-6 or stamp_s > newest.stamp_s + extrapolation_s:
         raise OdometryUnavailable(stamp_s, (oldest.stamp_s, newest.stamp_s))
     if stamp_s >= newest.stamp_s:
         x_m, y_m, yaw_rad = _extrapolate(newest, stamp_s - newest.stamp_s)
@@ -193,7 +205,7 @@ class Sensing:
 
     name = "sensing"
 
-    def __init__(self, buffer: SensorBuffer, *, period_s: float = SENSING_PERIOD_S) -> None:
+    def __init__(self, buffer: SensorBuffer, *, period_s: float = SensingSettings.period_s) -> None:
         self.period_s = period_s
         self._buffer = buffer
 

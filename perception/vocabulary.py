@@ -15,15 +15,27 @@ from types import MappingProxyType
 from perception.vocabulary_table import LARGEST, ROWS
 from scene_graph.nodes import Point3
 
-GRIPPER_OPENING_M = 0.12
-_GRIPPER_MARGIN_M = 0.01
-_SQUARE_SHARE = 0.85
-_UNSEEN_SHARE = 0.65
-"""As deep a thing may be that shows its width alone, as a share of that."""
-_SIDE_SHARE = 0.2
-"""By how much, of its usual side, a piece of furniture of one size may seem longer or shorter."""
-_FURNITURE_FROM_M = 0.5
 _OF_ONE_SIZE = frozenset({"appliance", "fixture", "fruit"})
+
+
+@dataclass(frozen=True, kw_only=True)
+class SizeSettings:
+    """What a measured size says about a thing, given its name."""
+
+    gripper_opening_m: float = 0.12
+    """Of the robot's hand, as its limits have it (``skills.ports.BodyLimits``)."""
+    gripper_margin_m: float = 0.01
+    """Left free when it closes on something: errors of the grasp on both sides."""
+    square_share: float = 0.85
+    """A thing whose sides differ less may have been seen from one side only. Chosen."""
+    unseen_share: float = 0.65
+    """As deep it may be that shows its width alone, as a share of that. Chosen: books, boxes, bags."""
+    side_share: float = 0.2
+    """By how much, of its usual side, a piece of furniture of one size may seem longer or shorter. Chosen."""
+    furniture_from_m: float = 0.5
+    """Longest side from which on an unknown thing is furniture. Chosen: nothing to carry is longer."""
+    reachable_top_m: float = 1.25
+    """Things are not put on what is higher: its top is out of the camera's and of the hand's reach."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -50,37 +62,37 @@ class Category:
     tags: tuple[str, ...] = ()
 
 
-def category_of(label: str, size_m: Point3 | None = None) -> Category:
+def category_of(label: str, size_m: Point3 | None = None, settings: SizeSettings = SizeSettings()) -> Category:
     """What is known of ``label``; an unknown one is judged by its measured ``size_m``.
 
     A large unknown thing is taken for furniture that stands where it is, a small one for something to carry.
     """
     category = CATEGORIES.get(plain_label(label))
-    return category if category is not None else _unknown(label, size_m)
+    return category if category is not None else _unknown(label, size_m, settings)
 
 
-def fits_gripper(size_m: Point3, opening_m: float = GRIPPER_OPENING_M) -> bool:
+def fits_gripper(size_m: Point3, settings: SizeSettings = SizeSettings()) -> bool:
     """Whether the hand can close on the thing from above or from the side: one horizontal side or, lying flat, its
     height.
     """
-    return 0.0 < min(size_m[:2]) <= opening_m - _GRIPPER_MARGIN_M
+    return 0.0 < min(size_m[:2]) <= settings.gripper_opening_m - settings.gripper_margin_m
 
 
-def is_graspable(label: str, size_m: Point3) -> bool:
+def is_graspable(label: str, size_m: Point3, settings: SizeSettings = SizeSettings()) -> bool:
     """By name and by geometry; a thing that need not be as deep as it is wide, but looks so, may have been seen from
     one side only, and is given the benefit of the doubt.
     """
-    category, (narrow_m, wide_m) = category_of(label, size_m), sorted(size_m[:2])
-    in_doubt = not (category.round or category.ball) and narrow_m > _SQUARE_SHARE * wide_m
-    sides = (narrow_m * (_UNSEEN_SHARE if in_doubt else 1.0), wide_m, size_m[2])
-    return category.graspable and fits_gripper(sides)
+    category, (narrow_m, wide_m) = category_of(label, size_m, settings), sorted(size_m[:2])
+    in_doubt = not (category.round or category.ball) and narrow_m > settings.square_share * wide_m
+    sides = (narrow_m * (settings.unseen_share if in_doubt else 1.0), wide_m, size_m[2])
+    return category.graspable and fits_gripper(sides, settings)
 
 
-def carries_things(label: str, size_m: Point3, *, reachable_top_m: float = 1.25) -> bool:
+def carries_things(label: str, size_m: Point3, settings: SizeSettings = SizeSettings()) -> bool:
     """Whether things are put on or in it: a support, or a container that is open; not one whose top is out of sight."""
-    category = category_of(label, size_m)
+    category = category_of(label, size_m, settings)
     open_container = category.container and "appliance" not in category.tags
-    return (category.support and (category.levels or size_m[2] <= reachable_top_m)) or open_container
+    return (category.support and (category.levels or size_m[2] <= settings.reachable_top_m)) or open_container
 
 
 def is_of_one_size(label: str) -> bool:
@@ -109,19 +121,20 @@ def is_too_large(label: str, size_m: Point3) -> bool:
     return any(side > largest for side, largest in zip(sides, largest_m, strict=True))
 
 
-def spans_its_kind(label: str, size_m: Point3) -> bool:
+def spans_its_kind(label: str, size_m: Point3, settings: SizeSettings = SizeSettings()) -> bool:
     """Whether furniture that comes in one size is as long and as deep as that: of what is seen no side is missing."""
     category = category_of(label)
     usual_m, seen_m = sorted(category.size_m[:2]), sorted(size_m[:2])
-    fits = all(abs(seen - usual) < _SIDE_SHARE * usual for seen, usual in zip(seen_m, usual_m, strict=True))
+    share = settings.side_share
+    fits = all(abs(seen - usual) < share * usual for seen, usual in zip(seen_m, usual_m, strict=True))
     return fits and category.furniture and is_of_one_size(label)
 
 
-def may_grow_m(label: str, size_m: Point3) -> float:
+def may_grow_m(label: str, size_m: Point3, settings: SizeSettings = SizeSettings()) -> float:
     """How much longer than it seems a thing may still be whose kind comes in one size; infinite for other kinds."""
     if not is_of_one_size(label):
         return math.inf
-    return max((1.0 + _SIDE_SHARE) * max(category_of(label).size_m[:2]) - max(size_m[:2]), 0.0)
+    return max((1.0 + settings.side_share) * max(category_of(label).size_m[:2]) - max(size_m[:2]), 0.0)
 
 
 def has_back(label: str) -> bool:
@@ -141,14 +154,14 @@ def plain_label(label: str) -> str:
     return re.sub(r"[\s_]+", " ", label.strip().lower())
 
 
-def _unknown(label: str, size_m: Point3 | None) -> Category:
+def _unknown(label: str, size_m: Point3 | None, settings: SizeSettings) -> Category:
     if size_m is None or max(size_m) <= 0.0:
         return Category(label=label, graspable=True, known=False)
-    furniture = max(size_m) > _FURNITURE_FROM_M
+    furniture = max(size_m) > settings.furniture_from_m
     return Category(
         label=label,
         graspable=not furniture,
-        support=furniture and min(size_m[:2]) > GRIPPER_OPENING_M,
+        support=furniture and min(size_m[:2]) > settings.gripper_opening_m,
         furniture=furniture,
         known=False,
         size_m=size_m,

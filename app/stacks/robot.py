@@ -29,8 +29,9 @@ from perception.network.model import OnnxPanopticModel
 from perception.objects.agent import ObjectMemory, ObjectMemorySettings
 from perception.objects.seeing.detection import DetectionSettings
 from perception.panoptic import PanopticModel
+from perception.ports import RobotShape
 from perception.preview import WatchedModel
-from perception.sensing import SENSING_PERIOD_S, Filming, Sensing, SensorBuffer
+from perception.sensing import Filming, Sensing, SensingSettings, SensorBuffer
 from perception.vocabulary import category_of, is_person, plain_label
 from planner.executor.arbiter import Arbiter
 from planner.executor.executor import Executor
@@ -117,7 +118,7 @@ class RobotStack:
         self.agents: Sequence[Agent] = [
             Sensing(buffer),
             *filming,
-            *mapping_agents(self.memory, buffer),
+            *mapping_agents(self.memory, buffer, RobotShape(footprint_radius_m=robot.limits.footprint_radius_m)),
             *seeing,
             Arbiter(self.memory, stopped=lambda: self.stopped, exploration_enabled=settings.explore),
             Mission(resources, planner),
@@ -252,7 +253,7 @@ class RobotStack:
         from app.recording.recorder import Recorder
 
         lockstep = self._settings.clock is ClockMode.LOCKSTEP
-        period_s = TICK_S if lockstep else SENSING_PERIOD_S
+        period_s = TICK_S if lockstep else SensingSettings.period_s
         return Recorder(tape, self.memory, self._buffer, self.robot, patient=lockstep, period_s=period_s)
 
     def _sensor_ages(self) -> dict[str, float]:

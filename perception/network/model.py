@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import threading
 from collections.abc import Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -15,21 +16,33 @@ from onnxruntime.capi import onnxruntime_pybind11_state as ort_errors
 
 from perception.network.contract import INPUT, INSTANCE_OUTPUTS, Signature, check_declared, check_names, check_results
 from perception.network.errors import NetworkUnreadable
-from perception.network.frame_checks import check_frame
+from perception.network.frame_checks import FrameCheckSettings, check_frame
 from perception.network.metadata import Description, read_metadata
 from perception.network.postprocessing import Outputs, panoptic_scene
+from perception.network.recognition import DistributionSettings
 from perception.network.resize import Placement, input_tensor, place
 from perception.objects.errors import InferenceFailed
 from perception.panoptic import PanopticScene
 from perception.ports import RgbdFrame
 
-THREADS = 2
 _WARM_UP_FRAME = (240, 320)
 _QUIET = 3
-_BUSY_S = 10.0
+"""Severity from which on onnxruntime speaks: errors."""
 _ORT_ERRORS = tuple(
     error for error in vars(ort_errors).values() if isinstance(error, type) and issubclass(error, Exception)
 )
+
+
+@dataclass(frozen=True, kw_only=True)
+class NetworkSettings:
+    """How a network is run, and the stages before and after it."""
+
+    threads: int = 2
+    """Of the processor that one frame takes: the service needs the others."""
+    busy_s: float = 10.0
+    """Longest that a frame waits for an earlier one. Chosen: then something hangs."""
+    frames: FrameCheckSettings = field(default_factory=FrameCheckSettings)
+    distribution: DistributionSettings = field(default_factory=DistributionSettings)
 
 
 class OnnxPanopticModel:
@@ -40,25 +53,27 @@ class OnnxPanopticModel:
         description: what the file says of itself.
     """
 
-    def __init__(self, file: str, session: Any, description: Description, signature: Signature) -> None:
-        self.file = file
+    def __init__(
+        self, file: str, session: Any, description: Description, signature: Signature, settings: NetworkSettings
+    ) -> None:
+        self.file, self._settings = file, settings
         self.description = description
         self._session, self._signature = session, signature
         self._one_at_a_time = threading.Lock()
 
     @classmethod
-    def load(cls, path: Path | str, *, threads: int = THREADS) -> OnnxPanopticModel:
+    def load(cls, path: Path | str, settings: NetworkSettings = NetworkSettings()) -> OnnxPanopticModel:
         """Read a file, check it against the contract, and let it see one gray image, since free sizes show only then.
 
         Raises:
             NetworkRefused: it does not keep the contract; one sentence says where.
         """
         file = str(path)
-        session = _open(Path(path), threads)
+        session = _open(Path(path), settings.threads)
         check_names(file, session.get_inputs(), session.get_outputs())
         description = read_metadata(file, session.get_modelmeta().custom_metadata_map)
         signature = check_declared(file, session.get_inputs()[0], session.get_outputs(), description)
-        model = cls(file, session, description, signature)
+        model = cls(file, session, description, signature, settings)
         placement = place(_WARM_UP_FRAME, description.resize, signature.canvas)
         gray = np.full((*_WARM_UP_FRAME, 3), 128, dtype=np.uint8)
         try:
@@ -83,9 +98,9 @@ class OnnxPanopticModel:
 
     def understand(self, frame: RgbdFrame, options: Any = None) -> PanopticScene:
         """As ``infer``, in the calling thread. ``options``: onnxruntime's, to end the run early."""
-        check_frame(frame)
+        check_frame(frame, self._settings.frames)
         placement = self.placement(frame.rgb.shape[:2])
-        if not self._one_at_a_time.acquire(timeout=_BUSY_S):
+        if not self._one_at_a_time.acquire(timeout=self._settings.busy_s):
             raise InferenceFailed("the network is still busy with an earlier frame", frame.stamp_s)
         try:
             results = self._run(frame.rgb, placement, options or onnxruntime.RunOptions())
@@ -93,7 +108,13 @@ class OnnxPanopticModel:
             raise InferenceFailed(_first_line(error), frame.stamp_s) from error
         finally:
             self._one_at_a_time.release()
-        return panoptic_scene(_outputs(results, frame.stamp_s), self.description, placement, stamp_s=frame.stamp_s)
+        return panoptic_scene(
+            _outputs(results, frame.stamp_s),
+            self.description,
+            placement,
+            stamp_s=frame.stamp_s,
+            settings=self._settings.distribution,
+        )
 
     def placement(self, size: tuple[int, int]) -> Placement:
         """Where a frame of this height and width lies in the network's input."""

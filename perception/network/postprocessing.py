@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from perception.network.merging import same_things
 from perception.network.metadata import Description, Thresholds
-from perception.network.recognition import UNKNOWN, Recognition, joined, recognize, softmax
+from perception.network.recognition import UNKNOWN, DistributionSettings, Recognition, joined, recognize, softmax
 from perception.network.resize import Placement
 from perception.panoptic import Instance, PanopticScene, Triplet
 from scene_graph.nodes import UNKNOWN_LABEL
@@ -59,7 +59,12 @@ class _Candidates:
 
 
 def panoptic_scene(
-    outputs: Outputs, description: Description, placement: Placement, *, stamp_s: float
+    outputs: Outputs,
+    description: Description,
+    placement: Placement,
+    *,
+    stamp_s: float,
+    settings: DistributionSettings = DistributionSettings(),
 ) -> PanopticScene:
     """Instances, surest first, and relations, most probable first."""
     thresholds, is_thing = description.thresholds, description.is_thing
@@ -80,7 +85,7 @@ def panoptic_scene(
     subject = np.searchsorted(queries, chosen.query)
     return PanopticScene(
         stamp_s=stamp_s,
-        instances=tuple(_instance(candidates, members, description, placement) for members in groups),
+        instances=tuple(_instance(candidates, members, description, placement, settings) for members in groups),
         relations=_relations(instance_of[subject], instance_of[len(queries) + subject], chosen, description.predicates),
     )
 
@@ -108,7 +113,11 @@ def _candidates(
 
 
 def _instance(
-    candidates: _Candidates, members: NDArray[np.intp], description: Description, placement: Placement
+    candidates: _Candidates,
+    members: NDArray[np.intp],
+    description: Description,
+    placement: Placement,
+    settings: DistributionSettings,
 ) -> Instance:
     """What the first of ``members`` is recognized as, with the pixels of all of them."""
     founder = int(members[0])
@@ -118,7 +127,7 @@ def _instance(
         label=UNKNOWN_LABEL if label == UNKNOWN else description.classes[label],
         score=float(candidates.seen.score[founder]),
         mask=placement.mask_of_frame(logits, description.thresholds.mask_logit),
-        label_distribution=candidates.seen.distribution(founder, description.classes),
+        label_distribution=candidates.seen.distribution(founder, description.classes, settings),
     )
 
 

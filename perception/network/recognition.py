@@ -13,9 +13,16 @@ from scene_graph.nodes import UNKNOWN_LABEL
 
 UNKNOWN = -1
 """Class index of what the network does not know."""
-LISTED = 5
-"""How many classes a label distribution lists."""
-_WEAKEST = 1e-3
+
+
+@dataclass(frozen=True, kw_only=True)
+class DistributionSettings:
+    """Which classes a label distribution lists."""
+
+    classes: int = 5
+    """At most so many, likeliest first. Chosen: the rest tells nothing."""
+    weakest: float = 1e-3
+    """Least probability of one that is listed. Chosen."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -41,17 +48,20 @@ class Recognition:
             classes=self.classes[chosen],
         )
 
-    def distribution(self, row: int, names: Sequence[str]) -> tuple[tuple[str, float], ...]:
-        """(label, probability), likeliest first, at most five.
+    def distribution(
+        self, row: int, names: Sequence[str], settings: DistributionSettings = DistributionSettings()
+    ) -> tuple[tuple[str, float], ...]:
+        """(label, probability), likeliest first.
 
         Of an unknown thing, what the best class leaves is the probability of "unknown", and all classes share the rest.
         """
         given = self.classes[row]
-        best = [int(i) for i in np.argsort(-given, kind="stable")[:LISTED] if given[i] >= _WEAKEST]
+        likeliest = np.argsort(-given, kind="stable")[: settings.classes]
+        best = [int(i) for i in likeliest if given[i] >= settings.weakest]
         if self.label[row] != UNKNOWN:
             return tuple((names[i], float(given[i])) for i in best)
         top = float(given.max())
-        return (UNKNOWN_LABEL, 1.0 - top), *((names[i], top * float(given[i])) for i in best[: LISTED - 1])
+        return (UNKNOWN_LABEL, 1.0 - top), *((names[i], top * float(given[i])) for i in best[: settings.classes - 1])
 
 
 def joined(parts: Sequence[Recognition]) -> Recognition:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -94,3 +96,11 @@ def test_a_ceiling_is_told_from_walls() -> None:
     outline = slicer.cut(closed)
     assert slicer.ceiling_m == pytest.approx(2.6, abs=0.02)
     assert np.linalg.norm(outline.points_base, axis=1).min() > 3.3
+
+
+def test_the_slice_of_a_lidar_of_one_flat_ring_is_at_its_height():
+    scan = cast(House(rooms={"a": rectangle(4.0, 3.0)}), Pose2(1.0, 1.0, 0.0), np.random.default_rng(0))
+    flat = replace(scan, ranges_m=scan.ranges_m[:1], elevations_rad=np.zeros(1))
+    outline = OutlineSlicer().cut(flat)
+    assert outline.blind_m == 0.0
+    np.testing.assert_allclose(outline.ranges_m, flat.ranges_m[0])

@@ -1,8 +1,6 @@
-"""Outlines, measurements and the room's place in the graph."""
+"""Outlines of rooms from a few views."""
 
 from __future__ import annotations
-
-from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
@@ -11,50 +9,17 @@ from hypothesis import strategies as st
 
 from perception.geometry.planar import Pose2
 from perception.geometry.polygon import signed_area, wall_lengths
-from perception.lidar.slice import OutlineSlicer
 from perception.rooms.outline.entrance import entrance
 from perception.rooms.outline.outline import (
     ArrangementSettings,
-    Outline,
     _center,
     _false_step,
     _MeasuredWall,
     _straightened,
-    find_outline,
 )
-from perception.rooms.survey.instance import MeasuredRoom, measured_room, room_elements
-from perception.rooms.survey.measurement import Fit, RoomMeasurement
-from perception.rooms.survey.vantage import next_vantage
-from perception.rooms.views.view import View, dominant_direction
-from scene_graph.edges import RtEdge
-from scene_graph.nodes import RoomStatus, WallNode
-from unit.perception.lidar_house import Array, Door, House, cast, l_shape, rectangle, t_shape, turned, u_shape
-
-NOWHERE = np.empty((0, 2))
-
-
-def view_at(house: House, pose: Pose2, rng: np.random.Generator) -> View:
-    return View.of(OutlineSlicer().cut(cast(house, pose, rng)), pose, pose)
-
-
-def outline_from(house: House, *places: tuple[float, float], seed: int = 0, yaw_rad: float = 0.4) -> Outline:
-    rng = np.random.default_rng(seed)
-    outline = find_outline([view_at(house, Pose2(x, y, yaw_rad), rng) for x, y in places])
-    assert outline is not None
-    return outline
-
-
-def corner_error_m(truth: Array, polygon: Array) -> float:
-    assert len(truth) == len(polygon)
-    return float(np.linalg.norm(truth[:, None] - polygon[None], axis=2).min(axis=1).max())
-
-
-def test_the_slice_of_a_lidar_of_one_flat_ring_is_at_its_height():
-    scan = cast(House(rooms={"a": rectangle(4.0, 3.0)}), Pose2(1.0, 1.0, 0.0), np.random.default_rng(0))
-    flat = replace(scan, ranges_m=scan.ranges_m[:1], elevations_rad=np.zeros(1))
-    outline = OutlineSlicer().cut(flat)
-    assert outline.blind_m == 0.0
-    np.testing.assert_allclose(outline.ranges_m, flat.ranges_m[0])
+from perception.rooms.views.view import dominant_direction
+from unit.perception.lidar_house import Array, Door, House, l_shape, rectangle, t_shape, turned, u_shape
+from unit.perception.rooms.viewed_rooms import approach, corner_error_m, outline_from, view_at
 
 
 @pytest.mark.parametrize(
@@ -82,22 +47,6 @@ def test_a_rectilinear_room_is_outlined_within_twelve_millimeters(
     assert corner_error_m(house.rooms["a"], outline.polygon) < 0.012
 
 
-def test_an_unseen_leg_leaves_the_outline_open_and_is_where_to_go_next() -> None:
-    outline = outline_from(House(rooms={"a": l_shape()}), (5.5, 2.0))
-    assert not outline.closed
-    place = next_vantage(outline, NOWHERE, [], np.array([5.5, 2.0]))
-    assert place is not None
-    assert np.linalg.norm(place - np.array([1.5, 2.0])) < 1.0
-
-
-def test_a_place_that_was_visited_is_not_proposed_again() -> None:
-    outline = outline_from(House(rooms={"a": rectangle(4.0, 3.0)}), (1.0, 1.0))
-    first = next_vantage(outline, NOWHERE, [], np.array([1.0, 1.0]))
-    assert first is not None
-    assert np.linalg.norm(first - np.array([2.0, 1.5])) < 0.05
-    assert next_vantage(outline, NOWHERE, [first], np.array([1.0, 1.0])) is None
-
-
 @pytest.mark.parametrize("angle_rad", [0.0, 0.7, -2.1])
 def test_the_lintel_that_the_robot_came_in_under_hides_no_part_of_the_room(angle_rad: float) -> None:
     room, beside = rectangle(4.0, 3.4), rectangle(3.0, 3.4, x=-3.2)
@@ -122,25 +71,6 @@ def test_an_arm_of_a_room_through_which_the_robot_came_may_still_be_part_of_it()
     assert entrance(room, np.array([[-0.2, 1.5], [0.2, 1.5]])) is not None
     assert entrance(room, np.array([[-1.5, 1.5], [-0.2, 1.5], [0.2, 1.5]])) is None
     assert entrance(room, np.array([[0.2, 1.5], [-0.2, 1.5], [0.2, 1.5]])) is None
-
-
-def test_a_vantage_point_keeps_clear_of_furniture() -> None:
-    outline = outline_from(House(rooms={"a": rectangle(4.0, 3.0)}), (1.0, 1.0))
-    table = np.array([[2.0, 1.5], [2.2, 1.5], [1.8, 1.5]])
-    place = next_vantage(outline, table, [], np.array([1.0, 1.0]))
-    assert place is not None
-    assert np.linalg.norm(table - place, axis=1).min() > 0.39
-
-
-def test_a_vantage_point_is_one_that_a_way_leads_to() -> None:
-    outline = outline_from(House(rooms={"a": l_shape()}), (5.5, 2.0))
-    robot = np.array([5.5, 1.2])
-    free = next_vantage(outline, NOWHERE, [], robot)
-    screen = np.column_stack([np.full(40, 4.0), np.linspace(0.1, 2.3, 40)])
-    shut_in = next_vantage(outline, screen, [], robot)
-    assert free is not None
-    assert free[0] < 3.5
-    assert shut_in is None or shut_in[0] > 4.0
 
 
 @pytest.mark.parametrize(("steps", "seed"), [(9, 0), (5, 1)])
@@ -243,97 +173,6 @@ def test_the_dominant_direction_turns_with_the_robot(yaw_rad: float) -> None:
     direction, share = dominant_direction([view])
     assert share == pytest.approx(1.0)
     assert abs(np.remainder(direction + np.pi / 4, np.pi / 2) - np.pi / 4) < 0.003
-
-
-@dataclass(kw_only=True)
-class Approach:
-    """A measurement of a room along a straight way, with odometry that is one percent off, and the true first pose."""
-
-    fit: Fit
-    first: Pose2
-    last: Pose2
-    polygon: Array
-
-    def error_m(self) -> float:
-        T_house_frame = self.first @ self.fit.views[0].T_frame_base.inverse()
-        return corner_error_m(self.polygon, T_house_frame.apply(self.fit.outline.polygon))
-
-
-def approach(polygon: Array, start: tuple[float, float], end: tuple[float, float], seed: int) -> Approach:
-    rng, slicer, measurement = np.random.default_rng(seed), OutlineSlicer(), RoomMeasurement()
-    house, way = House(rooms={"a": polygon}), np.array(end) - np.array(start)
-    steps = max(int(np.linalg.norm(way) / 0.05), 10)
-    heading = float(np.arctan2(way[1], way[0]))
-    poses = [Pose2(*(start + way * k / steps), heading + 0.3 * np.sin(k / 10)) for k in range(steps + 1)]
-    scale, odometry = 1.0 + float(rng.choice([-0.01, 0.01])), Pose2.identity()
-    for before, pose in zip([poses[0], *poses], poses, strict=False):
-        moved = before.inverse() @ pose
-        odometry = odometry @ Pose2(moved.x_m * scale, moved.y_m * scale, moved.yaw_rad * scale)
-        measurement.add(slicer.cut(cast(house, pose, rng)), odometry, odometry)
-    fit = measurement.solve()
-    assert fit is not None
-    return Approach(fit=fit, first=poses[0], last=poses[-1], polygon=polygon)
-
-
-@pytest.mark.parametrize("seed", range(2))
-@pytest.mark.parametrize(
-    ("polygon", "start", "end"),
-    [
-        (rectangle(8.0, 6.0), (1.0, 1.0), (4.0, 3.0)),
-        (l_shape(), (5.0, 1.5), (1.5, 1.5)),
-        (rectangle(14.0, 1.2), (1.0, 0.6), (7.0, 0.6)),
-        (rectangle(30.0, 30.0), (3.0, 3.0), (12.0, 12.0)),
-    ],
-    ids=["room", "L", "corridor", "great hall"],
-)
-def test_odometry_errors_of_the_approach_do_not_reach_the_room(
-    polygon: Array, start: tuple[float, float], end: tuple[float, float], seed: int
-) -> None:
-    measured = approach(polygon, start, end, seed)
-    assert measured.fit.outline.closed
-    assert measured.error_m() < 0.012
-
-
-def room_from(measured: Approach) -> MeasuredRoom:
-    return measured_room(measured.fit, np.zeros((3, 3)), Pose2.identity(), least_matched=0.3)
-
-
-def test_the_room_frame_is_centered_and_corner_zero_is_left_of_the_heading() -> None:
-    measured = approach(rectangle(8.0, 6.0), (1.0, 1.0), (4.0, 3.0), 0)
-    room = room_from(measured)
-    assert np.abs(room.polygon.min(axis=0) + room.polygon.max(axis=0)).max() < 1e-9
-    assert signed_area(room.polygon) > 0.0
-    assert abs(room.T_room_base.yaw_rad) < np.pi / 4 + 0.01
-    seen = room.T_room_base.inverse().apply(room.polygon)
-    bearings = np.arctan2(seen[:, 1], seen[:, 0]) % (2 * np.pi)
-    assert bearings[0] == bearings.min()
-    robot = measured.last
-    assert np.linalg.norm(room.T_room_base.position_m) == pytest.approx(
-        np.linalg.norm(robot.position_m - np.array([4.0, 3.0])), abs=0.015
-    )
-
-
-def test_wall_frames_look_into_the_room_and_carry_their_corner_at_the_start() -> None:
-    room = room_from(approach(l_shape(), (5.0, 1.5), (1.5, 1.5), 0))
-    elements = room_elements(room, "room_7", status=RoomStatus.PERMANENT, height_m=2.5, stamp_s=0.0)
-    walls = {node.id: node for node in elements if isinstance(node, WallNode)}
-    edges = {edge.target: edge for edge in elements if isinstance(edge, RtEdge)}
-    assert list(walls) == [f"wall_7_{k}" for k in range(6)]
-    for k, length_m in enumerate(wall_lengths(room.polygon)):
-        T_room_wall = edges[f"wall_7_{k}"].T_source_target
-        T_wall_corner = edges[f"corner_7_{k}"].T_source_target
-        wall = walls[f"wall_7_{k}"]
-        assert np.allclose((T_room_wall @ T_wall_corner).translation_m[:2], room.polygon[k])
-        assert np.allclose(T_room_wall.rotation()[:2, 1], wall.normal)
-        assert float(np.dot(wall.normal, room.polygon[k])) == pytest.approx(wall.offset_m)
-        assert wall.length_m == pytest.approx(length_m)
-
-
-def test_of_a_partial_room_only_the_walls_that_were_seen_stand() -> None:
-    room = room_from(approach(rectangle(8.0, 6.0), (1.0, 1.0), (4.0, 3.0), 0))
-    room.wall_seen[2] = 0.1
-    elements = room_elements(room, "room_1", status=RoomStatus.PARTIAL, height_m=2.5, stamp_s=0.0)
-    assert [node.id for node in elements if isinstance(node, WallNode)] == ["wall_1_0", "wall_1_1", "wall_1_3"]
 
 
 def measured(polygon: Array, offsets_m: list[float]) -> list[_MeasuredWall]:

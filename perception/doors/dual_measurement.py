@@ -8,7 +8,7 @@ import numpy as np
 
 from perception.crossing import match_of
 from perception.doors.insertion import DoorNodeSettings
-from perception.doors.posts import MeasuredGap
+from perception.doors.posts import MeasuredGap, PostSettings
 from perception.doors.room_evidence import Span
 from perception.doors.scene import Scene
 from scene_graph.nodes import DoorNode
@@ -32,7 +32,11 @@ def seen_through(scene: Scene, wall: int, dual: DoorNode) -> Span:
 
 
 def completed(
-    measured: MeasuredGap | None, dual: Span, settings: DoorNodeSettings = DoorNodeSettings(), *, sharp_m: float
+    measured: MeasuredGap | None,
+    dual: Span,
+    settings: DoorNodeSettings = DoorNodeSettings(),
+    *,
+    sharp_m: float = PostSettings.sharp_m,
 ) -> MeasuredGap:
     """A gap with the dual's width: put at the post that is measured, or where the layout has the dual.
 

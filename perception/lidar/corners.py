@@ -79,13 +79,12 @@ class CornerSighting:
     std_m: float
 
 
-def detect_lines(points: Array, settings: CornerSettings | None = None) -> list[WallLine]:
+def detect_lines(points: Array, settings: CornerSettings = CornerSettings()) -> list[WallLine]:
     """Wall lines in (N, 2) ``points`` seen from the origin: Hough candidates, each refined by total least squares.
 
     A return belongs to the strongest line that explains it. Later passes find the weaker lines, whose votes drown
     beside a long wall.
     """
-    settings = settings or CornerSettings()
     free = np.ones(len(points), dtype=bool)
     lines: list[WallLine] = []
     for _ in range(settings.passes):
@@ -106,13 +105,12 @@ def detect_lines(points: Array, settings: CornerSettings | None = None) -> list[
 
 
 def confirm_lines(
-    points: Array, normals: Array, offsets: Array, settings: CornerSettings | None = None
+    points: Array, normals: Array, offsets: Array, settings: CornerSettings = CornerSettings()
 ) -> list[WallLine]:
     """Wall lines in (N, 2) ``points`` near those that are expected: ``normals`` (K, 2) and ``offsets`` (K,).
 
     What a known room predicts needs no search: each expected line is fitted to the returns near it.
     """
-    settings = settings or CornerSettings()
     free = np.ones(len(points), dtype=bool)
     lines: list[WallLine] = []
     for normal, offset in zip(normals, offsets, strict=True):
@@ -220,9 +218,8 @@ def _measured_line(points: Array, normal: Array, offset: float) -> WallLine:
     )
 
 
-def corners_of(lines: list[WallLine], settings: CornerSettings | None = None) -> list[CornerSighting]:
+def corners_of(lines: list[WallLine], settings: CornerSettings = CornerSettings()) -> list[CornerSighting]:
     """Where two ``lines`` cross at a right angle close to the ends of both (algorithm 1, lines 8 to 10)."""
-    settings = settings or CornerSettings()
     sightings: list[CornerSighting] = []
     for first, second in combinations(lines, 2):
         if abs(float(first.normal @ second.normal)) > np.sin(settings.right_angle_rad):

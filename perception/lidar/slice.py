@@ -76,8 +76,8 @@ class OutlineSlicer:
         ceiling_m: height of the ceiling, ``None`` when none is seen.
     """
 
-    def __init__(self, settings: SliceSettings | None = None) -> None:
-        self._settings = settings or SliceSettings()
+    def __init__(self, settings: SliceSettings = SliceSettings()) -> None:
+        self._settings = settings
         self.wall_top_m: float | None = None
         self.ceiling_m: float | None = None
         self._newest: tuple[LidarScan, OutlineScan] | None = None

@@ -21,30 +21,34 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, kw_only=True)
 class RaySettings:
-    """Heights above the floor and lengths in meters.
-
-    ``low_m`` to ``split_m`` and ``split_m`` to ``high_m`` are the two bands that must be open in a door. ``face_m``:
-    returns this near to the plane are on the wall. ``floor_m``, ``lintel_m``: a ray that would meet the floor or the
-    lintel before it has passed tells nothing. ``through_m``: a ray this far beyond the plane has passed it
-    (``lambda`` of algorithm 2). ``grazing``: least cosine of incidence. ``reach_m``: rays meeting a wall farther away
-    are too far apart to tell. ``lintel_bottom_m``, ``lintel_top_m``: where wall goes on above a door.
-    ``floor_range_m``: a ray that meets the floor nearer than this always returns. ``passage_m``: what stands nearer to
-    a wall than this leaves no way to a door in it.
-    """
+    """Which rays tell what about a wall; heights are above the floor."""
 
     low_m: float = 0.25
+    """Bottom of what must be open in a door: above thresholds and shoes. Chosen."""
     split_m: float = 0.9
+    """Below, what is seen on the face closes it for the robot's base: a window's sill is at this height."""
     high_m: float = 1.8
+    """Top of it: below the lintel of a door of 2 m."""
     floor_m: float = 0.1
+    """A ray that would meet the floor, to so much, before it has passed tells nothing."""
     lintel_m: float = 1.95
+    """Nor does one that would meet the lintel of a door of 2 m."""
     face_m: float = 0.09
+    """Returns this near to the plane are on the wall: range noise, and errors of the wall and the pose."""
     through_m: float = 0.5
+    """A ray this far beyond the plane has passed it (``lambda`` of algorithm 2): the thickest walls."""
     grazing: float = 0.25
+    """Least cosine of incidence: fourteen degrees. Chosen."""
     reach_m: float = 9.0
+    """Rays meeting a wall farther away are too far apart to tell."""
     passage_m: float = 0.6
+    """What stands nearer to a wall leaves no way to a door in it: the robot is 0.56 m wide."""
     lintel_bottom_m: float = 2.05
+    """Where wall goes on above a door."""
     lintel_top_m: float = 2.45
+    """Up to the ceiling of a room of usual height."""
     floor_range_m: float = 20.0
+    """A ray that meets the floor nearer than this always returns. Chosen."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -71,10 +75,9 @@ class WallRays:
 
 
 def rays_by_wall(
-    scan: LidarScan, T_room_base: Pose2, walls: Walls, settings: RaySettings | None = None
+    scan: LidarScan, T_room_base: Pose2, walls: Walls, settings: RaySettings = RaySettings()
 ) -> list[WallRays]:
     """The rays of ``scan``, taken at ``T_room_base``, that tell about each of ``walls``."""
-    settings = settings or RaySettings()
     T_room_lidar = T_room_base @ Pose2.from_se3(scan.T_base_lidar)
     height_m = scan.T_base_lidar.z_m
     azimuth = scan.azimuths_rad + T_room_lidar.yaw_rad

@@ -38,19 +38,22 @@ class Alignment:
 
 @dataclass(frozen=True, kw_only=True)
 class AlignmentSettings:
-    """Gates and floors.
-
-    ``gates_m``: how far from a wall a return may be, per iteration. ``floor_m``, ``floor_rad``: errors that averaging
-    over a scan does not remove. ``returns``: at most this many are used in all iterations but the last.
-    """
+    """Gates and floors."""
 
     gates_m: tuple[float, ...] = (0.25, 0.15, 0.10, 0.08)
+    """How far from a wall a return may be, per iteration: down to four standard deviations of the usual range noise."""
     behind_m: float = 0.05
+    """Least distance of the robot from the inner side of a wall that it sees. Chosen."""
     end_margin_m: float = 0.05
+    """By which a return may lie beyond a wall's end: errors of the outline."""
     least_sigma_m: float = 0.01
+    """Least spread of returns, so that a few that agree by chance are not believed too much. Chosen."""
     floor_m: float = 0.002
+    """Error of the position that averaging over a scan does not remove. Chosen."""
     floor_rad: float = 0.0004
+    """And of the heading."""
     returns: int = 300
+    """At most this many are used in all iterations but the last. Chosen: for speed."""
 
 
 def align(
@@ -58,10 +61,9 @@ def align(
     walls: Walls,
     guess: Pose2,
     guess_covariance: Array,
-    settings: AlignmentSettings | None = None,
+    settings: AlignmentSettings = AlignmentSettings(),
 ) -> Alignment | None:
     """Most probable pose given the scan and a ``guess`` with its (3, 3) covariance; ``None`` when nothing matches."""
-    settings = settings or AlignmentSettings()
     guess_information = np.asarray(np.linalg.inv(guess_covariance))
     some = points_base[:: max(1, len(points_base) // settings.returns)]
     pose = guess

@@ -16,24 +16,26 @@ from perception.localization.measurement_model import ScanFit
 
 @dataclass(frozen=True, kw_only=True)
 class FitnessSettings:
-    """When a scan speaks against the pose, and how long it takes to believe it.
-
-    ``explained``: least share of returns on the expected walls, well inside a room; in a doorway
-    ``explained_in_doorway``, as half the view is another room's. ``inside_m``: depth where well inside begins.
-    ``passed``: largest share behind walls. ``patience_s``: of contradiction; a gross one counts ``gross`` times, and
-    agreement takes doubt away ``relief`` times as fast. ``usual_s``: memory of what is usual in a room, ``poorest`` the
-    worst that may become usual.
-    """
+    """When a scan speaks against the pose, and how long it takes to believe it."""
 
     explained: float = 0.75
+    """Least share of returns on the expected walls, well inside a room. Chosen: people and open wardrobes hide some."""
     explained_in_doorway: float = 0.35
+    """The same in a doorway, as half the view is another room's."""
     inside_m: float = 0.6
+    """Depth where well inside begins. Chosen: more than a doorway."""
     passed: float = 0.03
+    """Largest share behind walls: grazing rays at corners. Chosen."""
     patience_s: float = 1.0
+    """Of contradiction. Chosen: ten scans."""
     gross: float = 2.5
+    """A gross one counts so many times. Chosen."""
     relief: float = 2.0
+    """Agreement takes doubt away so many times as fast. Chosen."""
     usual_s: float = 20.0
+    """Memory of what is usual in a room. Chosen."""
     poorest: float = 0.6
+    """The worst that may become usual. Chosen: poorer, and another room might."""
 
 
 @dataclass(kw_only=True)

@@ -69,13 +69,12 @@ def fit_of(
     walls: Walls,
     openings: Array,
     T_room_base: Pose2,
-    settings: MeasurementModelSettings | None = None,
+    settings: MeasurementModelSettings = MeasurementModelSettings(),
 ) -> ScanFit:
     """How well ``scan``, taken at ``T_room_base``, agrees with a room; nothing explained when too little returned.
 
     ``openings``: (D, 2, 2) ends of the gaps in its ``walls``.
     """
-    settings = settings or MeasurementModelSettings()
     origin = T_room_base.apply(scan.origin_base)
     azimuths_rad = scan.azimuths_rad + T_room_base.yaw_rad
     nearest, farthest, incidence = expected_ranges(walls, origin, azimuths_rad, settings.window_rad)

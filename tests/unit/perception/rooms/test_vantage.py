@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from perception.rooms.survey.vantage import next_vantage
+from perception.ports import RobotShape
+from perception.rooms.survey.vantage import freest_way, next_vantage
 from unit.perception.lidar_house import House, l_shape, rectangle
 from unit.perception.rooms.viewed_rooms import outline_from
 
@@ -44,3 +45,9 @@ def test_a_vantage_point_is_one_that_a_way_leads_to() -> None:
     assert free is not None
     assert free[0] < 3.5
     assert shut_in is None or shut_in[0] > 4.0
+
+
+def test_a_robot_that_is_too_wide_for_the_way_ahead_finds_none() -> None:
+    posts = np.array([(x_m, side_m) for x_m in np.linspace(0.0, 3.0, 31) for side_m in (-0.4, 0.4)])
+    assert freest_way(posts) is not None
+    assert freest_way(posts, shape=RobotShape(footprint_radius_m=0.4)) is None

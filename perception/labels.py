@@ -84,7 +84,7 @@ class LabelSettings:
     """When a label is said, and what a room tells beside what stands in it."""
 
     period_s: float = 1.0
-    """Between looks at all rooms. Chosen: objects appear no faster."""
+    """Between looks at all rooms. Chosen."""
     tell_from: float = 0.55
     """Probability from which a label is said. Chosen: clearly more than a half."""
     switch_odds: float = 3.0
@@ -92,11 +92,11 @@ class LabelSettings:
     floor: float = 0.01
     """Least chance that a thing stands in a room of any kind: people put things anywhere. Chosen."""
     overlooked: float = 0.25
-    """Chance that a room of some kind shows nothing of what makes it one. Chosen: the robot sees most of a room."""
+    """Chance that a room of some kind shows nothing of what makes it one. Chosen."""
     worth_writing: float = 0.02
     """Least change of a label's probability that is written. Chosen."""
     prior: tuple[float, ...] = (0.16, 0.18, 0.13, 0.17, 0.10, 0.14, 0.12)
-    """How common rooms of each kind are, in the order of ``ROOM_LABELS``. Chosen: as in usual homes and offices."""
+    """How common rooms of each kind are, in the order of ``ROOM_LABELS``. Chosen."""
     hall_by_doors: tuple[float, ...] = (0.1, 1.0, 6.0, 9.0, 25.0, 100.0)
     """How much likelier a hall is than any other room to have 1, 2, 3, 4, 5 and more doors: other rooms are where ways
     end. Chosen."""

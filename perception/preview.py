@@ -23,7 +23,7 @@ class PreviewSettings:
     scale: int = 2
     """The picture is this much larger than the frame, so that labels can be read."""
     jpeg_quality: int = 80
-    """Of 100. Chosen: looks like the frame at a tenth of the bytes."""
+    """Of 100. Chosen."""
     speck_px: float = 12.0
     """Parts of a mask with a smaller outline are left out. Chosen: three pixels square."""
     tolerance_px: float = 1.0

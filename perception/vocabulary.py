@@ -29,11 +29,11 @@ class SizeSettings:
     square_share: float = 0.85
     """A thing whose sides differ less may have been seen from one side only. Chosen."""
     unseen_share: float = 0.65
-    """As deep it may be that shows its width alone, as a share of that. Chosen: books, boxes, bags."""
+    """As deep it may be that shows its width alone, as a share of that. Chosen."""
     side_share: float = 0.2
     """By how much, of its usual side, a piece of furniture of one size may seem longer or shorter. Chosen."""
     furniture_from_m: float = 0.5
-    """Longest side from which on an unknown thing is furniture. Chosen: nothing to carry is longer."""
+    """Longest side from which on an unknown thing is furniture. Chosen."""
     reachable_top_m: float = 1.25
     """Things are not put on what is higher: its top is out of the camera's and of the hand's reach."""
 

@@ -32,7 +32,7 @@ class DoorNodeSettings:
     hidden_width_m: float = 0.9
     """Of a door that nobody has seen: a usual one's."""
     seen: float = 0.4
-    """Confidence of a provisional door. Chosen: gaps behind furniture look like doors as often as not."""
+    """Confidence of a provisional door. Chosen: less than a half."""
     seen_post: float = 0.2
     """And for each of its posts that is measured. Chosen."""
     measured: tuple[float, float, float] = (0.6, 0.75, 0.95)

@@ -30,7 +30,7 @@ class IntentionSettings:
     """Patience with intentions."""
 
     attempts: int = 2
-    """Failures before one is given up. Chosen: people who stood in the way have gone by then."""
+    """Failures before one is given up. Chosen."""
     settle_s: float = 1.5
     """How long to look after arriving in front of a door that shows only one of its posts. Chosen: fifteen scans."""
 

@@ -33,7 +33,7 @@ class PostSettings:
     coarse_m: float = 0.006
     """Step of the first search. Chosen."""
     fine_m: float = 0.001
-    """Step of the second. Chosen: a millimeter is better than anybody needs."""
+    """Step of the second. Chosen."""
     sigma_m: float = 0.02
     """Standard deviation of a ray's depth: range noise of the usual LiDAR (design, section 5)."""
     thinnest_wall_m: float = 0.05

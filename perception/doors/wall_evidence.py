@@ -95,7 +95,7 @@ class EvidenceSettings:
     frame_m: float = 0.10
     """Beside a known door wall is not looked for: its frame."""
     deepest_m: float = 0.35
-    """Rays that end deeper in the wall are of no leaf: the thickest wall's, and range noise."""
+    """Rays that end deeper in the wall are of no leaf: the deepest one, and range noise."""
     grazing: float = 2.0
     """Way along the wall per way into it beyond which a ray may have met a reveal instead of the face. Chosen."""
     gaps: GapSettings = field(default_factory=GapSettings)

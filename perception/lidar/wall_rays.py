@@ -36,7 +36,7 @@ class RaySettings:
     face_m: float = 0.09
     """Returns this near to the plane are on the wall: range noise, and errors of the wall and the pose."""
     through_m: float = 0.5
-    """A ray this far beyond the plane has passed it (``lambda`` of algorithm 2): the thickest walls."""
+    """A ray this far beyond the plane has passed it (``lambda`` of algorithm 2): more than most walls are thick."""
     grazing: float = 0.25
     """Least cosine of incidence: fourteen degrees. Chosen."""
     reach_m: float = 9.0

@@ -38,7 +38,7 @@ class EnergyOptimizerSettings:
     """When a scan's alignment is believed, and what the stages of the estimate are tuned to."""
 
     least_matched: float = 0.25
-    """Share of the returns that must lie on walls. Chosen: in a doorway less than half of them do."""
+    """Share of the returns that must lie on walls. Chosen: in a doorway about half of them do."""
     wide_gate_m: float = 0.2
     """From wider gates down to here each is six tenths of the one before. Chosen."""
     last_gates_m: tuple[float, float] = (0.12, 0.08)

@@ -19,7 +19,7 @@ class FitnessSettings:
     """When a scan speaks against the pose, and how long it takes to believe it."""
 
     explained: float = 0.75
-    """Least share of returns on the expected walls, well inside a room. Chosen: people and open wardrobes hide some."""
+    """Least share of returns on the expected walls, well inside a room. Chosen."""
     explained_in_doorway: float = 0.35
     """The same in a doorway, as half the view is another room's."""
     inside_m: float = 0.6
@@ -35,7 +35,7 @@ class FitnessSettings:
     usual_s: float = 20.0
     """Memory of what is usual in a room. Chosen."""
     poorest: float = 0.6
-    """The worst that may become usual. Chosen: poorer, and another room might."""
+    """The worst that may become usual. Chosen."""
 
 
 @dataclass(kw_only=True)

@@ -24,7 +24,7 @@ class PoseCandidateSettings:
     """What fits well enough to be tried. The alignment that follows forgives all of it."""
 
     lines: int = 8
-    """Longest ones that are laid on walls. Chosen: shorter ones are furniture's as often as not."""
+    """Longest ones that are laid on walls. Chosen: for speed."""
     parallel_rad: float = float(np.deg2rad(5.0))
     """Between a line and its wall, and between headings that are one. Chosen: several times a line's error."""
     crossing: float = 0.5

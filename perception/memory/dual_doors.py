@@ -21,7 +21,7 @@ class DualDoorSettings:
     """When two sides of a wall are of one door."""
 
     thickest_wall_m: float = 0.6
-    """Between its two faces. Chosen: old houses' outer walls."""
+    """Between its two faces. Chosen: thicker than walls of houses are."""
     parallel_rad: float = float(np.deg2rad(12.0))
     """Between these faces: errors of the layout's headings."""
     slack_m: float = 0.15

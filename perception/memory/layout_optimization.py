@@ -42,7 +42,7 @@ class LayoutOptimizationSettings:
     huber: float = 3.0
     """Standard deviations from which on a door counts less: it may have been matched wrongly."""
     steps: int = 20
-    """Of Gauss-Newton at most. Chosen: far more than it takes."""
+    """Of Gauss-Newton at most. Chosen."""
     converged: float = 1e-6
     """Length of a step, in meters and radians, after which no other follows. Chosen: far below what matters."""
 

@@ -30,13 +30,13 @@ class LayoutSettings:
     """What doors and walls are worth to the layout, and when it is written."""
 
     station_floor_m: float = 0.003
-    """Least standard deviation of a door's place along its wall. Chosen: posts are not sharper."""
+    """Least standard deviation of a door's place along its wall. Chosen."""
     wall_floor_m: float = 0.001
     """The same of a wall's offset."""
     unknown_wall_std_m: float = 0.01
     """The same of a wall whose edge says nothing: the least that the room concept vouches for."""
     parallel_std_rad: float = float(np.deg2rad(0.15))
-    """Between the two faces of a door that is measured well: how parallel walls are built."""
+    """Between the two faces of a door that is measured well: walls are built parallel. Chosen."""
     not_parallel_rad: float = float(np.deg2rad(4.0))
     """If more was driven, the faces are not parallel. Chosen: more than odometry turns in a door."""
     walked_std_rad: float = 0.01

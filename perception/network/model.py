@@ -40,7 +40,7 @@ class NetworkSettings:
     threads: int = 2
     """Of the processor that one frame takes: the service needs the others."""
     busy_s: float = 10.0
-    """Longest that a frame waits for an earlier one. Chosen: then something hangs."""
+    """Longest that a frame waits for an earlier one. Chosen."""
     frames: FrameCheckSettings = field(default_factory=FrameCheckSettings)
     distribution: DistributionSettings = field(default_factory=DistributionSettings)
 

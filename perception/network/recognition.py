@@ -20,7 +20,7 @@ class DistributionSettings:
     """Which classes a label distribution lists."""
 
     classes: int = 5
-    """At most so many, likeliest first. Chosen: the rest tells nothing."""
+    """At most so many, likeliest first. Chosen."""
     weakest: float = 1e-3
     """Least probability of one that is listed. Chosen."""
 

@@ -36,7 +36,7 @@ class AdjustmentSettings:
     apart_m: float = 0.4
     """A view replaces an older one from nearer than this."""
     views: int = 24
-    """That are kept. Chosen: several from everywhere in a usual room."""
+    """That are kept. Chosen."""
     inside_m: float = 0.3
     """Least depth in the room: from a doorway little of it is seen."""
     pose_std_m: float = 0.1
@@ -46,23 +46,23 @@ class AdjustmentSettings:
     nearer_from: int = 8
     """When it is nearer than believed, as furniture would be."""
     agree_m: float = 0.015
-    """How well they must agree. Chosen: somewhat above what averages over a scan are off."""
+    """How well they must agree. Chosen."""
     agreeing: float = 0.75
     """Share of all places that say anything about the wall. Chosen."""
     least_m: float = 0.008
-    """Smallest shift worth a change. Chosen: nobody who drives by the outline would notice less."""
+    """Smallest shift worth a change. Chosen."""
     sigmas: float = 3.0
     """And its standard deviations."""
     most_m: float = 0.3
     """What is off by more is no adjustment but another outline."""
     firmest_m: float = 0.003
-    """No wall is known better than this. Chosen: about how flat walls are."""
+    """No wall is known better than this. Chosen."""
     held_m: float = 0.0005
     """How far the walls that are off are to be moved is told with the others held to this."""
     loose: float = 5.0
     """And with what was believed about them so many times as vague. Chosen."""
     rounds: int = 6
-    """Of reweighting. Chosen: weights have settled by then."""
+    """Of reweighting. Chosen."""
     view_gate: float = 3.0
     """Misfit of a view, in standard deviations, from which on it counts less."""
     sightings: SightingSettings = field(default_factory=SightingSettings)

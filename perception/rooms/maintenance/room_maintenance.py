@@ -27,7 +27,7 @@ class RoomMaintenanceSettings:
     """How often a room is revised, and the stages of looking after it."""
 
     revisions: int = 2
-    """Times that a room is taken back at most. Chosen: what two surveys did not get right a third will not."""
+    """Times that a room is taken back at most. Chosen: measuring comes to an end."""
     worth_writing: float = 0.05
     """Least change of a room's confidence that is written. Chosen: everybody who reads the graph is told of each."""
     moved_std_m: float = 0.01

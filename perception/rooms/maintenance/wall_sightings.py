@@ -47,7 +47,7 @@ class SightingSettings:
     flat: float = 1.5
     """Or more than so many times the noise of the ranges."""
     floor_m: float = 0.004
-    """Error of a wall's distance that averaging over a scan does not remove. Chosen: walls are not flatter."""
+    """Error of a wall's distance that averaging over a scan does not remove. Chosen."""
     correlated: float = 9.0
     """How many neighboring returns err together. Chosen."""
     slack_m: float = 0.1
@@ -61,7 +61,7 @@ class SightingSettings:
     huber: float = 1.5
     """Standard deviations from which on a return counts less: near the usual 1.345."""
     fit_rounds: int = 3
-    """Of fitting anew. Chosen: medians and weights have settled by then."""
+    """Of fitting anew. Chosen."""
     fewest: int = 8
     """Returns of a wall, as of a line in ``lidar.corners``."""
     least_sigma_m: float = 0.005

@@ -43,7 +43,7 @@ class OutlineSettings:
     corner_clearance_m: float = 0.10
     """At either end of a wall returns may be of the next one. Chosen: nearly two gates."""
     deepest_reveal_m: float = 0.45
-    """Of an opening: the thickest walls."""
+    """Of an opening in a thick wall. Chosen."""
     level_m: float = 0.1
     """By how much the two sides of a reveal may differ. Chosen."""
     vague_back: float = 0.5

@@ -28,7 +28,7 @@ class PortalSettings:
     """Which gaps in walls are openings to other rooms."""
 
     behind_m: tuple[float, ...] = (0.5, 0.6, 0.7, 0.8)
-    """Where behind a wall free space is looked for: the thickest walls are 0.45 m thick."""
+    """Where behind a wall free space is looked for: behind walls up to 0.45 m thick."""
     beside_m: tuple[float, ...] = (0.06, 0.12, 0.2, 0.3, 0.4)
     """And how far beside the gap. Chosen: rays through the gap do not reach farther."""
     least_seen: int = 2

@@ -35,7 +35,7 @@ class MeasurementSettings:
     step_rad: float = 0.10
     """Turn between views."""
     resting_views: int = 12
-    """Kept from one place. Chosen: averages over so many are sharp enough."""
+    """Kept from one place. Chosen."""
     well_matched: float = 0.6
     """Share of returns on the outline from which on a view fits. Chosen: furniture as high as the slice hides some."""
     vague_m: float = 0.4

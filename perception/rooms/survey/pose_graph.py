@@ -24,7 +24,7 @@ class PoseGraphSettings:
     same_corner_m: float = 0.35
     """Farthest from a track's mean, by dead reckoning. Chosen: less than a nook is wide."""
     sighting_floor_m: float = 0.005
-    """Error of a corner that its lines' returns do not tell. Chosen: walls are not flatter."""
+    """Error of a corner that its lines' returns do not tell. Chosen."""
     huber: float = 1.5
     """Standard deviations from which on a sighting counts less: near the usual 1.345."""
 

@@ -54,7 +54,12 @@ class OnnxPanopticModel:
     """
 
     def __init__(
-        self, file: str, session: Any, description: Description, signature: Signature, settings: NetworkSettings
+        self,
+        file: str,
+        session: Any,
+        description: Description,
+        signature: Signature,
+        settings: NetworkSettings = NetworkSettings(),
     ) -> None:
         self.file, self._settings = file, settings
         self.description = description

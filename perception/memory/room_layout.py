@@ -39,8 +39,10 @@ class LayoutSettings:
     """Between the two faces of a door that is measured well: walls are built parallel. Chosen."""
     not_parallel_rad: float = float(np.deg2rad(4.0))
     """If more was driven, the faces are not parallel. Chosen: more than odometry turns in a door."""
+    walked_std_m: float = JoiningSettings.walked_std_m
+    """Of the way that was driven through a door, where the graph does not say it."""
     walked_std_rad: float = 0.01
-    """Of the heading that was driven through a door."""
+    """And of the heading."""
     well_measured: float = DoorNodeSettings.well_measured
     """Confidence of a door that says where its two faces are."""
     worth_writing_m: float = 5e-4
@@ -48,7 +50,6 @@ class LayoutSettings:
     worth_writing_rad: float = 1e-4
     """Or turn."""
     optimization: LayoutOptimizationSettings = field(default_factory=LayoutOptimizationSettings)
-    joining: JoiningSettings = field(default_factory=JoiningSettings)
 
 
 class RoomLayout:
@@ -93,7 +94,7 @@ class RoomLayout:
         with self._memory.edit(LAYOUT_AGENT, stamp_s) as tx:
             for match in _matches(snapshot):
                 if match.walked is None:
-                    tx.put(walked_match(match, _way(snapshot, match), self._settings.joining.walked_std_m))
+                    tx.put(walked_match(match, _way(snapshot, match), self._settings.walked_std_m))
 
     def _write(self, snapshot: Snapshot, placed: Mapping[str, PlacedRoom], stamp_s: float, *, anchor: str) -> None:
         """Say in the graph where rooms lie and how far their walls are shifted; of the anchor, only the latter."""
@@ -118,7 +119,7 @@ class RoomLayout:
         T_near_door = Pose2.from_se3(snapshot.transform(near, door.id))
         T_far_other = Pose2.from_se3(snapshot.transform(far, other.id))
         walked = T_near_door.inverse() @ _way(snapshot, match) @ T_far_other
-        std_m = match.walked_std_m or settings.joining.walked_std_m
+        std_m = match.walked_std_m or settings.walked_std_m
         vague = min(door.confidence, other.confidence) < settings.well_measured
         if vague or abs(wrap(walked.yaw_rad - np.pi)) > settings.not_parallel_rad:
             between, covariance = walked, diagonal_covariance(std_m, std_m, settings.walked_std_rad)

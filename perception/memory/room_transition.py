@@ -20,7 +20,7 @@ from perception.lidar.slice import OutlineSlicer
 from perception.localization.global_localization import Sight
 from perception.localization.robot_pose import RobotPose, robot_pose_at
 from perception.localization.room_model import RoomModel, room_model
-from perception.memory.dual_doors import DualDoorSettings, place_in, root_pose, same_door, through_door, unmatched_doors
+from perception.memory.dual_doors import place_in, root_pose, same_door, through_door, unmatched_doors
 from perception.memory.joining import JoiningSettings, join, put_dual, remove_room
 from perception.memory.loop_closure import LoopClosureSettings, recognize, same_room
 from perception.sensing import SensorBuffer
@@ -49,7 +49,6 @@ class TransitionSettings:
     closed_std: float = 0.05
     """The same when two rooms turn out to be one: what their outlines differ."""
     loop_closure: LoopClosureSettings = field(default_factory=LoopClosureSettings)
-    dual: DualDoorSettings = field(default_factory=DualDoorSettings)
     joining: JoiningSettings = field(default_factory=JoiningSettings)
 
 
@@ -179,7 +178,7 @@ class RoomTransition:
         snapshot = tx.snapshot
         room = room_model(snapshot, room_id)
         T_room_door = T_room_near @ Pose2.from_se3(snapshot.transform(door.rooms[0], door.id))
-        place = place_in(room, T_room_door, self._settings.dual) if room is not None else None
+        place = place_in(room, T_room_door, self._settings.loop_closure.dual) if room is not None else None
         if room is None or place is None:
             tx.put(given_up(door, "no wall of the room behind it has this door"))
             return
@@ -193,7 +192,7 @@ class RoomTransition:
         for door in unmatched_doors(snapshot):
             if door.rooms[0] == room_id:
                 T_room_own = Pose2.from_se3(snapshot.transform(room_id, door.id))
-                if same_door(T_room_door, T_room_own, (width_m, door.width_m), self._settings.dual):
+                if same_door(T_room_door, T_room_own, (width_m, door.width_m), self._settings.loop_closure.dual):
                     return door
         return None
 
@@ -207,7 +206,7 @@ class RoomTransition:
                 if first.rooms[0] == second.rooms[0]:
                     continue
                 poses = root_pose(snapshot, first.id), root_pose(snapshot, second.id)
-                if same_door(*poses, (first.width_m, second.width_m), self._settings.dual):
+                if same_door(*poses, (first.width_m, second.width_m), self._settings.loop_closure.dual):
                     T_near_far = root_pose(snapshot, first.rooms[0]).inverse() @ root_pose(snapshot, second.rooms[0])
                     with self._memory.edit(self._agent, self._stamp_s) as tx:
                         join(tx, first, second, T_near_far, std_m=self._settings.joining.unwalked_std_m)
@@ -229,7 +228,7 @@ class RoomTransition:
             pose = root_pose(snapshot, door.id)
             for other in stored:
                 widths_m = door.width_m, other.width_m
-                if same_door(pose, root_pose(building, other.id), widths_m, self._settings.dual):
+                if same_door(pose, root_pose(building, other.id), widths_m, self._settings.loop_closure.dual):
                     self._memory.load(other.id, agent=self._agent, stamp_s=self._stamp_s)
 
 

@@ -89,7 +89,7 @@ async def play(
     complete = await _explore(runtime, progress)
     progress.explored(runtime.now_s, complete=complete)
     scenario = scenario_of(await robot.truth(), furniture)
-    task = runtime.submit(REQUEST)
+    task = runtime.orders.submit(REQUEST)
     disturbed = await _work(runtime, robot, task.id, scenario, progress)
     task = runtime.queue.task(task.id)
     place = _place_of(await robot.truth(), scenario.thing)

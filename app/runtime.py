@@ -1,21 +1,22 @@
 """One running Majordomo: graph, tasks, agents, robot and clock, started and stopped together.
 
-The HTTP routes, the demonstration and the evaluations talk to this object and to nothing behind it.
+The HTTP routes, the demonstration and the evaluations find here what they need: ``orders`` to tell the robot what to
+do, ``views`` to see what it knows, and the scene graph itself.
 """
 
 from __future__ import annotations
 
 import asyncio
 import contextlib
-import json
 import logging
 import time
 from collections.abc import AsyncIterator, Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import httpx
 
+from app.counters import CountedModel, Counters
 from app.errors import RobotUnavailable
 from app.events.event_log import EventLog
 from app.events.publisher import Publisher
@@ -23,20 +24,15 @@ from app.events.stream import EventStream
 from app.journal.audit import Audit, NotKept
 from app.journal.scrubbing import Scrubber
 from app.journal.tasks import TaskJournal
+from app.orders import Orders
 from app.scheduler import TICK_S, Agent, LockstepScheduler, RealTimeScheduler, Scheduler, Turns
 from app.settings import ClockMode, Settings
 from app.stacks.graph import GraphStack
-from app.stacks.model_choice import make_language_model
+from app.stacks.language_model import make_language_model
 from app.stacks.robot import RobotStack
 from app.stacks.stack import BuildStack, Stack
-from app.tallies import CountedModel, Tallies
-from app.views.metrics import Standing, metrics_text
-from app.views.scene_documents import robot_document, scene_document
-from client.documents import Trace
-from planner.language.sentences.control import Control, control_word
-from planner.mission.control_words import apply_control
+from app.views.views import Views
 from planner.models.protocol import LanguageModel
-from planner.tasks.approval import Approval
 from planner.tasks.queue import TaskQueue
 from planner.tasks.tasks import Task
 from scene_graph.memory import WorkingMemory
@@ -44,6 +40,8 @@ from simulation.errors import SimulatorDied
 from simulation.process.client import SimulatedRobot
 
 logger = logging.getLogger(__name__)
+
+Part = TypeVar("Part")
 
 FATAL = (SimulatorDied,)
 """What no agent can survive: without a body nothing goes on until it is brought back."""
@@ -78,21 +76,23 @@ class Runtime:
         self.settings = settings
         self._build, self._tick_s = build, tick_s
         self._witnesses = witnesses
-        self._journal = TaskJournal.of(settings)
-        tasks = self._journal.take_up()
-        self._audit = Audit(self._journal, tasks, scrubber=Scrubber((settings.llm_key,)))
+        self.journal = TaskJournal.of(settings)
+        tasks = self.journal.take_up()
+        self._audit = Audit(self.journal, tasks, scrubber=Scrubber((settings.llm_key,)))
         self.queue = TaskQueue(tasks)
-        self.stream = EventStream(self._snapshot_document, first_seq=time.time_ns() // 1_000_000)
+        snapshot: Callable[[], Mapping[str, Any]] = lambda: self.views.snapshot()  # noqa: E731, PLW0108 - not made yet
+        self.stream = EventStream(snapshot, first_seq=time.time_ns() // 1_000_000)
         self.log = EventLog(event_log, hear=self._audit.hear_event)
         self._http = httpx.AsyncClient()
-        self.tallies = Tallies()
+        self.counters = Counters()
         model = make_language_model(settings, self._http)
-        self.model: LanguageModel | None = CountedModel(model, self.tallies) if model is not None else None
+        self.model: LanguageModel | None = CountedModel(model, self.counters) if model is not None else None
         self._stack: Stack | None = None
+        self._views: Views | None = None
+        self._orders: Orders | None = None
         self._scheduler: Scheduler | None = None
         self._loop_task: asyncio.Task[None] | None = None
         self._lost = ""
-        self._scene_cache: dict[tuple[str, tuple[str, ...]], tuple[int, bytes]] = {}
         self._changed = asyncio.Condition()
         self._restarting = asyncio.Lock()
         self.queue.listen(self._on_task)
@@ -107,12 +107,27 @@ class Runtime:
             await self._halt()
             await self._http.aclose()
             self.log.close()
-            self._journal.close()
+            self.journal.close()
 
     @property
     def memory(self) -> WorkingMemory:
         """The scene graph."""
-        return self._require_stack().memory
+        return self.stack.memory
+
+    @property
+    def stack(self) -> Stack:
+        """What runs behind the interface: a robot, or a stored graph."""
+        return _started(self._stack)
+
+    @property
+    def views(self) -> Views:
+        """What is shown of it."""
+        return _started(self._views)
+
+    @property
+    def orders(self) -> Orders:
+        """Where people tell it what to do."""
+        return _started(self._orders)
 
     @property
     def robot(self) -> SimulatedRobot | None:
@@ -136,21 +151,6 @@ class Runtime:
         return self._scheduler.now_s if self._scheduler is not None else 0.0
 
     @property
-    def scans(self) -> int:
-        """LiDAR revolutions taken in so far."""
-        return self._stack.scans if isinstance(self._stack, RobotStack) else 0
-
-    @property
-    def frames(self) -> int:
-        """Camera frames taken in so far."""
-        return self._stack.frames if isinstance(self._stack, RobotStack) else 0
-
-    @property
-    def frames_understood(self) -> int:
-        """Camera frames that the network has made something of so far."""
-        return self._stack.frames_understood if isinstance(self._stack, RobotStack) else 0
-
-    @property
     def ready(self) -> bool:
         """Whether a request can be taken."""
         return self.not_ready_reason == ""
@@ -161,57 +161,6 @@ class Runtime:
         if self._lost:
             return self._lost
         return "" if self._scheduler is not None and self.now_s > 0.0 else "starting"
-
-    def submit(
-        self, request: str, *, approval: Approval = Approval.AUTO, dry_run: bool = False, key: str | None = None
-    ) -> Task:
-        """Queue a request; *stop*, *wait*, *go on* and *cancel* act at once instead. ``key``: the client's name for it.
-
-        Raises:
-            QueueFull: too many tasks are open.
-        """
-        control = None if dry_run else control_word(request)
-        task = self.queue.submit(
-            request, stamp_s=self.now_s, approval=approval, dry_run=dry_run, key=key, urgent=control is not None
-        )
-        if control is None:
-            return task
-        if control is Control.STOP:
-            self.stop_robot()
-        elif control is Control.RESUME and self._stack is not None and self._stack.stopped:
-            self.release_stop()
-        return apply_control(control, task, self.queue, self.now_s)
-
-    def stop_robot(self) -> None:
-        """Latch the stop; never waits for anything."""
-        if self._stack is not None:
-            self._stack.stop()
-        self.tallies.stopped()
-        self.log.write(self.now_s, "stop", {})
-        self._say("stopped by a person")
-
-    def release_stop(self) -> None:
-        """Lift the latched stop."""
-        if self._stack is not None:
-            self._stack.release_stop()
-        self.log.write(self.now_s, "resume", {})
-        self._say("stop released")
-
-    def trace(self, task_id: str, *, after: int = 0, limit: int | None = None) -> Trace | None:
-        """What was decided about a task, oldest first; ``None`` if nothing is known of it."""
-        return self._journal.trace(task_id, after=after, limit=limit)
-
-    def keep_taught(self) -> None:
-        """Write down what a person has just taught, so that it survives the end of the process at any instant.
-
-        Raises:
-            NotKept: it cannot be written.
-        """
-        if isinstance(self._stack, RobotStack):
-            try:
-                self._stack.keep_taught()
-            except OSError as problem:
-                raise NotKept(f"I know it now, but cannot write it down: {problem}") from problem
 
     async def restart_robot(self) -> bool:
         """Bring a dead simulator back with an empty graph, since its house begins anew; false while it is alive."""
@@ -240,112 +189,35 @@ class Runtime:
             with contextlib.suppress(TimeoutError):
                 await asyncio.wait_for(self._changed.wait(), timeout_s)
 
-    async def camera_jpeg(self, *, stamp_s: float | None = None, outlines: bool = True) -> bytes | None:
-        """What the robot sees as JPEG, ``None`` without a camera; see ``CameraWindow.jpeg``.
-
-        Raises:
-            FrameGone: the look at ``stamp_s`` is no longer kept.
-        """
-        camera = self._stack.camera if self._stack is not None else None
-        return await camera.jpeg(stamp_s=stamp_s, outlines=outlines) if camera is not None else None
-
-    async def camera_document(self) -> dict[str, Any] | None:
-        """What was recognized in the newest frame, ``None`` without a camera."""
-        camera = self._stack.camera if self._stack is not None else None
-        return await camera.document(self.now_s) if camera is not None else None
-
-    def scene_document(self, frame: str, layers: tuple[str, ...] = ()) -> dict[str, Any]:
-        """The scene as a document."""
-        return scene_document(self.memory.building(), frame, layers)
-
-    def scene_json(self, frame: str, layers: tuple[str, ...] = ()) -> bytes:
-        """The scene as JSON, made once per revision."""
-        revision = self.memory.snapshot().revision
-        cached = self._scene_cache.get((frame, layers))
-        if cached is None or cached[0] != revision:
-            body = json.dumps(self.scene_document(frame, layers), separators=(",", ":")).encode()
-            cached = self._scene_cache[frame, layers] = (revision, body)
-            while len(self._scene_cache) > 16:
-                self._scene_cache.pop(next(iter(self._scene_cache)))
-        return cached[1]
-
-    def history_document(self, node_id: str) -> dict[str, Any] | None:
-        """What became of a node, ``None`` if it is unknown."""
-        return self._require_stack().history.document(node_id, exists=node_id in self.memory.building())
-
-    def robot_document(self) -> dict[str, Any]:
-        """Pose, room, load and path of the robot, in the map frame."""
-        stack = self._require_stack()
-        return robot_document(
-            self.memory.snapshot(),
-            path_room=stack.path_room,
-            gaze=stack.gaze,
-            stopped=stack.stopped,
-            stamp_s=self.now_s,
-        )
-
-    def status_document(self) -> dict[str, Any]:
-        """The body of ``GET /v1/status``."""
-        snapshot = self.memory.snapshot()
-        robot = self.robot_document()
-        current = self.queue.current
-        return {
-            "stamp_s": round(self.now_s, 3),
-            "clock": str(self.settings.clock),
-            "house": self.settings.robot or self.settings.house,
-            "exploring": self._require_stack().exploring and not snapshot.root.explored,
-            "explored": snapshot.root.explored,
-            "task": current.id if current else None,
-            "stopped": robot["stopped"],
-            "robot": {key: robot[key] for key in ("room", "localized", "pose_map", "holding")},
-            "language_model": self.settings.llm,
-            "network": self._require_stack().network,
-            "agents": self._agents(),
-            "simulator": self._lost or ("running" if isinstance(self._stack, RobotStack) else "none"),
-            "perception": self._require_stack().degraded,
-            "camera": self._require_stack().camera_on,
-            "revision": snapshot.revision,
-        }
-
     def turns(self) -> Sequence[Turns]:
         """Account of every agent's turns."""
         return self._scheduler.turns if self._scheduler is not None else ()
 
-    def metrics_text(self) -> bytes:
-        """Prometheus text."""
-        stack = self._require_stack()
-        standing = Standing(
-            building=stack.memory.building(),
-            loaded=stack.memory.snapshot(),
-            agents=self._agents(),
-            queue=self.queue,
-            stamp_s=self.now_s,
-            listeners=self.stream.listeners,
-            stopped=stack.stopped,
-            ready=self.ready,
-        )
-        return metrics_text(standing) + self.tallies.text()
-
     def _agents(self) -> dict[str, Any]:
-        turns = self._scheduler.turns if self._scheduler is not None else ()
-        return {turn.agent.name: turn.summary() for turn in turns}
-
-    def _require_stack(self) -> Stack:
-        if self._stack is None:
-            raise RobotUnavailable("not started")
-        return self._stack
+        return {turn.agent.name: turn.summary() for turn in self.turns()}
 
     async def _start(self, *, anew: bool = False) -> None:
         settings = self.settings
         self._stack = stack = await self._build(settings, self.queue, self.model, self.log, anew=anew)
-        self._scene_cache.clear()
+        now: Callable[[], float] = lambda: self.now_s  # noqa: E731
+        self._views = views = Views(
+            stack,
+            settings,
+            self.queue,
+            self.stream,
+            self.counters,
+            now=now,
+            agents=self._agents,
+            lost=lambda: self._lost,
+        )
+        self._orders = Orders(stack, self.queue, self.stream, self.log, self.counters, now=now)
         publisher = Publisher(
             stack.memory,
             self.stream,
             self.log,
-            scene=lambda: self.scene_document("map"),
-            robot=self.robot_document,
-            status=self.status_document,
+            scene=views.scene.document,
+            robot=views.scene.robot,
+            status=views.status.document,
             history=stack.history,
         )
         agents = [*stack.agents, publisher, *(self._witnesses(self) if self._witnesses else ()), _Herald(self._changed)]
@@ -377,13 +249,13 @@ class Runtime:
             await self._stack.close()
 
     def _on_task(self, task: Task) -> None:
-        if task.status.ended:
+        if task.status.ended and self._orders is not None:
             try:
-                self.keep_taught()
+                self._orders.keep_taught()
             except NotKept as problem:
                 logger.critical("%s: %s", task.id, problem)
         self._audit.hear_task(task, self.now_s)
-        self.tallies.task(task)
+        self.counters.task(task)
         document = task.document()
         self.stream.publish("task", document, self.now_s)
         self.log.write(self.now_s, "task", {"task": document})
@@ -391,13 +263,16 @@ class Runtime:
     def _say(self, message: str) -> None:
         self.stream.publish("log", {"message": message}, self.now_s)
 
-    def _snapshot_document(self) -> Mapping[str, Any]:
-        return {
-            "scene": self.scene_document("map"),
-            "tasks": [task.document() for task in self.queue.tasks[-50:]],
-            "robot": self.robot_document(),
-            "status": self.status_document(),
-        }
+
+def _started(part: Part | None) -> Part:
+    """A part that is made at the start.
+
+    Raises:
+        RobotUnavailable: nothing has started yet.
+    """
+    if part is None:
+        raise RobotUnavailable("not started")
+    return part
 
 
 class _Herald:

@@ -11,9 +11,9 @@ from collections.abc import AsyncIterator, Callable, Iterator
 import uvicorn
 
 from app.errors import RefusedToBind
+from app.garbage_collection import exempt_what_is_loaded
 from app.http.guards.security import Token, is_loopback
 from app.http.service import make_service
-from app.lasting import spare_what_lasts
 from app.runtime import Runtime
 from app.settings import Settings
 
@@ -67,7 +67,7 @@ class _Server(uvicorn.Server):
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:
         await self.life.enter_async_context(self._runtime.running())
         await super().startup(sockets)
-        spare_what_lasts()
+        exempt_what_is_loaded()
         if self.started and not self.should_exit:
             self._on_ready()
 

@@ -363,7 +363,7 @@ def evaluate_planning(
     json_file: JsonFile = None,
 ) -> None:
     """Put requests to the planner on stored graphs of 24 to 5,000 nodes, and compare what comes of them."""
-    from app.stacks.model_choice import key_in
+    from app.stacks.language_model import key_in
     from evaluations.planning.evaluation import evaluate
 
     settings = Settings(llm=llm, llm_url=os.environ.get("MAJORDOMO_LLM_URL"), llm_key=key_in(os.environ))

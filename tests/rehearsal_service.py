@@ -37,7 +37,7 @@ class RehearsalStack:
     """Takes the place of a robot behind the interface; ``script`` says what fails and how long things take."""
 
     path_room: tuple[tuple[float, float], ...] = ()
-    exploring, camera_on, network, degraded, gaze = False, False, None, None, None
+    exploring, look, frame, network, degraded = False, None, None, None, None
 
     def __init__(self, queue, log, script: Script) -> None:
         self.memory = WorkingMemory(rehearsal_graph())

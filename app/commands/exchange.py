@@ -63,7 +63,7 @@ def replay_recording(
     """Let perception work on a recording again, without a robot, and say what it makes of it."""
     from app.commands.export import write_text
     from app.recording.errors import RecordingError
-    from app.recording.replaying import replay, told
+    from app.replay import replay, told
 
     try:
         replayed = asyncio.run(replay(file, model=model))

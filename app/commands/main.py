@@ -60,7 +60,7 @@ def _expected() -> tuple[type[Exception], ...]:
     """Errors that say all there is to say. Looked up when one is there: the libraries behind them take a second."""
     from app.errors import LineError, RefusedToBind, RobotUnavailable
     from app.recording.errors import RecordingError
-    from app.stacks.choice import NoSuchRobot, RobotMisfit
+    from app.stacks.robot_registry import NoSuchRobot, RobotMisfit
     from drivers.rosbridge.errors import RosbridgeError
     from perception.network.errors import NetworkRefused
     from planner.errors import BadModelKey, BadModelSpec
@@ -125,7 +125,7 @@ def serve(
     from app.runtime import Runtime
     from app.server import SWITCH_INTERVAL_S, bind, check_exposure, page_address
     from app.server import serve as serve_forever
-    from app.stacks.model_choice import key_in
+    from app.stacks.language_model import key_in
 
     if graph is not None and record is not None:
         raise typer.BadParameter("a stored graph has no sensors to record", param_hint="--record")
@@ -313,7 +313,7 @@ def doctor(
 
     from app.doctor.examination import Examined, examine
     from app.doctor.finding import document, healthy, tell
-    from app.stacks.model_choice import key_in
+    from app.stacks.language_model import key_in
 
     url, key = os.environ.get("MAJORDOMO_LLM_URL"), key_in(os.environ)
     what = Examined(data=data, network=model, host=host, port=port, llm=llm, llm_url=url, llm_key=key)

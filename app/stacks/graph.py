@@ -10,7 +10,8 @@ from app.events.event_log import EventLog
 from app.exchange.stored_graph import load_graph
 from app.memory.node_history import NodeHistory
 from app.scheduler import Agent
-from app.views.camera import CameraWindow, Gaze
+from perception.objects.seeing.look import Look
+from perception.ports import RgbdFrame
 from planner.executor.executor import OnEvent
 from planner.language.grammar.parser import CommandGrammar
 from planner.mission.offline import OfflineMission
@@ -75,17 +76,12 @@ class GraphStack:
         return None
 
     @property
-    def camera_on(self) -> bool:
-        """There is no camera."""
-        return False
-
-    @property
-    def camera(self) -> CameraWindow | None:
+    def look(self) -> Look | None:
         """There is no camera."""
         return None
 
     @property
-    def gaze(self) -> Gaze | None:
+    def frame(self) -> RgbdFrame | None:
         """There is no camera."""
         return None
 

@@ -20,16 +20,15 @@ from app.recording.profile import profile_of
 from app.robot_port import Robot
 from app.scheduler import TICK_S, Agent
 from app.settings import ClockMode, Settings
-from app.stacks.choice import start_robot
 from app.stacks.mapping_agents import mapping_agents
 from app.stacks.ranges import ScanRanges
-from app.views.camera import CameraWindow, Gaze
+from app.stacks.robot_registry import start_robot
 from perception.labels import RoomLabels
 from perception.network.model import OnnxPanopticModel
 from perception.objects.agent import ObjectMemory, ObjectMemorySettings
-from perception.objects.seeing.detection import DetectionSettings
+from perception.objects.seeing.look import Look
 from perception.panoptic import PanopticModel
-from perception.ports import RobotShape
+from perception.ports import RgbdFrame, RobotShape
 from perception.preview import WatchedModel
 from perception.sensing import Filming, Sensing, SensingSettings, SensorBuffer
 from perception.vocabulary import category_of, is_person, plain_label
@@ -95,7 +94,6 @@ class RobotStack:
         )
         self._eyes = WatchedModel(network) if network is not None else None
         self._objects = self._object_memory(buffer, self._eyes) if self._eyes is not None else None
-        self.camera = CameraWindow(lambda: self._objects.look if self._objects is not None else None)
         self._buffer = buffer
         skills = load_registry()
         verifier = Verifier(skills)
@@ -224,15 +222,14 @@ class RobotStack:
             self._remembering.keep_taught(self.now())
 
     @property
-    def camera_on(self) -> bool:
-        """Whether there is a frame to show."""
-        return self._objects is not None and self._objects.look is not None
+    def look(self) -> Look | None:
+        """What the camera has shown last, and what was made of it."""
+        return self._objects.look if self._objects is not None else None
 
     @property
-    def gaze(self) -> Gaze | None:
-        """Where the camera looked when its newest frame was taken."""
-        frame = self._buffer.frame if self._eyes is not None else None
-        return Gaze.of(frame, range_m=DetectionSettings().range_limit_m) if frame is not None else None
+    def frame(self) -> RgbdFrame | None:
+        """The newest frame of the camera."""
+        return self._buffer.frame if self._eyes is not None else None
 
     async def close(self) -> None:
         """Write the building down, end the recording, and end the simulator."""

@@ -9,7 +9,8 @@ from app.events.event_log import EventLog
 from app.memory.node_history import NodeHistory
 from app.scheduler import Agent
 from app.settings import Settings
-from app.views.camera import CameraWindow, Gaze
+from perception.objects.seeing.look import Look
+from perception.ports import RgbdFrame
 from planner.models.protocol import LanguageModel
 from planner.tasks.queue import TaskQueue
 from scene_graph.memory import WorkingMemory
@@ -59,18 +60,13 @@ class Stack(Protocol):
         ...
 
     @property
-    def camera_on(self) -> bool:
-        """Whether the camera has shown something."""
+    def look(self) -> Look | None:
+        """What the camera has shown last, and what was made of it."""
         ...
 
     @property
-    def camera(self) -> CameraWindow | None:
-        """The window onto what the robot sees, if there is a camera."""
-        ...
-
-    @property
-    def gaze(self) -> Gaze | None:
-        """Where the camera looks, if there is one."""
+    def frame(self) -> RgbdFrame | None:
+        """The newest frame of the camera."""
         ...
 
     def now(self) -> float:

@@ -86,10 +86,12 @@ class CameraWindow:
         Raises:
             FrameGone: no look of this time was told of, or so long ago that it is no longer kept.
         """
-        look = self._newest() if stamp_s is None else self._told.get(stamp_s)
-        if look is None:
-            if stamp_s is not None:
+        look = newest = self._newest()
+        if newest is not None and stamp_s is not None:
+            look = self._told.get(stamp_s)
+            if look is None:
                 raise FrameGone(stamp_s, sorted(self._told))
+        if look is None:
             return None
         if outlines:
             return await asyncio.to_thread(preview_jpeg, look.frame, look.scene)

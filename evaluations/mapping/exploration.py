@@ -45,7 +45,7 @@ async def _explore(house: House, seed: int) -> Exploration:
         wall_seconds = time.monotonic() - started
         truth = await runtime.require_robot().truth()
         return Exploration(
-            scene=runtime.scene_document("map"),
+            scene=runtime.views.scene.document(),
             complete=complete,
             sim_seconds=runtime.now_s,
             wall_seconds=wall_seconds,

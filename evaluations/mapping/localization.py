@@ -106,7 +106,7 @@ class _Rounds:
 
     def begin(self) -> None:
         """The building is known: from now on it counts."""
-        found = plan_of_scene(self._runtime.scene_document("map"), self._house.robot.pose)
+        found = plan_of_scene(self._runtime.views.scene.document(), self._house.robot.pose)
         self._rooms = {ours: truth for truth, ours in compare(found, self._true).found.items()}
         self._begun = True
 

@@ -168,7 +168,7 @@ async def _account(runtime: Runtime, house: House) -> dict[str, Any]:
     truth = await runtime.require_robot().truth()
     sizes = {record["id"]: size for record in truth["objects"] if (size := sizes_of(house).get(record["id"]))}
     known = {**truth, "objects": [record for record in truth["objects"] if record["id"] in sizes]}
-    graph = graph_contents(runtime.scene_document("map"), house)
+    graph = graph_contents(runtime.views.scene.document(), house)
     unseen = Sightings(in_view_m={}, renewed_m={}, seconds=runtime.now_s, switches=0)
     scored = score_house(house, true_things(house, known, sizes), graph, unseen)
     figures = summarize_graph([scored])

@@ -143,7 +143,7 @@ class _Play:
         shortest_m = self._shortest_m(before, ways)
         passable = Ways(before, spared=self._mission.things, radius_m=PASSABLE_M)
         within_reach = is_within_reach(self._mission, before, passable)
-        task = self._runtime.submit(self._mission.request)
+        task = self._runtime.orders.submit(self._mission.request)
         await self._film(before, self._mission.request)
         task = await self._watch(task)
         await self._note(await self._scene(), task)
@@ -226,7 +226,7 @@ class _Play:
 
     async def _film(self, scene: Scene, caption: str) -> None:
         if self._filming:
-            jpeg = await self._runtime.camera_jpeg()
+            jpeg = await self._runtime.views.camera.jpeg()
             stamp_s = float(scene.truth["stamp_s"])
             self.stills.append(Still(stamp_s=stamp_s, at=scene.robot_at, caption=caption, jpeg=jpeg))
 

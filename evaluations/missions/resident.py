@@ -53,7 +53,7 @@ class Resident:
         return None if number is None else f"the {_ORDINALS[number]} one"
 
     def _contents(self) -> GraphContents:
-        return graph_contents(self._runtime.scene_document("map"), self._house)
+        return graph_contents(self._runtime.views.scene.document(), self._house)
 
 
 def meant(

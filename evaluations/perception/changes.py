@@ -168,7 +168,7 @@ class _Meddler:
 
     async def _moment(self) -> Moment:
         truth = await self._runtime.require_robot().truth()
-        contents = graph_contents(self._runtime.scene_document("map"), self._house)
+        contents = graph_contents(self._runtime.views.scene.document(), self._house)
         self._rooms = contents.rooms
         return Moment.of(true_things(self._house, truth, self._sizes), contents.things)
 

@@ -86,7 +86,7 @@ class Onlooker:
                 _nearest(self._renewed_m, node.id, math.hypot(float(x_m), float(y_m)))
 
     def _graph(self) -> Sequence[GraphThing]:
-        return graph_contents(self._runtime.scene_document("map"), self._house, lay=False).things
+        return graph_contents(self._runtime.views.scene.document(), self._house, lay=False).things
 
 
 def in_view(point_m: NDArray[np.float64], camera: tuple[float, float, float, float]) -> bool:

@@ -115,7 +115,7 @@ async def _run(name: str, house: House, model: Path) -> dict[str, Any]:
         truth = await runtime.require_robot().truth()
         onlooker = made[0]
         things = true_things(house, truth, onlooker.sizes)
-        graph = graph_contents(runtime.scene_document("map"), house)
+        graph = graph_contents(runtime.views.scene.document(), house)
         return {
             "house": name,
             "rooms_there": len(house.rooms),

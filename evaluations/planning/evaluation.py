@@ -16,7 +16,7 @@ import httpx
 from rich.console import Console
 
 from app.settings import Settings
-from app.stacks.model_choice import make_language_model
+from app.stacks.language_model import make_language_model
 from evaluations.planning.judging.expectations import Request
 from evaluations.planning.report import building_table, category_table, document, failures, figure_table, slip_table
 from evaluations.planning.request_file import OWN, load_requests, own_requests

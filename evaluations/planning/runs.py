@@ -9,7 +9,7 @@ from pathlib import Path
 from rich.console import Console
 from rich.progress import track
 
-from app.lasting import spare_what_lasts
+from app.garbage_collection import exempt_what_is_loaded
 from evaluations.planning.buildings import building
 from evaluations.planning.conversation import Conversation
 from evaluations.planning.corruption import Deaf, Oracle, can_be_put
@@ -49,7 +49,7 @@ async def run_all(
     grammar = CommandGrammar()
     for name in dict.fromkeys(request.building for request in requests):
         building(name, folder)
-    spare_what_lasts()
+    exempt_what_is_loaded()
     return [
         await run_one(request, grammar, model, folder=folder)
         for request in track(requests, description="requests", console=console)

@@ -19,7 +19,7 @@ from collections.abc import Callable, Mapping, Sequence
 from contextlib import AbstractAsyncContextManager, nullcontext
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 from rich.console import Console
@@ -79,10 +79,11 @@ class Counts:
     @classmethod
     def of(cls, runtime: Runtime) -> Counts:
         """As it is now."""
+        stack = cast("RobotStack", runtime.stack)
         return cls(
-            scans=runtime.scans,
-            frames=runtime.frames,
-            understood=runtime.frames_understood,
+            scans=stack.scans,
+            frames=stack.frames,
+            understood=stack.frames_understood,
             turns={one.agent.name: one.taken for one in runtime.turns()},
             cpu_s=time.process_time(),
         )
@@ -183,7 +184,7 @@ async def measured(
                     counts, took_s = Counts.of(runtime).since(before), time.monotonic() - started
                 figures = summary(source, took_s, counts, runtime.turns(), answers, speed=runtime.settings.speed or 1.0)
                 things = len(runtime.memory.building().of_type(ObjectNode))
-                return {**figures, "network": runtime.status_document()["network"], "things": things}
+                return {**figures, "network": runtime.views.status.document()["network"], "things": things}
 
 
 def summary(

@@ -181,13 +181,13 @@ async def test_stop_is_latched_by_click_or_escape_and_released_by_its_own_button
     for stop in (lambda: page.click("document.querySelector('#stop')"), lambda: page.press("Escape")):
         await stop()
         await page.until("!document.querySelector('#stopped').hidden")
-        assert runtime.status_document()["stopped"]
+        assert runtime.views.status.document()["stopped"]
         assert await page.js("document.querySelector('#stop').textContent") == "STOP"
         await page.click("document.querySelector('#stop')")
-        assert runtime.status_document()["stopped"], "a second push, in panic, must not release it"
+        assert runtime.views.status.document()["stopped"], "a second push, in panic, must not release it"
         await page.click("document.querySelector('#release')")
         await page.until("document.querySelector('#stopped').hidden")
-        assert not runtime.status_document()["stopped"]
+        assert not runtime.views.status.document()["stopped"]
 
 
 async def test_a_suggestion_fills_in_the_request_and_works(page, address):

@@ -130,7 +130,7 @@ async def test_escape_stops_also_while_one_types_and_what_was_typed_stays(open_p
     await open_page.type("where is")
     await open_page.press("Escape")
     await open_page.until("!document.querySelector('#stopped').hidden")
-    assert runtime.status_document()["stopped"]
+    assert runtime.views.status.document()["stopped"]
     assert await open_page.js("document.querySelector('#request').value") == "where is"
     await open_page.click("document.querySelector('#release')")
     await open_page.until(f"{BADGE} === 'succeeded'")

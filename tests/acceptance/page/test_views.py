@@ -10,7 +10,6 @@ from app.runtime import Runtime
 from app.server import bind, page_address, serving
 from app.settings import Settings
 from app.stacks.graph import GraphStack
-from app.views.camera import CameraWindow, Gaze
 from paths import DATA
 from perception.objects.seeing.look import Look
 from perception.panoptic import Instance, PanopticScene
@@ -43,22 +42,11 @@ class Filmed(GraphStack):
     _shown: Look | None = None
 
     @property
-    def camera(self):
-        return self._window
+    def frame(self):
+        return self.look.frame
 
     @property
-    def camera_on(self):
-        return True
-
-    @property
-    def gaze(self):
-        return Gaze(x_m=0.1, y_m=0.0, yaw_rad=0.0, width_rad=1.0, range_m=4.5)
-
-    def film(self):
-        self._window = CameraWindow(self._look)
-        return self
-
-    def _look(self):
+    def look(self):
         if self.rolling or self._shown is None:
             self._shown = self._new_look()
         return self._shown
@@ -89,7 +77,7 @@ async def filmed(tmp_path):
     stacks = []
 
     async def build(settings, queue, model, log, *, anew=False):
-        stacks.append(Filmed.load(settings.graph, queue, model, log).film())
+        stacks.append(Filmed.load(settings.graph, queue, model, log))
         return stacks[-1]
 
     runtime = Runtime(Settings(graph=GRAPH, data=tmp_path, port=0), build=build)
@@ -187,7 +175,7 @@ async def test_what_did_not_change_is_not_drawn_anew(page, address, runtime):
 async def test_an_ellipse_shows_how_uncertain_the_place_of_what_is_selected_is(page, address, runtime):
     await page.open(address)
     await page.until(SHOWN)
-    std_m = next(n for n in runtime.scene_document("map")["nodes"] if n["id"] == "book_2")["position_std_m"]
+    std_m = next(n for n in runtime.views.scene.document()["nodes"] if n["id"] == "book_2")["position_std_m"]
     await select(page, "book_2")
     await page.until(f"{find('#map [data-id=book_2]')}.classList.contains('selected')")
     axes = "[...document.querySelectorAll('#map .spread')].map((e) => [e.rx, e.ry].map((r) => r.baseVal.value))"
@@ -272,7 +260,7 @@ async def test_agents_and_the_language_model_are_told_of(page, address):
 async def test_a_request_leads_to_its_nodes_and_to_the_decisions_about_it(page, address, runtime):
     await page.open(address)
     await page.until(SHOWN)
-    runtime.submit("bring the blue bottle to the desk")
+    runtime.orders.submit("bring the blue bottle to the desk")
     await page.click("[...document.querySelectorAll('.task .links button')].find((e) => e.innerText === 'blue bottle')")
     await page.until(f"{find('#details small')}?.textContent === 'bottle_1'")
     await page.click(find(".task .links .why"))

@@ -39,9 +39,9 @@ async def test_carried_into_another_room_the_robot_says_so_finds_itself_and_expl
         before = (await runtime.require_robot().truth())["robot"]["pose"]
         inside = [2.2, 2.1, 0.7] if before[0] > 4.3 else [5.3, 4.6, 0.7]
         await runtime.require_robot().disturb({"do": "move", "id": "robot", "to": {"pose": inside}})
-        await until(runtime, lambda: not runtime.status_document()["robot"]["localized"], 3.0)
-        assert runtime.status_document()["robot"]["room"] is None
-        await until(runtime, lambda: runtime.status_document()["robot"]["localized"], 10.0)
+        await until(runtime, lambda: not runtime.views.status.document()["robot"]["localized"], 3.0)
+        assert runtime.views.status.document()["robot"]["room"] is None
+        await until(runtime, lambda: runtime.views.status.document()["robot"]["localized"], 10.0)
         assert runtime.memory.snapshot().current_room == away
         await until(runtime, lambda: runtime.memory.snapshot().root.explored, 200.0)
         graph = runtime.memory.building()
@@ -58,13 +58,13 @@ async def test_carried_into_another_room_the_robot_says_so_finds_itself_and_expl
 async def carry_during_a_task(runtime: Runtime) -> None:
     """A request goes on where the robot was set down, and succeeds."""
     here = runtime.memory.snapshot().current_room
-    task = runtime.submit(f"go to {next(r for r in ('room_1', 'room_2', 'room_3') if r != here)}")
+    task = runtime.orders.submit(f"go to {next(r for r in ('room_1', 'room_2', 'room_3') if r != here)}")
     await until(runtime, lambda: runtime.memory.snapshot().robot.status.startswith(("driving", "crossing")), 20.0)
     robot = runtime.require_robot()
     x_m, y_m, _ = (await robot.truth())["robot"]["pose"]
     elsewhere = [5.5, 2.0, 1.0] if x_m < 4.3 and y_m > 3.5 else [2.2, 5.6, 0.5]
     await robot.disturb({"do": "move", "id": "robot", "to": {"pose": elsewhere}})
-    await until(runtime, lambda: not runtime.status_document()["robot"]["localized"], 3.0)
+    await until(runtime, lambda: not runtime.views.status.document()["robot"]["localized"], 3.0)
     await until(runtime, lambda: runtime.queue.task(task.id).status.ended, 120.0)
     assert runtime.queue.task(task.id).status is TaskStatus.SUCCEEDED
     assert (await robot.truth())["collisions"] == 0

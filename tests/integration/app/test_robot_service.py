@@ -113,7 +113,7 @@ async def test_what_is_recognized_in_a_frame_is_told_and_its_own_picture_can_be_
     runtime, client = service
     missing = await client.get("/v1/camera")
     assert (missing.status_code, missing.json()["code"]) == (404, "no_camera")
-    await until(runtime, lambda: runtime.frames_understood > 1, 20.0)
+    await until(runtime, lambda: runtime.stack.frames_understood > 1, 20.0)
     seen = (await client.get("/v1/camera")).json()
     assert 0.0 <= seen["age_s"] < 2.0
     options = {"stamp_s": seen["stamp_s"], "outlines": False}
@@ -122,4 +122,4 @@ async def test_what_is_recognized_in_a_frame_is_told_and_its_own_picture_can_be_
     gone = await client.get("/v1/camera.jpg", params={"stamp_s": 0.001})
     assert (gone.status_code, gone.json()["code"]) == (404, "frame_gone")
     assert (await client.get("/v1/camera.jpg", params={"stamp_s": "nan"})).status_code == 422
-    assert runtime.robot_document()["camera"]["width_rad"] > 0.5
+    assert runtime.views.scene.robot()["camera"]["width_rad"] > 0.5

@@ -171,7 +171,7 @@ async def test_every_tool_refuses_who_has_no_token_or_a_wrong_one_and_a_viewer_m
             else:
                 assert "only reads" in await refused(viewer, tool, **arguments), tool
     assert served.runtime.queue.tasks == ()
-    assert not served.runtime.status_document()["stopped"]
+    assert not served.runtime.views.status.document()["stopped"]
     assert served.runtime.memory.snapshot() is before
 
 

@@ -82,7 +82,7 @@ async def test_every_route_refuses_who_has_no_token_or_a_wrong_one_and_every_for
                         assert response.json()["code"] == "unauthorized"
                         assert response.headers["www-authenticate"] == "Bearer"
         assert service.runtime.queue.tasks == ()
-        assert not service.runtime.status_document()["stopped"]
+        assert not service.runtime.views.status.document()["stopped"]
         assert service.runtime.memory.snapshot().revision == before
 
 
@@ -121,7 +121,7 @@ async def test_a_viewer_reads_everything_and_changes_nothing(in_process, setting
         found = await service.client.post("/v1/scene/query", json={"type": "room"}, headers=as_viewer)
         assert found.json()["total"] == 3
         assert service.runtime.queue.tasks == ()
-        assert not service.runtime.status_document()["stopped"]
+        assert not service.runtime.views.status.document()["stopped"]
 
 
 async def test_a_page_that_is_allowed_may_call_and_another_may_not(in_process, settings):

@@ -36,10 +36,10 @@ def status_of(runtime, task):
 async def test_a_restart_keeps_the_tasks_and_says_which_was_cut_off(tmp_path):
     async with Runtime(settings(tmp_path)).running() as runtime:
         await until(runtime, lambda: len(runtime.memory.building().of_type(RoomNode)) >= 2)
-        done = runtime.submit("where are you?")
-        asked = runtime.submit("go to room_1", approval=Approval.ASK)
+        done = runtime.orders.submit("where are you?")
+        asked = runtime.orders.submit("go to room_1", approval=Approval.ASK)
         await until(runtime, lambda: status_of(runtime, asked) is TaskStatus.AWAITING_APPROVAL)
-        going = runtime.submit("go to room_1")
+        going = runtime.orders.submit("go to room_1")
         await until(runtime, lambda: status_of(runtime, going) is TaskStatus.RUNNING)
         reply = runtime.queue.task(done.id).reply
     async with Runtime(settings(tmp_path)).running() as runtime:
@@ -48,7 +48,7 @@ async def test_a_restart_keeps_the_tasks_and_says_which_was_cut_off(tmp_path):
         cut_off = runtime.queue.task(going.id)
         assert (cut_off.status, cut_off.failures[-1].code) == (TaskStatus.FAILED, INTERRUPTED)
         assert "I was switched off" in cut_off.explanation
-        again = runtime.submit("why did you fail?")
+        again = runtime.orders.submit("why did you fail?")
         assert again.id == "task_4"
         await until(runtime, lambda: status_of(runtime, again).ended)
         assert "switched off" in runtime.queue.task(again.id).reply
@@ -65,9 +65,9 @@ async def test_what_a_person_says_is_on_disk_before_the_task_is_said_to_have_suc
             runtime, lambda: [room.status for room in runtime.memory.building().of_type(RoomNode)][:1] == [KEPT]
         )
         runtime.queue.listen(look)
-        asked = runtime.submit("where are you?")
+        asked = runtime.orders.submit("where are you?")
         await until(runtime, lambda: status_of(runtime, asked).ended)
-        taught = runtime.submit("this is the library")
+        taught = runtime.orders.submit("this is the library")
         await until(runtime, lambda: status_of(runtime, taught).ended)
         assert status_of(runtime, taught) is TaskStatus.SUCCEEDED
     assert told == {asked.id: False, taught.id: True}

@@ -58,7 +58,7 @@ async def test_a_known_building_is_known_at_once_and_the_robot_finds_its_place(t
         teach(runtime.memory, "room_2", label="library", name=None, stamp_s=runtime.now_s)
         known, before = rooms(runtime), places(runtime)
         assert len(known) == 3
-        found = runtime.history_document("room_2")["entries"][0]
+        found = runtime.views.scene.history("room_2")["entries"][0]
         assert (found["kind"], found["stamp_s"] > 0.0) == ("found", True)
     async with Runtime(settings(tmp_path)).running() as runtime:
         assert rooms(runtime) == known
@@ -67,7 +67,7 @@ async def test_a_known_building_is_known_at_once_and_the_robot_finds_its_place(t
         assert not localized(runtime)
         await until(runtime, lambda: localized(runtime))
         await until(runtime, lambda: explored(runtime))
-        history = runtime.history_document("room_2")
+        history = runtime.views.scene.history("room_2")
         assert history["entries"][0] == {**found, "stamp_s": history["entries"][0]["stamp_s"]}
         assert history["since_s"] < history["entries"][0]["stamp_s"] < 0.0
         assert "library" in [entry["after"] for entry in history["entries"] if entry["kind"] == "label"]

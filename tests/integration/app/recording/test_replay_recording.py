@@ -11,7 +11,7 @@ import pytest
 
 pytest.importorskip("mcap")
 
-from app.recording.replaying import replay, told
+from app.replay import replay, told
 from app.runtime import Runtime
 from app.settings import ClockMode, Settings
 
@@ -30,7 +30,7 @@ class Last:
 
     async def step(self, stamp_s):
         if stamp_s > DRIVE_S:
-            self.scene, self.seconds = self.runtime.scene_document("map"), stamp_s
+            self.scene, self.seconds = self.runtime.views.scene.document(), stamp_s
             self.reached.set()
             await asyncio.Event().wait()
 

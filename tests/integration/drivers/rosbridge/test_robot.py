@@ -11,7 +11,7 @@ import pytest
 
 from app.runtime import Runtime
 from app.settings import ClockMode, Settings
-from app.stacks.choice import RobotMisfit, start_robot
+from app.stacks.robot_registry import RobotMisfit, start_robot
 from drivers.rosbridge.errors import RobotNotReached
 from drivers.rosbridge.profile import read_profile
 from drivers.rosbridge.robot import RosbridgeRobot
@@ -125,7 +125,7 @@ async def test_it_drives_no_faster_than_the_profile_lets_it_and_stands_when_nobo
 
 
 async def complains(runtime, of):
-    return runtime.status_document()["perception"] == of
+    return runtime.views.status.document()["perception"] == of
 
 
 async def stands(robot):
@@ -293,13 +293,13 @@ async def test_a_service_drives_the_robot_and_finds_its_room(bridge, tmp_path):
     async with runtime.running(), asyncio.timeout(150.0):
         while runtime.memory.snapshot().current_room is None or max(speeds(bridge), default=0.0) <= 0.05:
             await runtime.wait_for_change()
-        status = runtime.status_document()
+        status = runtime.views.status.document()
         assert (status["robot"]["localized"], status["simulator"]) == (True, "running"), "something that moves"
         bridge.silent.update({"/odom", "/joint_states", "/lidar/points"})
         await until(lambda: complains(runtime, "silent: joints, odometry, scan"))
         bridge.silent.clear()
         await until(lambda: complains(runtime, None))
-        runtime.stop_robot()
+        runtime.orders.stop()
         bridge.commands.clear()
         await until(lambda: was_told_to_stand(bridge))  # what was on its way has come before
         bridge.commands.clear()

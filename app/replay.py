@@ -70,7 +70,7 @@ async def replay(path: Path, *, model: Path = SHIPPED) -> Replayed:
             if robot.problem is not None:
                 raise robot.problem
             return Replayed(
-                scene=runtime.scene_document("map"),
+                scene=runtime.views.scene.document(),
                 recorded=playback.graph,
                 seconds=playback.played_s,
                 truncated=playback.truncated,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from app.stacks.model_choice import key_in
+from app.stacks.language_model import key_in
 
 
 def test_a_key_stands_in_the_environment_or_in_a_file_that_it_names(tmp_path):

@@ -17,7 +17,7 @@ METHODS = frozenset({"GET", "POST", "PATCH", "HEAD", "OPTIONS"})
 _STEP_ENDED = frozenset({StepStatus.SUCCEEDED, StepStatus.FAILED, StepStatus.SKIPPED})
 
 
-class Tallies:
+class Counters:
     """What is counted while the service runs. Names are stable; every name begins with ``majordomo_``."""
 
     def __init__(self) -> None:
@@ -105,8 +105,8 @@ class Tallies:
 class CountedModel:
     """A language model whose answers are counted."""
 
-    def __init__(self, model: LanguageModel, tallies: Tallies) -> None:
-        self._model, self._tallies = model, tallies
+    def __init__(self, model: LanguageModel, counters: Counters) -> None:
+        self._model, self._counters = model, counters
 
     @property
     def name(self) -> str:
@@ -117,7 +117,7 @@ class CountedModel:
         """The model's answer."""
         began = time.perf_counter()
         outcome = await self._model.complete(request, deadline_s)
-        self._tallies.answer(outcome, time.perf_counter() - began)
+        self._counters.answer(outcome, time.perf_counter() - began)
         return outcome
 
 

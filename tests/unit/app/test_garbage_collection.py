@@ -7,7 +7,7 @@ import weakref
 
 import pytest
 
-from app.lasting import spare_what_lasts
+from app.garbage_collection import exempt_what_is_loaded
 
 
 class Knot:
@@ -28,7 +28,7 @@ def test_only_what_comes_later_is_collected():
     lasting, gone = Knot(), Knot()
     lasts, was_gone = weakref.ref(lasting), weakref.ref(gone)
     del gone
-    spare_what_lasts()
+    exempt_what_is_loaded()
     assert was_gone() is None
     later = Knot()
     comes = weakref.ref(later)

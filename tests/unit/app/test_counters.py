@@ -7,7 +7,7 @@ from dataclasses import replace
 import pytest
 from prometheus_client.parser import text_string_to_metric_families
 
-from app.tallies import CountedModel, Tallies
+from app.counters import CountedModel, Counters
 from planner.goals import goal
 from planner.models.protocol import FailureKind, ModelFailure, ModelReply, ModelRequest
 from planner.tasks.tasks import FailureReport, PlanReport, StepReport, StepStatus, Task, TaskStatus, TaskTimes
@@ -21,9 +21,9 @@ def anyio_backend():
     return "asyncio"
 
 
-def counted(tallies):
+def counted(counters):
     """Value by name and labels' values."""
-    families = text_string_to_metric_families(tallies.text().decode())
+    families = text_string_to_metric_families(counters.text().decode())
     return {
         (sample.name, *sample.labels.values()): sample.value
         for family in families
@@ -41,24 +41,24 @@ def plan(*statuses, revision=1):
 
 
 async def test_a_task_that_replans_is_counted_step_by_step_and_each_thing_once():
-    tallies = Tallies()
+    counters = Counters()
     pending, running, done, failed = (StepStatus(s) for s in ("pending", "running", "succeeded", "failed"))
     task = Task(id="task_1", request="x", times=TaskTimes(received_s=1.0))
-    tallies.task(task)
+    counters.task(task)
     task = replace(task, status=TaskStatus.PLANNING, plan=plan(pending, pending))
-    tallies.task(task)
+    counters.task(task)
     task = task.to(TaskStatus.RUNNING, stamp_s=2.0)
     for steps in ((running, pending), (done, pending), (done, running), (done, failed)):
         task = replace(task, plan=plan(*steps))
-        tallies.task(task)
+        counters.task(task)
     task = replace(task, failures=(FailureReport(step="PICK(cup_1)", code="slipped", message="It slipped."),))
-    tallies.task(task)
+    counters.task(task)
     task = replace(task, replans=1, plan=plan(pending, pending, revision=9))
     for steps in ((pending, pending), (done, pending), (done, done)):
         task = replace(task, plan=plan(*steps, revision=9))
-        tallies.task(task)
-    tallies.task(task.to(TaskStatus.SUCCEEDED, stamp_s=32.0))
-    found = counted(tallies)
+        counters.task(task)
+    counters.task(task.to(TaskStatus.SUCCEEDED, stamp_s=32.0))
+    found = counted(counters)
     assert found["majordomo_plans_total", "grammar"] == 2
     assert found["majordomo_replans_total",] == 1
     assert found["majordomo_failures_total", "slipped"] == 1
@@ -82,12 +82,12 @@ async def test_a_models_answers_are_counted_by_outcome_with_their_tokens_and_han
         async def complete(self, request, deadline_s):
             return outcomes[deadline_s]
 
-    tallies = Tallies()
-    model = CountedModel(Model(), tallies)
+    counters = Counters()
+    model = CountedModel(Model(), counters)
     request = ModelRequest(messages=(), schema={})
     assert [await model.complete(request, number) for number in (0, 1)] == outcomes
     assert model.name == "scripted"
-    found = counted(tallies)
+    found = counted(counters)
     assert (found["majordomo_model_answers_total", "reply"], found["majordomo_model_answers_total", "timeout"]) == (
         1,
         1,
@@ -100,10 +100,10 @@ async def test_a_models_answers_are_counted_by_outcome_with_their_tokens_and_han
 
 
 async def test_methods_that_nobody_knows_are_counted_as_one():
-    tallies = Tallies()
+    counters = Counters()
     for method in ("GET", "BREW", "WHEN"):
-        tallies.call(method, "none", 405, 0.001)
-    found = counted(tallies)
+        counters.call(method, "none", 405, 0.001)
+    found = counted(counters)
     assert (
         found["majordomo_http_requests_total", "other", "none", "405"],
         found["majordomo_http_seconds_count", "none"],

@@ -88,7 +88,7 @@ def make_service(runtime: Runtime, token: Token, viewer: Token | None = None) ->
     app.include_router(stream_routes(runtime, access))
     _serve_page(app)
     _guard(app, runtime.settings, access)
-    app.add_middleware(CallCounter, tallies=runtime.tallies)
+    app.add_middleware(CallCounter, counters=runtime.counters)
     return app
 
 

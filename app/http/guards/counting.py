@@ -6,7 +6,7 @@ import time
 
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from app.tallies import Tallies
+from app.counters import Counters
 
 NO_ROUTE = "none"
 
@@ -14,8 +14,8 @@ NO_ROUTE = "none"
 class CallCounter:
     """Middleware that counts every call, refused ones too; routes count by their pattern, unknown paths as one."""
 
-    def __init__(self, app: ASGIApp, *, tallies: Tallies) -> None:
-        self._app, self._tallies = app, tallies
+    def __init__(self, app: ASGIApp, *, counters: Counters) -> None:
+        self._app, self._counters = app, counters
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         if scope["type"] != "http":
@@ -33,4 +33,4 @@ class CallCounter:
             await self._app(scope, receive, watched)
         finally:
             route = getattr(scope.get("route"), "path", NO_ROUTE)
-            self._tallies.call(scope["method"], route, status, time.perf_counter() - began)
+            self._counters.call(scope["method"], route, status, time.perf_counter() - began)

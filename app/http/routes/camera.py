@@ -31,7 +31,7 @@ def camera_routes(runtime: Runtime) -> APIRouter:
         """Outlines, labels and nodes of the newest frame that was understood; its picture is at `GET /v1/camera.jpg`
         with the same `stamp_s`.
         """
-        document = await runtime.camera_document()
+        document = await runtime.views.camera.document(runtime.now_s)
         if document is None:
             raise _no_camera()
         return document
@@ -51,7 +51,7 @@ def camera_routes(runtime: Runtime) -> APIRouter:
     ) -> Response:
         """A camera frame with the outlines of what the network made of it, twice as large; or the frame as it is."""
         try:
-            picture = await runtime.camera_jpeg(stamp_s=stamp_s, outlines=outlines)
+            picture = await runtime.views.camera.jpeg(stamp_s=stamp_s, outlines=outlines)
         except FrameGone as error:
             raise Problem(404, "frame_gone", str(error)) from None
         if picture is None:

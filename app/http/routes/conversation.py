@@ -53,7 +53,7 @@ class Conversation:
     def _obey(self, message: Any) -> Reply | None:
         match message:
             case {"type": "stop"} if self._role is Role.OPERATOR:
-                self._runtime.stop_robot()
+                self._runtime.orders.stop()
                 return None
             case {"type": "request", "text": str(words)} if self._role is Role.OPERATOR:
                 return self._hurried() or self._submit(words)
@@ -69,7 +69,7 @@ class Conversation:
         except ValidationError as error:
             return refusal("invalid_request", error.errors()[0]["msg"])
         try:
-            return {"type": "accepted", "task": self._runtime.submit(request.request).id}
+            return {"type": "accepted", "task": self._runtime.orders.submit(request.request).id}
         except QueueFull as full:
             return refusal("queue_full", str(full))
 

@@ -49,7 +49,7 @@ def scene_routes(runtime: Runtime) -> APIRouter:
     ) -> Response:
         """The scene graph at its newest revision, long-term memory included."""
         try:
-            body = runtime.scene_json(frame, tuple(layer or ()))
+            body = runtime.views.scene.json(frame, tuple(layer or ()))
         except UnknownLayer as error:
             raise Problem(422, "unknown_layer", str(error)) from None
         return Response(body, media_type="application/json")
@@ -100,7 +100,7 @@ def scene_routes(runtime: Runtime) -> APIRouter:
             raise Problem(404, "node_not_found", str(error)) from None
         except (NotTeachable, TransactionRejected) as error:
             raise Problem(409, "not_teachable", str(error)) from None
-        runtime.keep_taught()
+        runtime.orders.keep_taught()
         return next(node for node in document_nodes(runtime.memory.building()) if node["id"] == node_id)
 
     @router.get(
@@ -112,7 +112,7 @@ def scene_routes(runtime: Runtime) -> APIRouter:
         """When rooms, doors, objects, persons and regions were found, moved, renamed, missed or seen again, also before
         the last start of the service. What is gone is remembered for a while.
         """
-        found = runtime.history_document(node_id)
+        found = runtime.views.scene.history(node_id)
         if found is None:
             raise Problem(404, "node_not_found", f"there is no node {node_id!r}, and none is remembered")
         return found
@@ -125,6 +125,6 @@ def scene_routes(runtime: Runtime) -> APIRouter:
     )
     async def picture() -> Response:
         """The map from above, for people; programs take `GET /v1/scene`."""
-        return Response(map_svg(runtime.scene_document("map")), media_type="image/svg+xml")
+        return Response(map_svg(runtime.views.scene.document()), media_type="image/svg+xml")
 
     return router

@@ -21,7 +21,7 @@ def status_routes(runtime: Runtime) -> APIRouter:
     @router.get("/v1/status", summary="What the robot is doing", responses=shows(StatusDocument, examples.STATUS))
     async def status() -> Any:
         """Where the robot is, what it holds, which task it has, and how each agent keeps its rate."""
-        return runtime.status_document()
+        return runtime.views.status.document()
 
     @router.get(
         "/metrics",
@@ -31,7 +31,7 @@ def status_routes(runtime: Runtime) -> APIRouter:
     )
     async def metrics() -> Response:
         """Agents, queue, plans, model, skills, graph and process, for a scrape with a viewer's token."""
-        return Response(runtime.metrics_text(), media_type="text/plain; version=0.0.4")
+        return Response(runtime.views.metrics.text(), media_type="text/plain; version=0.0.4")
 
     @router.post(
         "/v1/simulation/restart",

@@ -69,7 +69,9 @@ def _asking(runtime: Runtime) -> APIRouter:
         task = earlier_task(queue, idempotency_key, body)
         if task is None:
             try:
-                task = runtime.submit(body.request, approval=body.approval, dry_run=body.dry_run, key=idempotency_key)
+                task = runtime.orders.submit(
+                    body.request, approval=body.approval, dry_run=body.dry_run, key=idempotency_key
+                )
             except QueueFull as full:
                 raise Problem(429, "queue_full", str(full), headers={"Retry-After": "10"}) from None
         response.headers["Location"] = f"/v1/tasks/{task.id}"
@@ -168,13 +170,13 @@ def _stopping(runtime: Runtime) -> APIRouter:
         responses=shows(StopDocument, {"stopped": True}),
     )
     async def stop() -> Any:
-        runtime.stop_robot()
+        runtime.orders.stop()
         return {"stopped": True}
 
     @router.post("/v1/resume", summary="Release the stop", responses=shows(StopDocument, {"stopped": False}))
     async def resume_robot() -> Any:
         """What was interrupted goes on."""
-        runtime.release_stop()
+        runtime.orders.release_stop()
         return {"stopped": False}
 
     return router

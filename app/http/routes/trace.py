@@ -31,7 +31,7 @@ def trace_routes(runtime: Runtime) -> APIRouter:
         limit: Annotated[int, Query(ge=1, le=MAX_ENTRIES)] = 200,
     ) -> Trace:
         """Entries are in the order in which they were written; page with `after` = the `next` of the answer before."""
-        found = runtime.trace(task_id, after=after, limit=limit)
+        found = runtime.journal.trace(task_id, after=after, limit=limit)
         if found is None:
             raise Problem(404, "task_not_found", f"there is no trace of {task_id!r}")
         return found

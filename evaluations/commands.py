@@ -98,7 +98,7 @@ def evaluate_mapping(
 ) -> None:
     """Let the robot map houses, and compare rooms and doors with the truth and with the paper's table 2."""
     from evaluations.mapping.mapping import evaluate
-    from simulation.houses.house import builtin_houses
+    from simulation.houses.house_file import builtin_houses
 
     names = [f"generated:{number}" for number in range(20 if full else houses)]
     names += [*(builtin_houses() if full else ()), *(house or ())]

@@ -16,7 +16,8 @@ from app.runtime import Runtime
 from app.server import bind, page_address, serving
 from app.settings import ClockMode, Settings
 from planner.tasks.tasks import StepStatus, Task
-from simulation.houses.house import furniture_places, load_house
+from simulation.houses.house import furniture_places
+from simulation.houses.house_file import load_house
 
 
 class ProgressBars:

@@ -116,7 +116,7 @@ def serve(
     verbose: Annotated[bool, typer.Option("--verbose", "-v", help="Log every frame's doings.")] = False,
 ) -> None:
     """Start the service; the first line printed is the page's address."""
-    from simulation.houses.house import load_house
+    from simulation.houses.house_file import load_house
 
     if graph is None and robot is None:
         load_house(house)  # a house that is none is refused before the libraries are loaded, which takes seconds

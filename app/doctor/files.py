@@ -21,7 +21,7 @@ TOO_LITTLE_BYTES = 50_000_000
 def houses() -> Finding:
     """Whether the built-in houses load."""
     from simulation.errors import HouseError
-    from simulation.houses.house import load_house
+    from simulation.houses.house_file import load_house
 
     try:
         load_house("flat")

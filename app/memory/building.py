@@ -18,7 +18,7 @@ from scene_graph.long_term.long_term_store import LongTermStore
 from scene_graph.long_term.room_files import RoomFiles
 from scene_graph.memory import WorkingMemory
 from scene_graph.nodes import RegionNode
-from simulation.houses.house import load_house
+from simulation.houses.house_file import load_house
 
 logger = logging.getLogger(__name__)
 

@@ -17,7 +17,8 @@ from app.runtime import Runtime
 from app.settings import ClockMode, Settings
 from evaluations.pool import run_all
 from planner.tasks.tasks import Task
-from simulation.houses.house import furniture_places, load_house
+from simulation.houses.house import furniture_places
+from simulation.houses.house_file import load_house
 
 GOOD_SHARE = 0.9
 

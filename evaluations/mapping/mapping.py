@@ -16,7 +16,8 @@ from evaluations.mapping.floor_plan import Errors, FloorPlan, Score, compare, pl
 from evaluations.plots import draw_plans
 from evaluations.pool import run_all
 from simulation.generation.generator import generate_house
-from simulation.houses.house import House, load_house
+from simulation.houses.house import House
+from simulation.houses.house_file import load_house
 
 PAPER_MM = {
     "room_position": (34.1, 16.2),

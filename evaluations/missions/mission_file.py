@@ -10,7 +10,8 @@ from evaluations.missions.mission import Mission
 from evaluations.missions.outcome import HAND, ROBOT, Outcome, Placed, RobotIn
 from evaluations.perception.perception import house_of
 from simulation.errors import HouseError
-from simulation.houses.house import House, load_house
+from simulation.houses.house import House
+from simulation.houses.house_file import load_house
 
 
 class MissionFileError(ValueError):

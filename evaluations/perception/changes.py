@@ -24,6 +24,7 @@ from rich.table import Table
 from app.runtime import Runtime
 from evaluations.mapping.exploration import pass_time, service_in_lockstep, until_explored
 from evaluations.perception.change_scores import Moment, detected, false_alarms, summarize
+from evaluations.perception.interventions import KINDS, Gaze, Intervention, Kind, interventions
 from evaluations.perception.inventory import graph_contents, sizes_of, true_things
 from evaluations.perception.perception import check, house_of
 from evaluations.plots import save
@@ -36,8 +37,7 @@ from scene_graph.nodes import ROBOT_ID, ObjectNode
 from simulation.errors import DisturbError
 from simulation.furnishing.catalog import category_named
 from simulation.houses.house import House, room_at
-from simulation.meddling import KINDS, Deed, Gaze, Kind, deeds
-from simulation.robot.camera import HORIZONTAL_FOV_RAD
+from simulation.robot.description import CameraDescription
 
 LEAST_DETECTED = 0.95
 LEAST_RIGHT = 0.90
@@ -139,28 +139,28 @@ class _Meddler:
     async def change(self, kind: Kind) -> dict[str, Any] | None:
         """One change and what came of it; None where, from two places, nothing out of the robot's view can change."""
         before = await self._moment()
-        deed = await self._do(kind, before)
-        if deed is None and self._rooms:
+        intervention = await self._do(kind, before)
+        if intervention is None and self._rooms:
             await self._look_at(str(self._rng.choice(sorted(self._rooms.values()))))
             before = await self._moment()
-            deed = await self._do(kind, before)
-        if deed is None:
+            intervention = await self._do(kind, before)
+        if intervention is None:
             return None
         await pass_time(self._runtime, _SETTLE_S)
         began_s = self._runtime.now_s
-        looks = {place: await self._look(place, before) for place in dict.fromkeys(deed.places)}
+        looks = {place: await self._look(place, before) for place in dict.fromkeys(intervention.places)}
         await pass_time(self._runtime, _SETTLE_S)
         after = await self._moment()
         true_right, nodes_right = after.accuracy(self._rooms)
         return {
             "kind": kind,
-            "thing": deed.thing,
-            "category": deed.category,
-            "places": list(deed.places),
+            "thing": intervention.thing,
+            "category": intervention.category,
+            "places": list(intervention.places),
             "looked": not any(looks.values()),
             "not_looked": {place: reason for place, reason in looks.items() if reason},
             "seconds": round(self._runtime.now_s - began_s, 2),
-            **detected(kind, deed.thing, before, after),
+            **detected(kind, intervention.thing, before, after),
             "false_alarms": false_alarms(before, after),
             "true_things_right": true_right,
             "nodes_right": nodes_right,
@@ -172,20 +172,21 @@ class _Meddler:
         self._rooms = contents.rooms
         return Moment.of(true_things(self._house, truth, self._sizes), contents.things)
 
-    async def _do(self, kind: Kind, before: Moment) -> Deed | None:
-        """Do the first deed for which there is room. Only what the graph knows of is moved or removed."""
+    async def _do(self, kind: Kind, before: Moment) -> Intervention | None:
+        """Do the first intervention for which there is room. Only what the graph knows of is moved or removed."""
         robot = self._runtime.require_robot()
         truth, joints = await robot.truth(), await robot.joints()
         x_m, y_m, yaw_rad = truth["robot"]["pose"]
-        gaze = Gaze(x_m=x_m, y_m=y_m, yaw_rad=yaw_rad + joints.pan_rad, half_width_rad=HORIZONTAL_FOV_RAD / 2.0)
+        half_width_rad = CameraDescription().horizontal_fov_rad / 2.0
+        gaze = Gaze(x_m=x_m, y_m=y_m, yaw_rad=yaw_rad + joints.pan_rad, half_width_rad=half_width_rad)
         known = set(before.stock.node_of)
-        possible = deeds(kind, self._house, truth, self._rng, rooms=self._rooms, gaze=gaze, known=known)
-        for deed in possible:
+        possible = interventions(kind, self._house, truth, self._rng, rooms=self._rooms, gaze=gaze, known=known)
+        for intervention in possible:
             if kind == "add":  # it is there even where it does not come to rest where it should
-                self._sizes[deed.thing] = category_named(deed.category).size_m
+                self._sizes[intervention.thing] = category_named(intervention.category).size_m
             with contextlib.suppress(DisturbError):
-                await robot.disturb(dict(deed.event))
-                return deed
+                await robot.disturb(dict(intervention.event))
+                return intervention
         return None
 
     async def _look(self, place: str, before: Moment) -> str:

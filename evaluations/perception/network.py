@@ -27,7 +27,7 @@ from scene_graph.geometry.se3 import SE3
 from simulation.generation.stocking import stocked_house
 from simulation.pictures.photographer import photographer
 from simulation.pictures.photographs import Photograph
-from simulation.robot.camera import INTRINSICS
+from simulation.robot.description import CameraDescription
 
 AIMS = {
     "recall": 0.90, "precision": 0.92, "least_class": 0.75, "mask_iou": 0.85, "relation_recall_at_20": 0.65
@@ -79,15 +79,16 @@ def views(seeds: Sequence[int], pictures: int) -> Iterator[Photograph]:
 
 def frame_of(photo: Photograph) -> RgbdFrame:
     """The picture as the camera would send it; networks do not look at the rest."""
-    depth_m = np.ones(photo.ids.shape, dtype=np.float32)
+    depth_m, intrinsics = np.ones(photo.ids.shape, dtype=np.float32), CameraDescription().intrinsics
     return RgbdFrame(
-        stamp_s=0.0, rgb=photo.rgb, depth_m=depth_m, intrinsics=INTRINSICS, T_base_camera=SE3.identity()
+        stamp_s=0.0, rgb=photo.rgb, depth_m=depth_m, intrinsics=intrinsics, T_base_camera=SE3.identity()
     )  # fmt: skip
 
 
 def speed(network: OnnxPanopticModel) -> dict[str, Any]:
     """Milliseconds for one frame with its usual threads, from picture to instances and relations."""
-    rgb = np.random.default_rng(0).integers(0, 255, (INTRINSICS.height, INTRINSICS.width, 3), dtype=np.uint8)
+    camera = CameraDescription()
+    rgb = np.random.default_rng(0).integers(0, 255, (camera.height_px, camera.width_px, 3), dtype=np.uint8)
     nothing = np.full(rgb.shape[:2], 255, dtype=np.uint8)
     frame = frame_of(Photograph(rgb=rgb, ids=nothing, categories=(), distances_m=np.zeros(0, np.float32), relations=()))
     taken = []

@@ -17,13 +17,10 @@ from evaluations.perception.inventory import GraphThing, Size3, graph_contents, 
 from evaluations.perception.stocktaking import Identities
 from scene_graph.nodes import ObjectNode
 from simulation.houses.house import House, room_at
-from simulation.robot.camera import HEIGHT, HORIZONTAL_FOV_RAD, WIDTH
-from skills.ports import ArmGeometry
+from simulation.robot.description import RobotDescription
 
-CAMERA_HEIGHT_M = ArmGeometry().camera_height_m
-HALF_WIDTH_RAD = HORIZONTAL_FOV_RAD / 2.0
-HALF_HEIGHT_RAD = math.atan(math.tan(HALF_WIDTH_RAD) * HEIGHT / WIDTH)
 MARGIN_RAD = 0.04
+"""What is nearer to the edge of the picture than this is not counted as in view: most of it may be outside."""
 IDENTITIES_EVERY = 4
 """Turns between two comparisons of identities."""
 
@@ -89,13 +86,19 @@ class Onlooker:
         return graph_contents(self._runtime.views.scene.document(), self._house, lay=False).things
 
 
-def in_view(point_m: NDArray[np.float64], camera: tuple[float, float, float, float]) -> bool:
+def in_view(
+    point_m: NDArray[np.float64],
+    camera: tuple[float, float, float, float],
+    robot: RobotDescription = RobotDescription(),
+) -> bool:
     """Whether a point (3,) is in the picture of a camera at (x, y) that looks along a yaw and up by a tilt, radians."""
     x_m, y_m, yaw_rad, tilt_rad = camera
-    dx, dy, dz = point_m - (x_m, y_m, CAMERA_HEIGHT_M)
+    dx, dy, dz = point_m - (x_m, y_m, robot.geometry.camera_height_m)
     aside_rad = math.remainder(math.atan2(dy, dx) - yaw_rad, math.tau)
     up_rad = math.atan2(dz, math.hypot(dx, dy)) - tilt_rad
-    return abs(aside_rad) <= HALF_WIDTH_RAD - MARGIN_RAD and abs(up_rad) <= HALF_HEIGHT_RAD - MARGIN_RAD
+    half_width_rad = robot.camera.horizontal_fov_rad / 2.0
+    half_height_rad = math.atan(math.tan(half_width_rad) * robot.camera.height_px / robot.camera.width_px)
+    return abs(aside_rad) <= half_width_rad - MARGIN_RAD and abs(up_rad) <= half_height_rad - MARGIN_RAD
 
 
 def _nearest(nearest: dict[str, float], name: str, distance_m: float) -> None:

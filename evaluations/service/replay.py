@@ -23,7 +23,7 @@ from perception.errors import SensorSilent
 from perception.ports import Intrinsics, JointState, LidarScan, Odometry, RgbdFrame
 from scene_graph.geometry.se3 import SE3
 from scene_graph.snapshot import Snapshot
-from simulation.houses.house import load_house
+from simulation.houses.house_file import load_house
 from skills.ports import ArmTarget, BodyState
 
 LIDAR_HZ, CAMERA_HZ = 10.0, 15.0

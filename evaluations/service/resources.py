@@ -28,7 +28,7 @@ from perception.memory.working_set import WorkingSet
 from scene_graph.edits import PutEdge
 from scene_graph.long_term.long_term_store import LongTermStore
 from scene_graph.memory import WorkingMemory
-from simulation.houses.house import load_house
+from simulation.houses.house_file import load_house
 
 PAPER_MB = {
     "room_concept": 197,

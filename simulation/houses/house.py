@@ -1,19 +1,14 @@
-"""The house document of design section 4: what stands where, as a person writes it, checked on load.
+"""The house document of design section 4: what stands where, as a person writes it.
 
 Lengths in meters, angles in radians, in house coordinates: z up, floor at 0.
 """
 
 from __future__ import annotations
 
-import json
-from collections.abc import Sequence
-from importlib import resources
-from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import BaseModel, ConfigDict, Field
 
-from simulation.errors import DisturbError, HouseError
 from simulation.houses.polygons import Point2, contains, distance_to_boundary
 
 OUTSIDE = "outside"
@@ -152,75 +147,6 @@ class House(_Strict):
     noise: Noise = Noise()
 
 
-def builtin_houses() -> tuple[str, ...]:
-    """Names of the houses that ship with the package, sorted."""
-    folder = resources.files("simulation") / "houses"
-    return tuple(sorted(entry.name.removesuffix(".json") for entry in folder.iterdir() if entry.name.endswith(".json")))
-
-
-def load_house(path_or_name: str | Path) -> House:
-    """Read the house of that built-in name, or else the file.
-
-    Raises:
-        HouseError: no such house or file, or it is not one that can be built.
-    """
-    name = str(path_or_name)
-    if name in builtin_houses():
-        return parse_house((resources.files("simulation") / "houses" / f"{name}.json").read_text("utf-8"))
-    try:
-        text = Path(name).read_text("utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        reason = error.strerror if isinstance(error, OSError) and error.strerror else "not a text file"
-        known = ", ".join(builtin_houses())
-        raise HouseError(
-            name if name.strip() else repr(name),
-            f"cannot be read ({reason}), and no house has that name; built in: {known}",
-        ) from error
-    return parse_house(text)
-
-
-def parse_house(text: str) -> House:
-    """Read and check a house document.
-
-    Raises:
-        HouseError: with the path of the offending field, or line and column where it is no JSON.
-    """
-    # The checks are written in terms of the models above.
-    from simulation.houses.house_checks import check_house
-
-    try:
-        document = json.loads(text)
-    except json.JSONDecodeError as error:
-        raise HouseError(f"line {error.lineno} column {error.colno}", f"not JSON: {error.msg}") from error
-    except RecursionError as error:
-        raise HouseError("", "not a house: nested too deeply") from error
-    try:
-        house = House.model_validate(document)
-    except ValidationError as error:
-        raise HouseError(*_first_problem(error)) from error
-    check_house(house)
-    return house
-
-
-def parse_disturbance(document: Any) -> Disturbance:
-    """Read one event without ``at_s``; whether the house allows it shows when it is carried out.
-
-    Raises:
-        DisturbError: with the path of the offending field.
-    """
-    from simulation.houses.house_checks import check_disturbance
-
-    try:
-        disturbance = Disturbance.model_validate(document)
-    except ValidationError as error:
-        raise DisturbError(*_first_problem(error)) from error
-    try:
-        check_disturbance(disturbance, "")
-    except HouseError as error:
-        raise DisturbError(error.path, error.problem) from error
-    return disturbance
-
-
 def room_at(house: House, x_m: float, y_m: float) -> str | None:
     """Id of the room whose polygon holds the point; in a wall or doorway the nearest room within a wall's thickness."""
     point: Point2 = (x_m, y_m)
@@ -239,19 +165,3 @@ def furniture_places(house: House) -> dict[str, tuple[str, str]]:
         room = room_at(house, item.pose[0], item.pose[1])
         places[item.id] = (item.category, labels[room] if room is not None else "")
     return places
-
-
-def field_path(location: Sequence[int | str]) -> str:
-    """``("doors", 1, "center")`` as ``doors[1].center``."""
-    path = ""
-    for part in location:
-        path += f"[{part}]" if isinstance(part, int) else f".{part}" if path else part
-    return path
-
-
-def _first_problem(error: ValidationError) -> tuple[str, str]:
-    """Path and problem of the first finding; how many more there are is told too."""
-    findings = error.errors(include_url=False, include_context=False)
-    more = f" (and {len(findings) - 1} more)" if len(findings) > 1 else ""
-    message = findings[0]["msg"]
-    return field_path(findings[0]["loc"]), f"{message[:1].lower()}{message[1:]}{more}"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -20,25 +20,49 @@ from simulation.houses.house import House, Room
 from simulation.pictures.photographs import FLOOR, MOST_INSTANCES, NOTHING, WALL, Photograph, photograph
 from simulation.pictures.relations import Solid
 from simulation.robot.camera import render
+from simulation.robot.description import RobotDescription
 from simulation.world.world import World
-from skills.ports import ArmGeometry
 
-CAMERA_HEIGHT_M = ArmGeometry().camera_height_m
-_ROBOT_M = 0.3
-_TRIES = 40
-_ON_FLOOR_M = 0.03
-_UPRIGHT = 0.95
-_AIMED = 0.75
-_TILTS_RAD = (-0.6, 0.05)
+
+@dataclass(frozen=True, kw_only=True)
+class PhotographerSettings:
+    """From where pictures are taken, and of what."""
+
+    robot_m: float = 0.3
+    """Nothing stands nearer to where a picture is taken: the robot's own radius."""
+    tries: int = 40
+    """To find such a place."""
+    on_floor_m: float = 0.03
+    """What nothing bears and is lower than this lies on the floor."""
+    upright: float = 0.95
+    """Cosine of the lean up to which a thing has the box of its known size: 18 degrees."""
+    aimed_share: float = 0.75
+    """So many pictures are of something; chosen: the rest shows what a robot sees that looks about."""
+    tilts_rad: tuple[float, float] = (-0.6, 0.05)
+    """Of pictures of nothing in particular, as the robot tilts its camera when it drives."""
+    aim_std_m: float = 0.15
+    """How far what a picture is of lies from its middle."""
+    near_m: float = 0.4
+    away_shape: float = 3.0
+    away_scale_m: float = 0.38
+    """What a picture is of is this near at least, and a gamma-distributed way farther: 1.5 m in the mean."""
 
 
 class Photographer:
     """A settled house and what is where in it."""
 
-    def __init__(self, house: House, *, client: int, rng: np.random.Generator) -> None:
-        self._house, self._client, self._rng = house, client, rng
+    def __init__(
+        self,
+        house: House,
+        *,
+        client: int,
+        rng: np.random.Generator,
+        robot: RobotDescription = RobotDescription(),
+        settings: PhotographerSettings = PhotographerSettings(),
+    ) -> None:
+        self._house, self._client, self._rng, self._robot, self._settings = house, client, rng, robot, settings
         self._world = World(house, client=client, rng=rng)
-        self.categories, self.solids, self._index_of_body = _inventory(self._world, client)
+        self.categories, self.solids, self._index_of_body = _inventory(self._world, client, settings)
         self._targets = [
             np.array(solid.center_m)
             for category, solid in zip(self.categories, self.solids, strict=True)
@@ -52,32 +76,35 @@ class Photographer:
 
     def photograph(self, T_world_camera: SE3) -> Photograph:
         """What a camera sees whose optical frame is there."""
-        picture = render(T_world_camera, self._client)
+        picture = render(T_world_camera, self._client, self._robot.camera)
         ids = self._index_of_body[np.where(picture.bodies >= 0, picture.bodies, len(self._index_of_body) - 1)]
         return photograph(picture.rgb, ids, picture.depth_m, self.categories, self.solids)
 
     def _viewpoint(self) -> SE3:
         """A free place in some room, and a look at something near, or anywhere."""
-        rng = self._rng
-        target = self._targets[rng.integers(len(self._targets))] if self._targets and rng.random() < _AIMED else None
+        rng, settings, height_m = self._rng, self._settings, self._robot.geometry.camera_height_m
+        tilt_limits = self._robot.limits.tilt_rad
+        aimed = bool(self._targets) and rng.random() < settings.aimed_share
+        target = self._targets[rng.integers(len(self._targets))] if aimed else None
         x, y = self._standpoint(target)
         if target is None:
-            yaw, tilt = float(rng.uniform(-math.pi, math.pi)), float(rng.uniform(*_TILTS_RAD))
+            yaw, tilt = float(rng.uniform(-math.pi, math.pi)), float(rng.uniform(*settings.tilts_rad))
         else:
-            dx, dy, dz = target + rng.normal(0.0, 0.15, 3) - (x, y, CAMERA_HEIGHT_M)
-            yaw, tilt = math.atan2(dy, dx), float(np.clip(math.atan2(dz, math.hypot(dx, dy)), -1.4, 0.5))
-        return looking(np.array((x, y, CAMERA_HEIGHT_M)), yaw, tilt)
+            dx, dy, dz = target + rng.normal(0.0, settings.aim_std_m, 3) - (x, y, height_m)
+            yaw, tilt = math.atan2(dy, dx), float(np.clip(math.atan2(dz, math.hypot(dx, dy)), *tilt_limits))
+        return looking(np.array((x, y, height_m)), yaw, tilt)
 
     def _standpoint(self, target: NDArray[np.float64] | None) -> tuple[float, float]:
-        rooms = self._house.rooms
+        rooms, settings = self._house.rooms, self._settings
         x, y = 0.0, 0.0
-        for _ in range(_TRIES):
+        for _ in range(settings.tries):
             if target is None:
                 room = rooms[self._rng.integers(len(rooms))]
                 corners = np.array(room.polygon)
                 x, y = (float(c) for c in self._rng.uniform(corners.min(axis=0), corners.max(axis=0)))
             else:
-                away, angle = 0.4 + self._rng.gamma(3.0, 0.38), self._rng.uniform(-math.pi, math.pi)
+                away = settings.near_m + self._rng.gamma(settings.away_shape, settings.away_scale_m)
+                angle = self._rng.uniform(-math.pi, math.pi)
                 x, y = float(target[0] + away * math.cos(angle)), float(target[1] + away * math.sin(angle))
             if any(self._stands_free(room, (x, y), target) for room in rooms):
                 break
@@ -85,7 +112,7 @@ class Photographer:
 
     def _stands_free(self, room: Room, point: tuple[float, float], target: NDArray[np.float64] | None) -> bool:
         together = target is None or is_free(room, (), (float(target[0]), float(target[1])), 0.0)
-        return together and is_free(room, self._house.furniture, point, _ROBOT_M)
+        return together and is_free(room, self._house.furniture, point, self._settings.robot_m)
 
 
 @contextmanager
@@ -105,7 +132,9 @@ def looking(eye_m: NDArray[np.float64], yaw_rad: float, tilt_rad: float) -> SE3:
     return SE3.from_rotation(np.stack((right, np.cross(forward, right), forward), axis=1), eye_m)
 
 
-def _inventory(world: World, client: int) -> tuple[list[str], list[Solid], NDArray[np.uint8]]:
+def _inventory(
+    world: World, client: int, settings: PhotographerSettings
+) -> tuple[list[str], list[Solid], NDArray[np.uint8]]:
     """What there is, where, and (bodies + 1,) the index of each body, ``NOTHING`` last."""
     nowhere = Solid(center_m=(0.0, 0.0, 0.0), size_m=(0.0, 0.0, 0.0), yaw_rad=0.0, furniture=True)
     categories, solids = ["wall", "floor"], [nowhere, nowhere]
@@ -122,14 +151,15 @@ def _inventory(world: World, client: int) -> tuple[list[str], list[Solid], NDArr
             index_of_body[body] = WALL if category == "wall" else FLOOR
         elif category is not None and len(categories) < MOST_INSTANCES:
             index_of_body[body] = len(categories)
-            solid = _solid(body, client, sizes.get(name or ""), furniture=name not in loose and category != "person")
+            stays = name not in loose and category != "person"
+            solid = _solid(body, client, sizes.get(name or ""), settings.upright, furniture=stays)
             if name is not None:
                 index_of[name] = len(categories)
             categories.append(category)
             solids.append(replace(solid, attached_to=WALL) if category == "door" else solid)
     for name, entry in loose.items():
         if name in index_of:
-            solids[index_of[name]] = _carried(solids[index_of[name]], entry, index_of)
+            solids[index_of[name]] = _carried(solids[index_of[name]], entry, index_of, settings.on_floor_m)
     return categories, solids, index_of_body
 
 
@@ -138,10 +168,10 @@ def _sizes(house: House) -> dict[str, Size3]:
     return furniture | {item.id: item.size or category_named(item.category).size_m for item in house.objects}
 
 
-def _solid(body: int, client: int, size_m: Size3 | None, *, furniture: bool) -> Solid:
+def _solid(body: int, client: int, size_m: Size3 | None, least_upright: float, *, furniture: bool) -> Solid:
     """The upright box of a body: of its known size, or, for what lies on its side and for doors, around it."""
     position, quaternion = p.getBasePositionAndOrientation(body, physicsClientId=client)
-    upright = p.getMatrixFromQuaternion(quaternion)[8] > _UPRIGHT
+    upright = p.getMatrixFromQuaternion(quaternion)[8] > least_upright
     if size_m is not None and upright:
         yaw_rad = p.getEulerFromQuaternion(quaternion)[2]
         return Solid(center_m=position, size_m=size_m, yaw_rad=yaw_rad, furniture=furniture)
@@ -155,9 +185,9 @@ def _solid(body: int, client: int, size_m: Size3 | None, *, furniture: bool) -> 
     )
 
 
-def _carried(solid: Solid, entry: dict[str, Any], index_of: dict[str, int]) -> Solid:
+def _carried(solid: Solid, entry: dict[str, Any], index_of: dict[str, int], on_floor_m: float) -> Solid:
     """With what bears it, as truth has it; what nothing bears and is low lies on the floor."""
     on, inside = index_of.get(entry["on"] or ""), index_of.get(entry["in"] or "")
-    if on is None and inside is None and solid.bottom_m < _ON_FLOOR_M:
+    if on is None and inside is None and solid.bottom_m < on_floor_m:
         on = FLOOR
     return replace(solid, on=on, inside=inside)

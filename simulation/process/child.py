@@ -14,7 +14,7 @@ from multiprocessing.sharedctypes import Synchronized
 from typing import TYPE_CHECKING
 
 from simulation.errors import DisturbError, HouseError
-from simulation.houses.house import parse_house
+from simulation.houses.house_file import parse_house
 from simulation.process.messages import Mode, Reply, Request, Start
 
 if TYPE_CHECKING:
@@ -23,8 +23,6 @@ if TYPE_CHECKING:
 MAX_BURST_S = 0.05
 """Most simulated time between two looks at the requests; beyond it simulated time falls behind the wall clock."""
 ADVANCE, CLOSE = "advance", "close"
-STEP_S = 1.0 / 240.0
-"""Duration of a physics step."""
 
 
 def run(connection: Connection, stop_latch: Synchronized[int], start: Start) -> None:
@@ -34,7 +32,13 @@ def run(connection: Connection, stop_latch: Synchronized[int], start: Start) -> 
     from simulation.process.engine import Engine
 
     try:
-        engine = Engine(parse_house(start.house), start.seed, lambda: bool(stop_latch.value))
+        engine = Engine(
+            parse_house(start.house),
+            start.seed,
+            lambda: bool(stop_latch.value),
+            robot=start.robot,
+            physics=start.physics,
+        )
     except HouseError as error:
         connection.send(Reply(problem=str(error)))
         return
@@ -48,11 +52,11 @@ def run(connection: Connection, stop_latch: Synchronized[int], start: Start) -> 
 
 
 def _serve(connection: Connection, engine: Engine, start: Start) -> None:
-    pace = _Pace(start.speed) if start.mode is Mode.REAL else None
+    pace = _Pace(start.speed, start.physics.step_s) if start.mode is Mode.REAL else None
     while True:
         if pace is not None:
             engine.advance(pace.due_s())
-        if not connection.poll(None if pace is None else STEP_S):
+        if not connection.poll(None if pace is None else start.physics.step_s):
             continue
         request: Request = connection.recv()
         if request.method == CLOSE:
@@ -73,8 +77,8 @@ def _answer(engine: Engine, request: Request) -> Reply:
 class _Pace:
     """How much simulated time is due to follow the wall clock; time that cannot be kept up with is given up."""
 
-    def __init__(self, speed: float) -> None:
-        self._speed = speed
+    def __init__(self, speed: float, step_s: float) -> None:
+        self._speed, self._step_s = speed, step_s
         self._wall_s = time.monotonic()
         self._owed_s = 0.0
 
@@ -83,6 +87,6 @@ class _Pace:
         wall_s = time.monotonic()
         self._owed_s = min(self._owed_s + (wall_s - self._wall_s) * self._speed, MAX_BURST_S)
         self._wall_s = wall_s
-        due_s = int(self._owed_s / STEP_S) * STEP_S
+        due_s = int(self._owed_s / self._step_s) * self._step_s
         self._owed_s -= due_s
         return due_s

@@ -14,7 +14,7 @@ from typing import Any
 
 from perception.ports import JointState, LidarScan, Odometry, RgbdFrame
 from simulation.errors import DisturbError, HouseError, SimulatorDied
-from simulation.houses.house import load_house
+from simulation.houses.house_file import load_house
 from simulation.process.child import ADVANCE, CLOSE, run
 from simulation.process.messages import Mode, Readings, Reply, Request, Start
 from skills.ports import ArmGeometry, ArmTarget, BodyLimits, BodyState
@@ -58,12 +58,12 @@ class SimulatedRobot:
     @property
     def limits(self) -> BodyLimits:
         """The body's limits, enforced in the simulator."""
-        return BodyLimits()
+        return self._start.robot.limits
 
     @property
     def geometry(self) -> ArmGeometry:
         """The arm's dimensions."""
-        return ArmGeometry()
+        return self._start.robot.geometry
 
     @property
     def alive(self) -> bool:

@@ -11,19 +11,21 @@ import pybullet as p
 
 from perception.ports import JointState, LidarScan, Odometry, RgbdFrame
 from scene_graph.geometry.se3 import SE3
-from simulation.houses.house import House, parse_disturbance
-from simulation.process.child import STEP_S
+from simulation.houses.house import House
+from simulation.houses.house_file import parse_disturbance
 from simulation.process.messages import Readings
-from simulation.robot.camera import INTRINSICS, T_base_camera, render
-from simulation.robot.lidar import AZIMUTHS_RAD, ELEVATIONS_RAD, scan_ranges
+from simulation.robot.camera import T_base_camera, render
+from simulation.robot.description import RobotDescription
+from simulation.robot.lidar import Lidar
 from simulation.robot.noise import NoisyOdometry, noisy_depth, noisy_ranges
 from simulation.robot.robot import RobotBody, T_base_gripper
 from simulation.world.bodies import carry_along
+from simulation.world.physics import PhysicsSettings
 from simulation.world.world import World
 from skills.ports import ArmTarget, BodyState
 
-SOLVER_ITERATIONS = 200
-"""With fewer, friction creeps: what a level hand holds around its middle turns and falls when it is put down."""
+STEPS_BETWEEN_READINGS = 12
+"""The wheels are read, and collisions counted, twenty times a second."""
 HARMLESS = frozenset({"floor"})
 TOUCHED_KEPT = 100
 """Of so many collisions it is known what was touched."""
@@ -32,19 +34,29 @@ TOUCHED_KEPT = 100
 class Engine:
     """One simulated house with its robot. Not thread-safe; ``stop_latched`` is asked before every physics step."""
 
-    def __init__(self, house: House, seed: int, stop_latched: Callable[[], bool]) -> None:
+    def __init__(
+        self,
+        house: House,
+        seed: int,
+        stop_latched: Callable[[], bool],
+        *,
+        robot: RobotDescription = RobotDescription(),
+        physics: PhysicsSettings = PhysicsSettings(),
+    ) -> None:
         self._house, self._stop_latched = house, stop_latched
+        self._step_s = physics.step_s
         self._client = p.connect(p.DIRECT)
         p.setPhysicsEngineParameter(
-            fixedTimeStep=STEP_S,
-            numSolverIterations=SOLVER_ITERATIONS,
+            fixedTimeStep=physics.step_s,
+            numSolverIterations=physics.solver_iterations,
             deterministicOverlappingPairs=1,
             physicsClientId=self._client,
         )
         world_seed, *sensor_seeds = np.random.SeedSequence(seed).spawn(4)
-        self._world = World(house, client=self._client, rng=np.random.default_rng(world_seed))
+        self._world = World(house, client=self._client, rng=np.random.default_rng(world_seed), physics=physics)
         self._world.move_robot = self._carry
-        self._robot = RobotBody(self._client, house.robot.pose)
+        self._robot = RobotBody(self._client, house.robot.pose, description=robot)
+        self._lidar = Lidar(robot.lidar)
         odometry, lidar, depth = (np.random.default_rng(child) for child in sensor_seeds)
         self._odometry = NoisyOdometry(house.noise, odometry, self._robot.pose)
         self._lidar_rng, self._depth_rng = lidar, depth
@@ -57,17 +69,17 @@ class Engine:
     @property
     def now_s(self) -> float:
         """Simulated time in seconds."""
-        return self._steps * STEP_S
+        return self._steps * self._step_s
 
     def advance(self, duration_s: float) -> float:
         """Step physics for ``duration_s``; the new time."""
-        for _ in range(round(duration_s / STEP_S)):
-            self._robot.advance(STEP_S, stopped=self._stop_latched())
-            self._world.advance(STEP_S, self.now_s)
+        for _ in range(round(duration_s / self._step_s)):
+            self._robot.advance(self._step_s, stopped=self._stop_latched())
+            self._world.advance(self._step_s, self.now_s)
             p.stepSimulation(physicsClientId=self._client)
             self._steps += 1
             self._met |= self._collided_with()
-            if self._steps % 12 == 0:
+            if self._steps % STEPS_BETWEEN_READINGS == 0:
                 self._odometry.advance(self._robot.pose)
                 self._count_collisions()
         return self.now_s
@@ -83,23 +95,24 @@ class Engine:
         """One LiDAR revolution, taken at this instant."""
         x_m, y_m, yaw_rad = self._robot.pose
         height_m = self._robot.geometry.lidar_height_m
-        ranges_m = scan_ranges(self._world.solids.now(self._gripped()), (x_m, y_m, height_m), yaw_rad)
+        ranges_m = self._lidar.scan_ranges(self._world.solids.now(self._gripped()), (x_m, y_m, height_m), yaw_rad)
         return LidarScan(
             stamp_s=self.now_s,
             ranges_m=noisy_ranges(ranges_m, self._house.noise.lidar_range_std_m, self._lidar_rng),
-            elevations_rad=ELEVATIONS_RAD,
-            azimuths_rad=AZIMUTHS_RAD,
+            elevations_rad=self._lidar.elevations_rad,
+            azimuths_rad=self._lidar.azimuths_rad,
             T_base_lidar=SE3.from_xyz_yaw(0.0, 0.0, height_m, 0.0),
         )
 
     def frame(self) -> RgbdFrame:
         """Color and depth as the camera sees now."""
-        T_camera = T_base_camera(self._robot.joints(), self._robot.geometry)
+        camera = self._robot.description.camera
+        T_camera = T_base_camera(self._robot.joints(), self._robot.description)
         x_m, y_m, yaw_rad = self._robot.pose
-        picture = render(SE3.from_xyz_yaw(x_m, y_m, 0.0, yaw_rad) @ T_camera, self._client)
+        picture = render(SE3.from_xyz_yaw(x_m, y_m, 0.0, yaw_rad) @ T_camera, self._client, camera)
         depth_m = noisy_depth(picture.depth_m, self._house.noise.depth_std_m_per_m2, self._depth_rng)
         return RgbdFrame(
-            stamp_s=self.now_s, rgb=picture.rgb, depth_m=depth_m, intrinsics=INTRINSICS, T_base_camera=T_camera
+            stamp_s=self.now_s, rgb=picture.rgb, depth_m=depth_m, intrinsics=camera.intrinsics, T_base_camera=T_camera
         )
 
     def joints(self) -> JointState:

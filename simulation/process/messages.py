@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import Any
 
 from perception.ports import JointState, Odometry
+from simulation.robot.description import RobotDescription
+from simulation.world.physics import PhysicsSettings
 from skills.ports import BodyState
 
 
@@ -25,6 +27,8 @@ class Start:
     seed: int
     mode: Mode
     speed: float
+    robot: RobotDescription = field(default_factory=RobotDescription)
+    physics: PhysicsSettings = field(default_factory=PhysicsSettings)
 
 
 @dataclass(frozen=True, kw_only=True)

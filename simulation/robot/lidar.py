@@ -8,24 +8,24 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from simulation.robot.description import LidarDescription
 from simulation.robot.raycast import Prisms, cast
 
-ELEVATIONS_RAD = np.radians([-60, -48, -38, -29, -21, -14, -7, -1.5, 2, 4, 6.5, 10, 15, 22, 31, 42])
-AZIMUTHS_RAD = np.arange(900, dtype=np.float64) * (math.tau / 900) - math.pi
-MIN_RANGE_M, MAX_RANGE_M = 0.15, 30.0
-_MAST_HALF_WIDTH_RAD = math.radians(40.0)
-_MAST_BELOW_RAD = math.radians(-35.0)
 
+class Lidar:
+    """Measures true ranges. ``elevations_rad`` (rings,) and ``azimuths_rad`` (azimuths,) are those of its rays."""
 
-def scan_ranges(
-    scenes: Sequence[Prisms], position_m: tuple[float, float, float], yaw_rad: float
-) -> NDArray[np.float32]:
-    """True ranges (rings, azimuths) of one revolution, ``inf`` for no return and behind the robot's own mast."""
-    horizontal_m = cast(scenes, position_m, AZIMUTHS_RAD + yaw_rad, np.tan(ELEVATIONS_RAD))
-    ranges_m = (horizontal_m / np.cos(ELEVATIONS_RAD)[:, None]).astype(np.float32)
-    ranges_m[(ranges_m < MIN_RANGE_M) | (ranges_m > MAX_RANGE_M) | _HIDDEN] = np.inf
-    return np.asarray(ranges_m, dtype=np.float32)
+    def __init__(self, description: LidarDescription) -> None:
+        self.elevations_rad, self.azimuths_rad = description.elevations_rad, description.azimuths_rad
+        self._range_m = description.range_m
+        below, behind_rad = self.elevations_rad < description.mast_below_rad, math.pi - description.mast_half_width_rad
+        self._hidden = below[:, None] & (np.abs(self.azimuths_rad) > behind_rad)
 
-
-_HIDDEN = (ELEVATIONS_RAD[:, None] < _MAST_BELOW_RAD) & (np.abs(AZIMUTHS_RAD) > math.pi - _MAST_HALF_WIDTH_RAD)
-"""Rays that end on the robot itself: the mast stands behind and below the sensor."""
+    def scan_ranges(
+        self, scenes: Sequence[Prisms], position_m: tuple[float, float, float], yaw_rad: float
+    ) -> NDArray[np.float32]:
+        """(rings, azimuths) of one revolution, ``inf`` for no return and behind the robot's own mast."""
+        horizontal_m = cast(scenes, position_m, self.azimuths_rad + yaw_rad, np.tan(self.elevations_rad))
+        ranges_m = (horizontal_m / np.cos(self.elevations_rad)[:, None]).astype(np.float32)
+        ranges_m[(ranges_m < self._range_m[0]) | (ranges_m > self._range_m[1]) | self._hidden] = np.inf
+        return np.asarray(ranges_m, dtype=np.float32)

@@ -9,19 +9,24 @@ from numpy.typing import NDArray
 
 from simulation.houses.house import Noise
 
-CORRELATION_M = 0.5
-"""Way after which the odometry's random error is independent of what it was before."""
-
 
 class NoisyOdometry:
     """Dead reckoning with a scale error that stays for the whole run and a random error that changes with the way.
 
     A run draws one scale error each for distance and angle, normal with the stated ratio; on top, every increment gets
-    white noise whose standard deviation is the ratio times the square root of increment times ``CORRELATION_M``.
+    white noise whose standard deviation is the ratio times the square root of increment times ``correlation_m``,
+    the way after which the random error is independent of what it was before; chosen: a few turns of the wheels.
     """
 
-    def __init__(self, noise: Noise, rng: np.random.Generator, pose: tuple[float, float, float]) -> None:
-        self._noise, self._rng = noise, rng
+    def __init__(
+        self,
+        noise: Noise,
+        rng: np.random.Generator,
+        pose: tuple[float, float, float],
+        *,
+        correlation_m: float = 0.5,
+    ) -> None:
+        self._noise, self._rng, self._correlation_m = noise, rng, correlation_m
         self._distance_scale = 1.0 + noise.odometry_distance_ratio * float(rng.standard_normal())
         self._angle_scale = 1.0 + noise.odometry_angle_ratio * float(rng.standard_normal())
         self._true = pose
@@ -50,7 +55,7 @@ class NoisyOdometry:
         self._true = pose
 
     def _white(self, ratio: float, increment: float) -> float:
-        return ratio * math.sqrt(abs(increment) * CORRELATION_M) * float(self._rng.standard_normal())
+        return ratio * math.sqrt(abs(increment) * self._correlation_m) * float(self._rng.standard_normal())
 
 
 def noisy_ranges(ranges_m: NDArray[np.float32], std_m: float, rng: np.random.Generator) -> NDArray[np.float32]:

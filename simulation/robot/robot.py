@@ -12,25 +12,13 @@ from typing import Any
 import pybullet as p
 
 from scene_graph.geometry.se3 import SE3
+from simulation.robot.description import Motor, RobotDescription
 from simulation.robot.robot_urdf import robot_urdf
-from skills.ports import ArmGeometry, ArmTarget, BodyLimits
+from simulation.world.physics import ContactSettings
+from skills.ports import ArmGeometry, ArmTarget
 
-ARM_SPEEDS = {"lift": 0.25, "extension": 0.25, "wrist_pitch": 1.5, "wrist_roll": 1.5, "pan": 2.0, "tilt": 2.0}
-ARM_FORCES = {"lift": 300.0, "extension": 120.0, "wrist_pitch": 25.0, "wrist_roll": 15.0, "pan": 5.0, "tilt": 5.0}
 HAND_TURNS = ("base_yaw", "wrist_pitch", "wrist_roll")
 """Joints that turn the hand."""
-FRESH_RAD = 0.05
-"""How far the hand turns before what its fingers hold is met anew. The solver keeps a contact with the normal, in the
-world, that it had when it began: after half a turn of the base, fingers would press a bottle aside and tilt it, and an
-open finger would go on holding it.
-"""
-FRESH_M = 0.004
-"""How far the fingers open before that: a finger that has left what it held would go on carrying it."""
-FINGER_SPEED_MPS = 0.08
-TOUCHING_M = 0.001
-"""What is nearer than this to a part of the body touches it, so exactly are shapes met; and what is pressed upon."""
-BASE_FORCE_N, BASE_TORQUE_NM = 400.0, 150.0
-STOW = ArmTarget(lift_m=0.75, extension_m=0.0, wrist_pitch_rad=-math.pi / 2)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -54,10 +42,11 @@ class RobotBody:
         client: int,
         pose: tuple[float, float, float],
         *,
-        limits: BodyLimits | None = None,
-        geometry: ArmGeometry | None = None,
+        description: RobotDescription = RobotDescription(),
+        contacts: ContactSettings = ContactSettings(),
     ) -> None:
-        self.limits, self.geometry = limits or BodyLimits(), geometry or ArmGeometry()
+        self.description, self.limits, self.geometry = description, description.limits, description.geometry
+        self._contacts = contacts
         self._client = client
         self.body_id = self._load()
         self._joint = {
@@ -67,7 +56,7 @@ class RobotBody:
         self._target_drive = (0.0, 0.0)
         self._drive = (0.0, 0.0)
         self._drive_age_s = math.inf
-        self._opening_m, self._effort_n = self.limits.gripper_opening_m[1], 15.0
+        self._opening_m, self._effort_n = self.limits.gripper_opening_m[1], description.usual_effort_n
         self._met_at: tuple[float, ...] = (0.0, 0.0, 0.0)
         self._met_opening_m = 0.0
         self._targets: dict[str, float] = {}
@@ -122,7 +111,7 @@ class RobotBody:
     def command_grip(self, opening_m: float, effort_n: float) -> None:
         """Set the fingers' target opening and the force of each."""
         self._opening_m = _clip(opening_m, self.limits.gripper_opening_m)
-        self._effort_n = _clip(effort_n, (0.0, 40.0))
+        self._effort_n = _clip(effort_n, self.description.finger_effort_n)
 
     def advance(self, dt_s: float, *, stopped: bool) -> None:
         """Set all motors for the next physics step of ``dt_s``. ``stopped``: everything holds its place at once."""
@@ -139,7 +128,7 @@ class RobotBody:
         )
         self._move_base()
         for name, target_value in self._targets.items():
-            self._servo(name, target_value, ARM_FORCES[name], ARM_SPEEDS[name])
+            self._servo(name, target_value, self.description.motors[name])
         self._move_fingers()
 
     def joints(self) -> Joints:
@@ -161,7 +150,7 @@ class RobotBody:
     def bodies_touched(self) -> list[tuple[int, int]]:
         """(body, own link) of all contacts with other bodies. The physics also reports what is merely near."""
         contacts = p.getContactPoints(bodyA=self.body_id, physicsClientId=self._client) or ()
-        touching = (contact for contact in contacts if contact[2] != self.body_id and _is_touch(contact))
+        touching = (contact for contact in contacts if contact[2] != self.body_id and self._is_touch(contact))
         return [(int(contact[2]), int(contact[3])) for contact in touching]
 
     def is_finger(self, link: int) -> bool:
@@ -172,7 +161,12 @@ class RobotBody:
         contacts = (
             p.getContactPoints(bodyA=self.body_id, linkIndexA=self._joint[link], physicsClientId=self._client) or ()
         )
-        return {int(contact[2]) for contact in contacts if contact[2] != self.body_id and contact[9] > 0.05}
+        pressed = (contact for contact in contacts if contact[9] > self._contacts.pressed_n)
+        return {int(contact[2]) for contact in pressed if contact[2] != self.body_id}
+
+    def _is_touch(self, contact: tuple[Any, ...]) -> bool:
+        distance_m, force_n = contact[8], contact[9]
+        return bool(distance_m < self._contacts.touching_m or force_n > 0.0)
 
     def _hold(self) -> None:
         self._drive = self._target_drive = (0.0, 0.0)
@@ -187,11 +181,11 @@ class RobotBody:
             "pan": joints.pan_rad,
             "tilt": joints.tilt_rad,
         }
-        moving = any(abs(held[name] - target) > 1e-3 for name, target in self._targets.items())
+        moving = any(abs(held[name] - target) > self._contacts.still for name, target in self._targets.items())
         if moving:
             self._targets = held
         for name, target in self._targets.items():
-            self._servo(name, target, ARM_FORCES[name], ARM_SPEEDS[name])
+            self._servo(name, target, self.description.motors[name])
         self._move_fingers()
 
     def _move_base(self) -> None:
@@ -204,24 +198,25 @@ class RobotBody:
                 self._joint[name],
                 p.VELOCITY_CONTROL,
                 targetVelocity=speed,
-                force=BASE_TORQUE_NM if name == "base_yaw" else BASE_FORCE_N,
+                force=self.description.base_torque_nm if name == "base_yaw" else self.description.base_force_n,
                 physicsClientId=self._client,
             )
 
     def _move_fingers(self) -> None:
         for name in ("finger_left", "finger_right"):
-            self._servo(name, self._opening_m / 2, self._effort_n, FINGER_SPEED_MPS)
+            motor = Motor(force=self._effort_n, speed=self.description.finger_speed_mps)
+            self._servo(name, self._opening_m / 2, motor)
 
-    def _servo(self, name: str, target: float, force: float, speed: float) -> None:
+    def _servo(self, name: str, target: float, motor: Motor) -> None:
         p.setJointMotorControl2(
             self.body_id,
             self._joint[name],
             p.POSITION_CONTROL,
             targetPosition=target,
-            positionGain=0.3,
-            velocityGain=1.0,
-            force=force,
-            maxVelocity=speed,
+            positionGain=self._contacts.position_gain,
+            velocityGain=self._contacts.velocity_gain,
+            force=motor.force,
+            maxVelocity=motor.speed,
             physicsClientId=self._client,
         )
 
@@ -231,12 +226,12 @@ class RobotBody:
     def _load(self) -> int:
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "robot.urdf"
-            path.write_text(robot_urdf(self.limits, self.geometry), encoding="ascii")
+            path.write_text(robot_urdf(self.description), encoding="ascii")
             return int(p.loadURDF(str(path), useFixedBase=True, physicsClientId=self._client))
 
     def _reset_arm(self) -> None:
-        self.command_arm(STOW)
-        self.command_look(0.0, -0.35)
+        self.command_arm(self.description.stow)
+        self.command_look(0.0, self.description.tilt_at_start_rad)
         for name, target in self._targets.items():
             p.resetJointState(self.body_id, self._joint[name], target, 0.0, physicsClientId=self._client)
         for name in ("finger_left", "finger_right"):
@@ -249,18 +244,18 @@ class RobotBody:
                 link,
                 linearDamping=0.0,
                 angularDamping=0.0,
-                lateralFriction=0.5,
+                lateralFriction=self._contacts.body_friction,
                 physicsClientId=self._client,
             )
         for name in ("finger_left", "finger_right"):
             p.changeDynamics(
                 self.body_id,
                 self._joint[name],
-                lateralFriction=1.5,
-                spinningFriction=0.02,
-                rollingFriction=0.001,
-                contactStiffness=2.0e4,
-                contactDamping=200.0,
+                lateralFriction=self._contacts.finger_lateral_friction,
+                spinningFriction=self._contacts.finger_spinning_friction,
+                rollingFriction=self._contacts.finger_rolling_friction,
+                contactStiffness=self._contacts.finger_stiffness_npm,
+                contactDamping=self._contacts.finger_damping_nspm,
                 physicsClientId=self._client,
             )
         self._couple_fingers()
@@ -272,8 +267,8 @@ class RobotBody:
             state[0] for state in p.getJointStates(self.body_id, joints, physicsClientId=self._client)
         )
         self._met_opening_m = min(self._met_opening_m, left_m + right_m)
-        has_turned = max(abs(now - before) for now, before in zip(turned, self._met_at, strict=True)) >= FRESH_RAD
-        if not has_turned and left_m + right_m < self._met_opening_m + FRESH_M:
+        turned_rad = max(abs(now - before) for now, before in zip(turned, self._met_at, strict=True))
+        if turned_rad < self._contacts.fresh_rad and left_m + right_m < self._met_opening_m + self._contacts.fresh_m:
             return
         self._met_at, self._met_opening_m = tuple(turned), left_m + right_m
         for name in ("finger_left", "finger_right"):
@@ -295,7 +290,8 @@ class RobotBody:
             childFramePosition=[0, 0, 0],
             physicsClientId=self._client,
         )
-        p.changeConstraint(gear, gearRatio=-1, erp=0.1, maxForce=100, physicsClientId=self._client)
+        erp, force_n = self._contacts.gear_erp, self._contacts.gear_force_n
+        p.changeConstraint(gear, gearRatio=-1, erp=erp, maxForce=force_n, physicsClientId=self._client)
 
 
 def T_base_gripper(joints: Joints, geometry: ArmGeometry) -> SE3:
@@ -324,8 +320,3 @@ def _clip(value: float, limits: tuple[float, float]) -> float:
 
 def _ramp(value: float, target: float, step: float) -> float:
     return value + _clip(target - value, (-step, step))
-
-
-def _is_touch(contact: tuple[Any, ...]) -> bool:
-    distance_m, force_n = contact[8], contact[9]
-    return bool(distance_m < TOUCHING_M or force_n > 0.0)

@@ -4,11 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from skills.ports import ArmGeometry, BodyLimits
-
-BASE_RADIUS_M = 0.25
-BASE_HEIGHT_M = 0.22
-HEAD_X_M = 0.05
+from simulation.robot.description import RobotDescription
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -47,9 +43,11 @@ def _joint(name: str, kind: str, parent: str, child: str, xyz: str, axis: str, l
     )
 
 
-def robot_urdf(limits: BodyLimits, geometry: ArmGeometry) -> str:
+def robot_urdf(robot: RobotDescription) -> str:
     """The robot's URDF text; joint names are those of ``simulation.robot.robot``."""
-    hand = geometry.hand_length_m
+    limits, geometry = robot.limits, robot.geometry
+    hand, base_m = geometry.hand_length_m, robot.base_height_m
+    head = f"{robot.head_x_m} 0 {geometry.camera_height_m}"
     links = [
         (Link(name="world", mass_kg=0.0, shapes=()), "gray"),
         (Link(name="slide_x", mass_kg=1.0, shapes=()), "gray"),
@@ -57,10 +55,10 @@ def robot_urdf(limits: BodyLimits, geometry: ArmGeometry) -> str:
         (
             Link(
                 name="base",
-                mass_kg=40.0,
+                mass_kg=robot.base_mass_kg,
                 shapes=(
-                    _cylinder(BASE_RADIUS_M, BASE_HEIGHT_M, BASE_HEIGHT_M / 2 + 0.02),
-                    _box((0.08, 0.12, 1.30), (-0.10, 0.0, 0.22 + 0.65)),
+                    _cylinder(robot.base_radius_m, base_m, base_m / 2 + robot.base_clearance_m),
+                    _box(robot.mast_m, (robot.mast_x_m, 0.0, base_m + robot.mast_m[2] / 2)),
                 ),
             ),
             "body",
@@ -74,7 +72,7 @@ def robot_urdf(limits: BodyLimits, geometry: ArmGeometry) -> str:
         (Link(name="palm", mass_kg=0.3, shapes=(_box((0.04, 0.16, 0.04), (0.08, 0.0, 0.0)),)), "dark"),
     ]
     for side, sign in (("left", 1.0), ("right", -1.0)):
-        shape = _box((0.10, 0.012, 0.03), (hand - 0.03, sign * 0.006, 0.0))
+        shape = _box(robot.finger_m, (hand - robot.finger_behind_m, sign * robot.finger_m[1] / 2, 0.0))
         links.append((Link(name=f"finger_{side}", mass_kg=0.1, shapes=(shape,)), "pad"))
     lidar = (_cylinder(0.06, 0.10, 0.0), _box((0.10, 0.06, 0.03), (-0.05, 0.0, -0.07)))
     links += [
@@ -97,7 +95,7 @@ def robot_urdf(limits: BodyLimits, geometry: ArmGeometry) -> str:
         _joint("finger_left", "prismatic", "palm", "finger_left", "0 0 0", "0 1 0", -0.003, half),
         _joint("finger_right", "prismatic", "palm", "finger_right", "0 0 0", "0 -1 0", -0.003, half),
         _joint("lidar", "fixed", "base", "lidar", f"0 0 {geometry.lidar_height_m}", "0 0 1", 0, 0),
-        _joint("pan", "revolute", "base", "pan", f"{HEAD_X_M} 0 {geometry.camera_height_m}", "0 0 1", *limits.pan_rad),
+        _joint("pan", "revolute", "base", "pan", head, "0 0 1", *limits.pan_rad),
         _joint("tilt", "revolute", "pan", "head", "0 0 0", "0 -1 0", *limits.tilt_rad),
     ]
     colors = {

@@ -9,12 +9,8 @@ import pybullet as p
 
 from simulation.furnishing.shapes import Part, Size3
 from simulation.houses.colors import Rgb
-from simulation.world.blocks import Block
-
-LATERAL_FRICTION = 0.9
-SPINNING_FRICTION = 0.004
-ROLLING_FRICTION = 0.002
-"""Enough that a ball on a table stays where it is put."""
+from simulation.world.blocks import Block, Point2
+from simulation.world.physics import PhysicsSettings
 
 _KINDS = {"box": p.GEOM_BOX, "cylinder": p.GEOM_CYLINDER, "sphere": p.GEOM_SPHERE}
 
@@ -27,7 +23,7 @@ def yaw_quaternion(yaw_rad: float) -> Quaternion:
     return 0.0, 0.0, math.sin(yaw_rad / 2), math.cos(yaw_rad / 2)
 
 
-def make_floor(client: int, low: tuple[float, float], high: tuple[float, float], color: Rgb) -> int:
+def make_floor(client: int, low: Point2, high: Point2, color: Rgb, physics: PhysicsSettings) -> int:
     """An endless plane at height 0, seen between two corners."""
     half = [(high[0] - low[0]) / 2, (high[1] - low[1]) / 2, 0.01]
     center = [(high[0] + low[0]) / 2, (high[1] + low[1]) / 2, -0.01]
@@ -39,7 +35,7 @@ def make_floor(client: int, low: tuple[float, float], high: tuple[float, float],
         ),
         physicsClientId=client,
     )
-    p.changeDynamics(body, -1, lateralFriction=LATERAL_FRICTION, physicsClientId=client)
+    p.changeDynamics(body, -1, lateralFriction=physics.lateral_friction, physicsClientId=client)
     return body
 
 
@@ -57,7 +53,7 @@ def make_block(client: int, block: Block, color: Rgb) -> int:
     return body
 
 
-def make_body(client: int, parts: Sequence[Part], mass_kg: float, height_m: float) -> int:
+def make_body(client: int, parts: Sequence[Part], mass_kg: float, height_m: float, physics: PhysicsSettings) -> int:
     """One body of several parts at the origin. Its frame is at half of ``height_m`` above the parts' origin.
 
     At rest it falls asleep, and costs nothing until something touches it or ``wake_bodies`` is called.
@@ -72,12 +68,12 @@ def make_body(client: int, parts: Sequence[Part], mass_kg: float, height_m: floa
     p.changeDynamics(
         body,
         -1,
-        lateralFriction=LATERAL_FRICTION,
-        spinningFriction=SPINNING_FRICTION,
-        rollingFriction=ROLLING_FRICTION,
+        lateralFriction=physics.lateral_friction,
+        spinningFriction=physics.spinning_friction,
+        rollingFriction=physics.rolling_friction,
         restitution=0.0,
-        linearDamping=0.05,
-        angularDamping=0.2,
+        linearDamping=physics.linear_damping,
+        angularDamping=physics.angular_damping,
         activationState=p.ACTIVATION_STATE_ENABLE_SLEEPING,
         physicsClientId=client,
     )

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import pybullet as p
 
 from simulation.furnishing.shapes import Part, box, cylinder, sphere
 from simulation.world.bodies import make_body, yaw_quaternion
+from simulation.world.physics import PhysicsSettings
 
-SPEED_MPS = 0.8
-SPACE_M = 0.55
 HEIGHT_M = 1.72
 _SHIRT, _TROUSERS, _SKIN, _HAIR = (0.80, 0.25, 0.45), (0.15, 0.18, 0.35), (0.87, 0.68, 0.55), (0.25, 0.16, 0.10)
 
@@ -28,15 +28,30 @@ def person_parts() -> tuple[Part, ...]:
     return (*legs, *arms, trunk, neck, head, hair)
 
 
-def person_body(client: int) -> int:
+def person_body(client: int, physics: PhysicsSettings) -> int:
     """A person's body; it moves only by being placed."""
-    return make_body(client, person_parts(), 0.0, HEIGHT_M)
+    return make_body(client, person_parts(), 0.0, HEIGHT_M, physics)
+
+
+@dataclass(frozen=True, kw_only=True)
+class WalkSettings:
+    """How people walk."""
+
+    speed_mps: float = 0.8
+    """Chosen: unhurried, as at home."""
+    ahead_m: float = 0.3
+    """So far ahead a person looks for whoever is in the way: half a step."""
+    space_m: float = 0.55
+    """And stays so far away: half the width of a person and of a robot."""
 
 
 class Walker:
     """A person who stands, or walks straight to a goal and waits for whoever is in the way."""
 
-    def __init__(self, client: int, body: int, pose: tuple[float, float, float]) -> None:
+    def __init__(
+        self, client: int, body: int, pose: tuple[float, float, float], *, settings: WalkSettings = WalkSettings()
+    ) -> None:
+        self._settings = settings
         self.body = body
         self._client = client
         self._goal: Point2 | None = None
@@ -66,16 +81,17 @@ class Walker:
         """Walk on for ``dt_s`` seconds."""
         if self._goal is None:
             return
+        settings = self._settings
         x_m, y_m, _ = self._pose
         left_m = math.dist((x_m, y_m), self._goal)
         if left_m < 1e-6:
             self._goal = None
             return
         heading = math.atan2(self._goal[1] - y_m, self._goal[0] - x_m)
-        ahead = (x_m + 0.3 * math.cos(heading), y_m + 0.3 * math.sin(heading))
-        if any(math.dist(ahead, stranger) < SPACE_M for stranger in strangers):
+        ahead = (x_m + settings.ahead_m * math.cos(heading), y_m + settings.ahead_m * math.sin(heading))
+        if any(math.dist(ahead, stranger) < settings.space_m for stranger in strangers):
             return
-        step_m = min(left_m, SPEED_MPS * dt_s)
+        step_m = min(left_m, settings.speed_mps * dt_s)
         self._pose = (x_m + step_m * math.cos(heading), y_m + step_m * math.sin(heading), heading)
         self._show()
 

@@ -14,6 +14,7 @@ from simulation.furnishing.catalog import Category, category_named, rgb_of
 from simulation.houses.house import Furniture, House, Object, Place, room_at
 from simulation.houses.placement import Standing, free_spot, to_house
 from simulation.world.bodies import make_body, place_body
+from simulation.world.physics import PhysicsSettings
 from simulation.world.solids import Solids
 
 Pose2 = tuple[float, float, float]
@@ -35,8 +36,8 @@ class Thing:
 class Things:
     """All furniture and things by house id."""
 
-    def __init__(self, house: House, client: int, solids: Solids) -> None:
-        self._house, self._client, self._solids = house, client, solids
+    def __init__(self, house: House, client: int, solids: Solids, physics: PhysicsSettings) -> None:
+        self._house, self._client, self._solids, self._physics = house, client, solids, physics
         self._all: dict[str, Thing] = {}
 
     def __contains__(self, name: object) -> bool:
@@ -62,7 +63,7 @@ class Things:
         category = category_named(item.category, item.size, static=True)
         size_m = item.size or category.size_m
         parts = category.parts(size_m, rgb_of(category, item.color))
-        body = make_body(self._client, parts, 0.0, size_m[2])
+        body = make_body(self._client, parts, 0.0, size_m[2], self._physics)
         self._solids.add_body(body, parts, size_m[2], fixed=True)
         place_body(self._client, body, (item.pose[0], item.pose[1], 0.0), item.pose[2], size_m[2])
         self._all[item.id] = Thing(
@@ -79,7 +80,7 @@ class Things:
         size_m = item.size or category.size_m
         mass_kg = category.mass_kg or 5.0
         parts = category.parts(size_m, rgb_of(category, item.color))
-        body = make_body(self._client, parts, mass_kg, size_m[2])
+        body = make_body(self._client, parts, mass_kg, size_m[2], self._physics)
         self._solids.add_body(body, parts, size_m[2], fixed=False)
         thing = Thing(
             id=item.id, body=body, category=category, size_m=size_m, color=item.color or category.color, movable=True

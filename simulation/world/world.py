@@ -12,6 +12,7 @@ from simulation.errors import DisturbError
 from simulation.houses.house import ROBOT, Disturbance, House, Object, Place
 from simulation.world.bodies import make_block, make_floor, wake_bodies
 from simulation.world.people import HEIGHT_M, Walker, person_body, person_parts
+from simulation.world.physics import PhysicsSettings
 from simulation.world.solids import Solids
 from simulation.world.things import Things
 from simulation.world.walls import Opening, openings, panel, wall_blocks
@@ -19,8 +20,6 @@ from simulation.world.walls import Opening, openings, panel, wall_blocks
 WALL_RGB = (0.90, 0.89, 0.85)
 FLOOR_RGB = (0.62, 0.55, 0.47)
 DOOR_RGB = (0.55, 0.38, 0.24)
-SETTLE_STEPS = 120
-SUPPORT_GAP_M = 0.03
 
 Pose2 = tuple[float, float, float]
 Size3 = tuple[float, float, float]
@@ -32,17 +31,19 @@ class World:
     Sets gravity, not the time step. ``move_robot`` is set by the engine: it carries out ``move`` of the id "robot".
     """
 
-    def __init__(self, house: House, *, client: int, rng: np.random.Generator) -> None:
-        self.house = house
+    def __init__(
+        self, house: House, *, client: int, rng: np.random.Generator, physics: PhysicsSettings = PhysicsSettings()
+    ) -> None:
+        self.house, self._physics = house, physics
         self.move_robot: Callable[[Pose2], None] | None = None
         self.solids = Solids(client)
         self._client, self._rng = client, rng
-        self._things = Things(house, client, self.solids)
+        self._things = Things(house, client, self.solids, physics)
         self._structure: dict[int, str] = {}
         self._panels: dict[str, int] = {}
         self._walkers: dict[str, Walker] = {}
         self._due = sorted(house.events, key=lambda event: event.at_s)
-        p.setGravity(0.0, 0.0, -9.81, physicsClientId=client)
+        p.setGravity(0.0, 0.0, -physics.gravity_mps2, physicsClientId=client)
         self._gaps: dict[str, Opening] = {gap.door.id: gap for gap in openings(house)}
         self._build()
 
@@ -121,7 +122,7 @@ class World:
         corners = [point for room in self.house.rooms for point in room.polygon]
         low = (min(x for x, _ in corners) - 1.0, min(y for _, y in corners) - 1.0)
         high = (max(x for x, _ in corners) + 1.0, max(y for _, y in corners) + 1.0)
-        self._structure[make_floor(self._client, low, high, FLOOR_RGB)] = "floor"
+        self._structure[make_floor(self._client, low, high, FLOOR_RGB, self._physics)] = "floor"
         for block in wall_blocks(self.house):
             body = make_block(self._client, block, WALL_RGB)
             self._structure[body] = "wall"
@@ -132,12 +133,12 @@ class World:
         for furniture in self.house.furniture:
             self._things.put_furniture(furniture)
         for person in self.house.people:
-            body = person_body(self._client)
+            body = person_body(self._client, self._physics)
             self._walkers[person.id] = Walker(self._client, body, person.pose)
             self.solids.add_body(body, person_parts(), HEIGHT_M, fixed=False)
         for thing in self.house.objects:
             self._things.put_object(thing)
-        for _ in range(SETTLE_STEPS):
+        for _ in range(self._physics.settle_steps):
             p.stepSimulation(physicsClientId=self._client)
 
     def _move(self, name: str, place: Place) -> None:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from evaluations.mapping.floor_plan import FloorPlan, PlanDoor, compare, iou, plan_of_house, plan_of_scene
-from simulation.houses.house import load_house
+from simulation.houses.house_file import load_house
 
 
 def rectangle(x0, y0, x1, y1):

@@ -7,7 +7,8 @@ import pytest
 from evaluations.missions.endurance import GROWTH, SWOLLEN_M, WORSE, as_it_is, grown, is_as_right
 from evaluations.missions.inventing import invent
 from evaluations.missions.outcome import Scene
-from simulation.houses.house import House, load_house
+from simulation.houses.house import House
+from simulation.houses.house_file import load_house
 
 FLAT = load_house("flat")
 

@@ -28,7 +28,8 @@ from evaluations.perception.inventory import GraphContents, GraphThing
 from perception.network.shipped import SHIPPED
 from planner.tasks.tasks import PlanReport, StepReport, StepStatus, Task, TaskStatus, TaskTimes
 from simulation.furnishing.catalog import category_named
-from simulation.houses.house import Door, Furniture, Object, Person, Room, load_house, parse_disturbance
+from simulation.houses.house import Door, Furniture, Object, Person, Room
+from simulation.houses.house_file import load_house, parse_disturbance
 from simulation.world.blocks import Block, overlapping
 from skills.failures import Evidence, Failure, FailureCode
 

@@ -13,7 +13,8 @@ from scipy.ndimage import distance_transform_edt, label
 from simulation.errors import HouseError
 from simulation.furnishing.catalog import category_named
 from simulation.generation.generator import generate_house
-from simulation.houses.house import OUTSIDE, parse_house
+from simulation.houses.house import OUTSIDE
+from simulation.houses.house_file import parse_house
 from simulation.houses.polygons import contains
 from simulation.world.world import World
 

@@ -8,7 +8,8 @@ import json
 import pytest
 
 from simulation.errors import HouseError
-from simulation.houses.house import builtin_houses, furniture_places, load_house, parse_house, room_at
+from simulation.houses.house import furniture_places, room_at
+from simulation.houses.house_file import builtin_houses, load_house, parse_house
 
 HOUSE = {
     "rooms": [

@@ -8,13 +8,14 @@ import numpy as np
 import pybullet as p
 import pytest
 
-from simulation.process.child import STEP_S
+from simulation.robot.description import RobotDescription
 from simulation.robot.robot import RobotBody, T_base_gripper
-from simulation.robot.robot_urdf import BASE_RADIUS_M
+from simulation.world.physics import PhysicsSettings
 from skills.ports import ArmTarget
 
 TABLE_M = 0.75
 UPRIGHT_DEG = 2.0
+STEP_S, BASE_RADIUS_M = PhysicsSettings().step_s, RobotDescription().base_radius_m
 
 
 @pytest.fixture

@@ -9,9 +9,12 @@ import pybullet as p
 import pytest
 
 from simulation.errors import DisturbError
-from simulation.houses.house import builtin_houses, load_house, parse_disturbance
-from simulation.robot.lidar import AZIMUTHS_RAD, ELEVATIONS_RAD, scan_ranges
+from simulation.houses.house_file import builtin_houses, load_house, parse_disturbance
+from simulation.robot.description import LidarDescription
+from simulation.robot.lidar import Lidar
 from simulation.world.world import World
+
+LIDAR = Lidar(LidarDescription())
 
 
 @pytest.fixture
@@ -67,8 +70,8 @@ def test_the_lidar_agrees_with_the_physics_library_ray_by_ray(client, name):
     world = build(client, name)
     x, y, yaw = world.house.robot.pose
     origin = np.array([x, y, 1.6])
-    ranges = scan_ranges(world.solids.now(()), (x, y, 1.6), yaw)
-    elevation, azimuth = np.meshgrid(ELEVATIONS_RAD, AZIMUTHS_RAD + yaw, indexing="ij")
+    ranges = LIDAR.scan_ranges(world.solids.now(()), (x, y, 1.6), yaw)
+    elevation, azimuth = np.meshgrid(LIDAR.elevations_rad, LIDAR.azimuths_rad + yaw, indexing="ij")
     flat = np.cos(elevation)
     directions = np.stack((flat * np.cos(azimuth), flat * np.sin(azimuth), np.sin(elevation)), -1).reshape(-1, 3)
     ends = origin + 29.9 * directions
@@ -86,8 +89,8 @@ def test_the_walls_let_no_ray_out_of_the_house(client):
     for door in world.house.doors:
         world.apply(parse_disturbance({"do": "close_door", "id": door.id}))
     x, y, yaw = world.house.robot.pose
-    ranges = scan_ranges(world.solids.now(()), (x, y, 1.6), yaw)
-    assert np.isfinite(ranges[(ELEVATIONS_RAD > 0) & (ELEVATIONS_RAD < 0.12)]).all()
+    ranges = LIDAR.scan_ranges(world.solids.now(()), (x, y, 1.6), yaw)
+    assert np.isfinite(ranges[(LIDAR.elevations_rad > 0) & (LIDAR.elevations_rad < 0.12)]).all()
 
 
 def test_disturbances_show_in_the_truth(client):

@@ -1,6 +1,6 @@
 """What a person may do to a house while nobody looks: take a thing away, put it elsewhere, bring another.
 
-For scoring only: deeds are chosen from the truth, and the robot is told nothing of them.
+For scoring only: interventions are chosen from the truth, and the robot is told nothing of them.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ VIEW_RANGE_M = 6.0
 
 
 @dataclass(frozen=True, kw_only=True)
-class Deed:
+class Intervention:
     """A change to be made. ``event``: as ``disturb`` takes it. ``places``: furniture from which and onto which."""
 
     kind: Kind
@@ -51,7 +51,7 @@ class Gaze:
         return distance_m < VIEW_RANGE_M and aside_rad < self.half_width_rad + math.asin(radius_m / distance_m)
 
 
-def deeds(
+def interventions(
     kind: Kind,
     house: House,
     truth: Mapping[str, Any],
@@ -60,8 +60,8 @@ def deeds(
     rooms: Collection[str],
     gaze: Gaze,
     known: Collection[str] | None = None,
-) -> Sequence[Deed]:
-    """Deeds of a kind that could be done now, in random order; whether there is room for a thing shows when it is put.
+) -> Sequence[Intervention]:
+    """What could be done now, in random order; whether there is room for a thing shows when it is put.
 
     Args:
         kind: what is to be done.
@@ -83,7 +83,7 @@ def deeds(
     ]
     order = [things[k] for k in rng.permutation(len(things))]
     if kind == "remove":
-        return [_deed(kind, entry, {"do": "remove", "id": entry["id"]}, (entry["on"],)) for entry in order]
+        return [_intervention(kind, entry, {"do": "remove", "id": entry["id"]}, (entry["on"],)) for entry in order]
     goals = [(entry, [place for place in places if place != entry["on"]]) for entry in order]
     return [_moving(entry, str(rng.choice(others))) for entry, others in goals if others]
 
@@ -105,18 +105,20 @@ def _carries(name: str, truth: Mapping[str, Any]) -> bool:
     return any(name in (entry["on"], entry["in"]) for entry in truth["objects"])
 
 
-def _moving(entry: Mapping[str, Any], goal: str) -> Deed:
+def _moving(entry: Mapping[str, Any], goal: str) -> Intervention:
     event = {"do": "move", "id": entry["id"], "to": {"on": goal}}
-    return _deed("move", entry, event, (entry["on"], goal))
+    return _intervention("move", entry, event, (entry["on"], goal))
 
 
-def _deed(kind: Kind, entry: Mapping[str, Any], event: Mapping[str, Any], places: tuple[str, ...]) -> Deed:
-    return Deed(kind=kind, thing=entry["id"], category=entry["category"], event=event, places=places)
+def _intervention(
+    kind: Kind, entry: Mapping[str, Any], event: Mapping[str, Any], places: tuple[str, ...]
+) -> Intervention:
+    return Intervention(kind=kind, thing=entry["id"], category=entry["category"], event=event, places=places)
 
 
-def _adding(place: str, taken: Collection[str], rng: np.random.Generator) -> Deed:
+def _adding(place: str, taken: Collection[str], rng: np.random.Generator) -> Intervention:
     small = [name for name, category in CATEGORIES.items() if not category.static]
     category = str(rng.choice(small))
     name = next(f"brought_{n}" for n in range(len(taken) + 1) if f"brought_{n}" not in taken)
     event = {"do": "add", "object": {"id": name, "category": category, "on": place}}
-    return Deed(kind="add", thing=name, category=category, event=event, places=(place,))
+    return Intervention(kind="add", thing=name, category=category, event=event, places=(place,))

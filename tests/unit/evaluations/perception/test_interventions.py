@@ -7,8 +7,9 @@ import math
 import numpy as np
 import pytest
 
-from simulation.houses.house import House, parse_disturbance
-from simulation.meddling import KINDS, Gaze, deeds
+from evaluations.perception.interventions import KINDS, Gaze, interventions
+from simulation.houses.house import House
+from simulation.houses.house_file import parse_disturbance
 
 HOUSE = House.model_validate(
     {
@@ -37,26 +38,26 @@ AWAY = Gaze(x_m=100.0, y_m=100.0, yaw_rad=0.0, half_width_rad=0.5)
 
 
 def possible(kind, rooms=("k", "b"), gaze=AWAY, known=None, seed=0):
-    return deeds(kind, HOUSE, TRUTH, np.random.default_rng(seed), rooms=rooms, gaze=gaze, known=known)
+    return interventions(kind, HOUSE, TRUTH, np.random.default_rng(seed), rooms=rooms, gaze=gaze, known=known)
 
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_every_deed_is_one_that_the_simulator_reads(kind):
     assert possible(kind)
-    for deed in possible(kind):
-        assert parse_disturbance(dict(deed.event)).do == kind
+    for intervention in possible(kind):
+        assert parse_disturbance(dict(intervention.event)).do == kind
 
 
 def test_only_what_stands_on_furniture_and_carries_nothing_is_taken():
-    assert {deed.thing for deed in possible("remove")} == {"cup"}
+    assert {intervention.thing for intervention in possible("remove")} == {"cup"}
 
 
 def test_a_moved_thing_goes_to_another_piece_of_furniture():
     for seed in range(20):
-        (deed,) = possible("move", seed=seed)
-        assert deed.places[0] == "table"
-        assert deed.places[1] in {"desk", "bench"}
-        assert deed.event["to"] == {"on": deed.places[1]}
+        (intervention,) = possible("move", seed=seed)
+        assert intervention.places[0] == "table"
+        assert intervention.places[1] in {"desk", "bench"}
+        assert intervention.event["to"] == {"on": intervention.places[1]}
 
 
 def test_only_what_the_graph_knows_is_moved_or_taken():
@@ -65,15 +66,15 @@ def test_only_what_the_graph_knows_is_moved_or_taken():
 
 
 def test_nothing_changes_in_rooms_that_were_not_found():
-    assert {deed.places for deed in possible("add", rooms=("k",))} == {("table",), ("desk",)}
+    assert {intervention.places for intervention in possible("add", rooms=("k",))} == {("table",), ("desk",)}
     assert not possible("remove", rooms=("b",))
 
 
 def test_nothing_changes_where_the_camera_looks():
     ahead = Gaze(x_m=4.0, y_m=1.0, yaw_rad=0.0, half_width_rad=0.5)
     behind = Gaze(x_m=4.0, y_m=1.0, yaw_rad=math.pi, half_width_rad=0.5)
-    assert {deed.places for deed in possible("add", rooms=("k",), gaze=ahead)} == {("table",)}
-    assert {deed.places for deed in possible("add", rooms=("k",), gaze=behind)} == {("desk",)}
+    assert {intervention.places for intervention in possible("add", rooms=("k",), gaze=ahead)} == {("table",)}
+    assert {intervention.places for intervention in possible("add", rooms=("k",), gaze=behind)} == {("desk",)}
     assert not possible("remove", gaze=behind)
 
 

@@ -1,32 +1,34 @@
-"""Commands that exchange with other programs: ``majordomo export | replay | mcp``."""
+"""Commands that exchange with other programs: ``majordomo house | export | replay | mcp``."""
 
 from __future__ import annotations
 
 import asyncio
 import json
+import sys
 from pathlib import Path
 from typing import Annotated
 
 import typer
-from rich.console import Console
 
-from app.commands.options import GraphFormat, Network
+from app.commands.options import ClientToken, Data, GraphFormat, Network, Seed, Url
+from app.commands.terminal import complaints, refused
 from app.settings import DEFAULT_DATA
 from perception.network.shipped import SHIPPED
 from planner.tasks.approval import Approval
 
-complaints = Console(stderr=True)
 
-Address = Annotated[str | None, typer.Option(help="Address of the service; default: the one running here.")]
-TokenOption = Annotated[str | None, typer.Option("--token", envvar="MAJORDOMO_TOKEN", help="Its token.")]
-Data = Annotated[Path, typer.Option(help="Folder of token, logs and memory.")]
+def make_house(
+    rooms: Annotated[int, typer.Option(min=1, help="How many, corridors and halls included.")] = 6,
+    seed: Seed = 0,
+    loop: Annotated[bool, typer.Option("--loop", help="Let some rooms be reached in two ways.")] = False,
+    rectilinear: Annotated[bool, typer.Option("--rectilinear", help="Make some rooms L-, T- or U-shaped.")] = False,
+    empty: Annotated[bool, typer.Option("--empty", help="Leave out furniture and objects.")] = False,
+) -> None:
+    """Write a generated house to standard output, to be used with --house."""
+    from simulation.generation.generator import generate_house
 
-
-def add_exchange_commands(application: typer.Typer) -> None:
-    """Make them commands of ``application``."""
-    application.command("export")(export_graph)
-    application.command("replay")(replay_recording)
-    application.command("mcp")(serve_mcp)
+    house = generate_house(rooms=rooms, seed=seed, loops=loop, rectilinear=rectilinear, furnished=not empty)
+    sys.stdout.write(house.model_dump_json(by_alias=True, exclude_none=True, indent=1) + "\n")
 
 
 def export_graph(
@@ -38,8 +40,8 @@ def export_graph(
         Path | None,
         typer.Option(help="Take this stored scene graph, in either format, and not a service's; - reads it."),
     ] = None,
-    url: Address = None,
-    token: TokenOption = None,
+    url: Url = None,
+    token: ClientToken = None,
     data: Data = DEFAULT_DATA,
 ) -> None:
     """Write down the scene graph of the running service; ``serve --graph`` and ``plan --graph`` read both formats."""
@@ -50,8 +52,7 @@ def export_graph(
     try:
         snapshot = load_graph(graph) if graph is not None else graph_of(find_service(url, token, data.expanduser()))
     except NoService as error:
-        complaints.print(str(error), style="red", markup=False, highlight=False, soft_wrap=True)
-        raise typer.Exit(2) from None
+        raise refused(str(error)) from None
     export(snapshot, file, kind)
 
 
@@ -68,8 +69,7 @@ def replay_recording(
     try:
         replayed = asyncio.run(replay(file, model=model))
     except RecordingError as error:
-        complaints.print(f"majordomo: {error}", style="red", markup=False, highlight=False, soft_wrap=True)
-        raise typer.Exit(2) from None
+        raise refused(f"majordomo: {error}") from None
     complaints.print(told(replayed), markup=False, highlight=False, soft_wrap=True)
     if graph is not None:
         write_text(json.dumps(replayed.scene, indent=1) + "\n", graph)
@@ -79,8 +79,8 @@ def serve_mcp(
     approval: Annotated[
         Approval, typer.Option(help="Whether a person approves each plan on the page, or requests run at once.")
     ] = Approval.ASK,
-    url: Address = None,
-    token: TokenOption = None,
+    url: Url = None,
+    token: ClientToken = None,
     data: Data = DEFAULT_DATA,
 ) -> None:
     """Offer the running service to a language model's host as tools, over standard input and output (MCP)."""
@@ -90,11 +90,9 @@ def serve_mcp(
         from app.exchange.mcp_server import ServiceTools, make_mcp_server
     except ModuleNotFoundError as error:
         missing = f"majordomo mcp needs the package {error.name!r}: pip install 'majordomo[mcp]'"
-        complaints.print(missing, style="red", markup=False, highlight=False, soft_wrap=True)
-        raise typer.Exit(2) from None
+        raise refused(missing) from None
     try:
         service = find_service(url, token, data.expanduser())
     except NoService as error:
-        complaints.print(str(error), style="red", markup=False, highlight=False, soft_wrap=True)
-        raise typer.Exit(2) from None
+        raise refused(str(error)) from None
     make_mcp_server(ServiceTools(service, approval=approval)).run("stdio")

@@ -22,7 +22,7 @@ from app.events.event_log import EventLog
 from app.events.publisher import Publisher
 from app.events.stream import EventStream
 from app.journal.audit import Audit, NotKept
-from app.journal.scrubbing import Scrubber
+from app.journal.redaction import Redactor
 from app.journal.tasks import TaskJournal
 from app.orders import Orders
 from app.scheduler import TICK_S, Agent, LockstepScheduler, RealTimeScheduler, Scheduler, Turns
@@ -78,7 +78,7 @@ class Runtime:
         self._witnesses = witnesses
         self.journal = TaskJournal.of(settings)
         tasks = self.journal.take_up()
-        self._audit = Audit(self.journal, tasks, scrubber=Scrubber((settings.llm_key,)))
+        self._audit = Audit(self.journal, tasks, redactor=Redactor((settings.llm_key,)))
         self.queue = TaskQueue(tasks)
         snapshot: Callable[[], Mapping[str, Any]] = lambda: self.views.snapshot()  # noqa: E731, PLW0108 - not made yet
         self.stream = EventStream(snapshot, first_seq=time.time_ns() // 1_000_000)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Sequence
 
-from app.memory.node_history import NodeHistory
+from app.persistence.node_history import NodeHistory
 from app.scheduler import Agent
 from planner.doubles.rehearsal import Stage, StillBody, rehearsal_graph
 from planner.doubles.scripted import Script, scripted_look, scripted_skills

@@ -78,7 +78,7 @@ def card(
     file: Annotated[Path, typer.Option(exists=True, help="The model card.")] = Path("docs/model-card.md"),
 ) -> None:
     """Write the measured figures into the model card."""
-    from training.card import write
+    from training.model_card import write
 
     write(file, report)
 

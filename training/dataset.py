@@ -13,8 +13,8 @@ from scipy import ndimage
 from torch import Tensor
 from torch.utils.data import Dataset
 
+from training.classes import STUFF, UNKNOWN
 from training.export import MEAN, STD
-from training.names import STUFF, UNKNOWN
 from training.network import HEIGHT, STRIDES, WIDTH
 from training.shards import Examples
 

@@ -13,7 +13,7 @@ import torch
 from torch import Tensor, nn
 
 from perception.network.contract import INPUT, INSTANCE_OUTPUTS, TRIPLET_OUTPUTS
-from training.names import CLASSES, PREDICATES, THINGS
+from training.classes import CLASSES, PREDICATES, THINGS
 from training.network import HEIGHT, QUERIES, TRIPLETS, WIDTH, Network
 
 _LARGE = 1024

@@ -6,8 +6,8 @@ import torch
 from torch import Tensor
 from torch.nn import functional
 
+from training.classes import STUFF, UNKNOWN
 from training.dataset import Batch
-from training.names import STUFF, UNKNOWN
 from training.network import BACKGROUND, HEIGHT, HINTS, PEAKS, STRIDES, WIDTH, Answers, Network
 
 _STUFF = len(STUFF)

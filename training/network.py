@@ -14,7 +14,7 @@ import torch
 from torch import Tensor, nn
 from torch.nn import functional
 
-from training.names import CLASSES, PREDICATES, STUFF
+from training.classes import CLASSES, PREDICATES, STUFF
 
 HEIGHT, WIDTH = 192, 256
 STRIDES = (4, 16)

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from simulation.pictures.photographs import Photograph
 from simulation.pictures.relations import PREDICATES
-from training.names import CLASSES, UNKNOWN
+from training.classes import CLASSES, UNKNOWN
 
 
 def save_shard(file: Path, photographs: Sequence[Photograph]) -> None:

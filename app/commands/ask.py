@@ -11,7 +11,7 @@ from enum import IntEnum
 from rich.console import Console
 from rich.text import Text
 
-from app.commands.telling import Teller
+from app.commands.progress_printer import ProgressPrinter
 from client import Client, Invalid, NoService, NotAllowedNow, StillWaiting, Task
 from client.calls import Approval
 
@@ -88,12 +88,12 @@ class Asking:
 
     def _follow(self, task: Task) -> Ending:
         """Tell what becomes of the task; the stream is left while a person thinks, and opened anew afterwards."""
-        teller = Teller(self.console)
+        printer = ProgressPrinter(self.console)
         while True:
             with contextlib.closing(self.robot.follow(task.id, for_s=self._left_s)) as states:
                 for state in states:
                     task = self.task = state
-                    teller.tell(task)
+                    printer.tell(task)
                     if task.undecided:
                         break
             if task.ended:

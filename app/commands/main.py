@@ -7,7 +7,7 @@ import sys
 import typer
 
 from app.commands.exchange import export_graph, make_house, replay_recording, serve_mcp
-from app.commands.installed import add_installed_commands
+from app.commands.plugins import add_installed_commands
 from app.commands.requests import ask, plan_on_graph, trace
 from app.commands.service import demo, doctor, serve
 from app.commands.terminal import complaints

@@ -14,7 +14,7 @@ from typing import Annotated
 
 import typer
 
-from app.commands.discretion import DiscreetFormatter
+from app.commands.log_redaction import RedactingFormatter
 from app.commands.options import Data, House, Network, Seed
 from app.commands.terminal import console
 from app.settings import DEFAULT_DATA, ClockMode, Settings, origin
@@ -180,7 +180,7 @@ def _origins(named: Sequence[str]) -> tuple[str, ...]:
 
 def _log_to_stderr(*, verbose: bool, secrets: Iterable[str] = ()) -> None:
     handler = logging.StreamHandler(sys.stderr)
-    handler.setFormatter(DiscreetFormatter("%(asctime)s %(levelname)-7s %(name)s: %(message)s", secrets=secrets))
+    handler.setFormatter(RedactingFormatter("%(asctime)s %(levelname)-7s %(name)s: %(message)s", secrets=secrets))
     logging.basicConfig(level=logging.DEBUG if verbose else logging.INFO, handlers=[handler])
     for chatty in ("httpx", "httpcore", "asyncio", "websockets", "watchfiles"):
         logging.getLogger(chatty).setLevel(logging.WARNING)

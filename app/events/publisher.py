@@ -7,7 +7,7 @@ from typing import Any
 
 from app.events.event_log import EventLog
 from app.events.stream import EventStream
-from app.memory.node_history import NodeHistory
+from app.persistence.node_history import NodeHistory
 from scene_graph.diff import Delta
 from scene_graph.edges import EdgeType
 from scene_graph.memory import WorkingMemory

@@ -9,7 +9,7 @@ from dataclasses import replace
 from typing import Any
 
 from app.journal.decisions import Decision, DecisionKind, decisions_between
-from app.journal.scrubbing import Scrubber
+from app.journal.redaction import Redactor
 from app.journal.tasks import TaskJournal
 from planner.tasks.queue import KEEP
 from planner.tasks.tasks import Task, TaskStatus
@@ -29,11 +29,11 @@ class Audit:
     Args:
         journal: where it is kept.
         tasks: those that the journal has already.
-        scrubber: takes secrets out of what is kept.
+        redactor: takes secrets out of what is kept.
     """
 
-    def __init__(self, journal: TaskJournal, tasks: Sequence[Task] = (), *, scrubber: Scrubber) -> None:
-        self._journal, self._scrubber = journal, scrubber
+    def __init__(self, journal: TaskJournal, tasks: Sequence[Task] = (), *, redactor: Redactor) -> None:
+        self._journal, self._redactor = journal, redactor
         self._known = {task.id: task for task in tasks if not task.status.ended}
 
     def hear_task(self, task: Task, stamp_s: float) -> None:
@@ -46,7 +46,7 @@ class Audit:
             NotKept: a new task cannot be written, and so must not be acknowledged.
         """
         before = self._known.get(task.id)
-        decisions = [self._scrubbed(decision) for decision in decisions_between(before, task)]
+        decisions = [self._redacted(decision) for decision in decisions_between(before, task)]
         try:
             self._journal.write(task, decisions, stamp_s=stamp_s)
         except sqlite3.Error as problem:
@@ -76,14 +76,14 @@ class Audit:
                 del self._known[task_id]
 
     def _note(self, task_id: str, decisions: Sequence[Decision], stamp_s: float) -> None:
-        scrubbed = [self._scrubbed(decision) for decision in decisions]
+        redacted = [self._redacted(decision) for decision in decisions]
         try:
-            self._journal.note(task_id, scrubbed, stamp_s=stamp_s)
+            self._journal.note(task_id, redacted, stamp_s=stamp_s)
         except sqlite3.Error as problem:
             logger.critical("the trace of %s lacks what could not be written: %s", task_id, problem)
 
-    def _scrubbed(self, decision: Decision) -> Decision:
-        clean = self._scrubber
+    def _redacted(self, decision: Decision) -> Decision:
+        clean = self._redactor
         return replace(
             decision, what=clean.text(decision.what), why=clean.text(decision.why), data=clean.data(decision.data)
         )

@@ -18,7 +18,7 @@ from pydantic import TypeAdapter, ValidationError
 from app.journal.decisions import Decision, DecisionKind, decisions_between
 from app.journal.file import JournalFile
 from app.journal.trace import read_trace
-from app.memory.building import building_folder
+from app.persistence.building import building_folder
 from app.settings import Settings
 from client.documents import Trace
 from planner.tasks.queue import KEEP

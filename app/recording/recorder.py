@@ -1,11 +1,11 @@
-"""The agent that hands what is new in each of its turns to the tape."""
+"""The agent that hands what is new in each of its turns to the writer."""
 
 from __future__ import annotations
 
 import asyncio
 
+from app.recording.mcap_writer import McapWriter
 from app.recording.moment import Moment
-from app.recording.tape import Tape
 from app.robot_port import Robot
 from perception.sensing import SensorBuffer
 from scene_graph.memory import WorkingMemory
@@ -23,30 +23,37 @@ class Recorder:
     name = "recorder"
 
     def __init__(
-        self, tape: Tape, memory: WorkingMemory, buffer: SensorBuffer, robot: Robot, *, patient: bool, period_s: float
+        self,
+        writer: McapWriter,
+        memory: WorkingMemory,
+        buffer: SensorBuffer,
+        robot: Robot,
+        *,
+        patient: bool,
+        period_s: float,
     ) -> None:
         """``patient``: let the robot's time wait for the disk, as in lockstep; otherwise moments may be left out."""
         self.period_s = period_s
-        self._tape, self._memory, self._buffer, self._robot = tape, memory, buffer, robot
+        self._writer, self._memory, self._buffer, self._robot = writer, memory, buffer, robot
         self._patient = patient
         self._told_s: dict[str, float] = {}
         self._graph_due_s = float("-inf")
 
     async def step(self, stamp_s: float) -> None:
         """Record one moment."""
-        if not self._tape.running:
+        if not self._writer.running:
             return
         moment = await self._moment(stamp_s)
         if self._patient:
-            taken = await asyncio.to_thread(self._tape.put_patiently, moment)
+            taken = await asyncio.to_thread(self._writer.put_patiently, moment)
         else:
-            taken = self._tape.put(moment)
+            taken = self._writer.put(moment)
         if taken:
             self._remember(moment)
 
     def close(self) -> None:
         """End the file."""
-        self._tape.close()
+        self._writer.close()
 
     async def _moment(self, stamp_s: float) -> Moment:
         buffer, snapshot = self._buffer, self._memory.snapshot()

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from app.events.event_log import EventLog
 from app.exchange.stored_graph import load_graph
-from app.memory.node_history import NodeHistory
+from app.persistence.node_history import NodeHistory
 from app.scheduler import Agent
 from perception.objects.seeing.look import Look
 from perception.ports import RgbdFrame

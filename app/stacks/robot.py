@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from app.events.event_log import EventLog
-from app.memory.building import Remembering, building_folder
-from app.memory.node_history import NodeHistory
+from app.persistence.building import Remembering, building_folder
+from app.persistence.node_history import NodeHistory
 from app.recording.errors import RecordingError
 from app.recording.profile import profile_of
 from app.robot_port import Robot
@@ -50,8 +50,8 @@ from skills.errors import BodySilent
 from skills.registry import load_registry
 
 if TYPE_CHECKING:
+    from app.recording.mcap_writer import McapWriter
     from app.recording.recorder import Recorder
-    from app.recording.tape import Tape
 
 
 class RobotStack:
@@ -69,13 +69,13 @@ class RobotStack:
         recognizable: Collection[str] = (),
         remembering: Remembering | None = None,
         memory: WorkingMemory | None = None,
-        tape: Tape | None = None,
+        writer: McapWriter | None = None,
     ) -> None:
         """Give all agents their places.
 
         ``network``: what understands the camera's frames; there is no camera without. ``recognizable``: the names that
-        it may give. ``memory``: the graph to begin with where nobody remembers one, empty when left out. ``tape``: what
-        is recorded to, if anything.
+        it may give. ``memory``: the graph to begin with where nobody remembers one, empty when left out. ``writer``:
+        of the recording, if there is to be one.
         """
         self.robot = robot
         empty_or_given = memory or WorkingMemory(long_term=LongTermStore())
@@ -123,7 +123,7 @@ class RobotStack:
             self._executor,
             *([remembering] if remembering is not None else []),
         ]
-        self._recorder = self._recording(tape) if tape is not None else None
+        self._recorder = self._recording(writer) if writer is not None else None
         if self._recorder is not None:
             self.agents = [*self.agents, self._recorder]
 
@@ -145,13 +145,21 @@ class RobotStack:
         remembering = _remembering(settings, anew=anew)
         robot = await start_robot(settings)
         try:
-            tape = _tape(settings, anew=anew)
+            writer = _writer(settings, anew=anew)
         except (RecordingError, OSError):
             await robot.close()
             raise
         names = network.description.classes if network is not None else ()
         return cls(
-            robot, settings, queue, model, log, network=network, recognizable=names, remembering=remembering, tape=tape
+            robot,
+            settings,
+            queue,
+            model,
+            log,
+            network=network,
+            recognizable=names,
+            remembering=remembering,
+            writer=writer,
         )
 
     @property
@@ -245,13 +253,13 @@ class RobotStack:
         held = self._remembering.held if self._remembering is not None else None
         return ObjectMemory(self.memory, buffer, eyes, random=random, settings=settings, held_before=held)
 
-    def _recording(self, tape: Tape) -> Recorder:
+    def _recording(self, writer: McapWriter) -> Recorder:
         """Who records: in lockstep every tick, and nothing is left out; else as often as LiDAR and body are asked."""
         from app.recording.recorder import Recorder
 
         lockstep = self._settings.clock is ClockMode.LOCKSTEP
         period_s = TICK_S if lockstep else SensingSettings.period_s
-        return Recorder(tape, self.memory, self._buffer, self.robot, patient=lockstep, period_s=period_s)
+        return Recorder(writer, self.memory, self._buffer, self.robot, patient=lockstep, period_s=period_s)
 
     def _sensor_ages(self) -> dict[str, float]:
         """Seconds since the newest data of each sensor."""
@@ -281,7 +289,7 @@ def _remembering(settings: Settings, *, anew: bool) -> Remembering | None:
     return Remembering(folder, wall_time=(lambda: 0.0) if lockstep else time.time, anew=anew)
 
 
-def _tape(settings: Settings, *, anew: bool) -> Tape | None:
+def _writer(settings: Settings, *, anew: bool) -> McapWriter | None:
     """What is recorded to, if anything; after a restart of the robot a file beside the one before.
 
     Raises:
@@ -290,7 +298,7 @@ def _tape(settings: Settings, *, anew: bool) -> Tape | None:
     """
     if settings.record is None:
         return None
-    from app.recording.tape import Tape, free_path
+    from app.recording.mcap_writer import McapWriter, free_path
 
     path = settings.record.expanduser()
-    return Tape(free_path(path) if anew else path, profile_of(settings), limit_bytes=settings.record_limit_bytes)
+    return McapWriter(free_path(path) if anew else path, profile_of(settings), limit_bytes=settings.record_limit_bytes)

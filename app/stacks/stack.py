@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Protocol
 
 from app.events.event_log import EventLog
-from app.memory.node_history import NodeHistory
+from app.persistence.node_history import NodeHistory
 from app.scheduler import Agent
 from app.settings import Settings
 from perception.objects.seeing.look import Look

@@ -10,9 +10,9 @@ from collections.abc import Coroutine
 from pathlib import Path
 from typing import Any, Self
 
+from drivers.rosbridge.actuators import Actuators
 from drivers.rosbridge.connection import Connection, not_reached
 from drivers.rosbridge.governor import Governor
-from drivers.rosbridge.limbs import Limbs
 from drivers.rosbridge.messages import time_message, twist
 from drivers.rosbridge.profile import Profile, read_profile
 from drivers.rosbridge.sensors import Sensors
@@ -54,11 +54,11 @@ class RosbridgeRobot:
         self._connection = Connection(
             profile.url,
             subscriptions=self._sensors.subscriptions,
-            advertised={profile.drive: profile.drive_type} | Limbs.topics(profile),
+            advertised={profile.drive: profile.drive_type} | Actuators.topics(profile),
             hear=self._sensors.hear,
             on_change=self._on_change,
         )
-        self._limbs = Limbs(profile, self._connection)
+        self._actuators = Actuators(profile, self._connection)
         self._stopped = False
         self._hold_due = False
         self._moved_s = -math.inf
@@ -117,18 +117,18 @@ class RosbridgeRobot:
 
     async def joints(self) -> JointState:
         """Newest joint and gripper state."""
-        stamp_s, limbs = self._joints_stamp_s(), self._limbs.measured(self._sensors.joints)
-        arm = limbs.arm
+        stamp_s, actuators = self._joints_stamp_s(), self._actuators.measured(self._sensors.joints)
+        arm = actuators.arm
         return JointState(
             stamp_s=stamp_s,
             lift_m=arm.lift_m,
             extension_m=arm.extension_m,
             wrist_pitch_rad=arm.wrist_pitch_rad,
             wrist_roll_rad=arm.wrist_roll_rad,
-            gripper_opening_m=limbs.gripper_opening_m,
-            pan_rad=limbs.pan_rad,
-            tilt_rad=limbs.tilt_rad,
-            finger_contacts=limbs.finger_contacts,
+            gripper_opening_m=actuators.gripper_opening_m,
+            pan_rad=actuators.pan_rad,
+            tilt_rad=actuators.tilt_rad,
+            finger_contacts=actuators.finger_contacts,
             T_base_gripper=gripper_pose(arm, self.geometry),
         )
 
@@ -143,16 +143,16 @@ class RosbridgeRobot:
             odometry, joints = self._sensors.odometry(), await self.joints()
         except SensorSilent as silence:
             raise BodySilent(str(silence)) from silence
-        limbs = self._limbs.measured(self._sensors.joints)
+        actuators = self._actuators.measured(self._sensors.joints)
         return BodyState(
             stamp_s=joints.stamp_s,
             linear_mps=odometry.linear_mps,
             angular_radps=odometry.angular_radps,
-            arm=limbs.arm,
-            gripper_opening_m=limbs.gripper_opening_m,
-            finger_contacts=limbs.finger_contacts,
-            pan_rad=limbs.pan_rad,
-            tilt_rad=limbs.tilt_rad,
+            arm=actuators.arm,
+            gripper_opening_m=actuators.gripper_opening_m,
+            finger_contacts=actuators.finger_contacts,
+            pan_rad=actuators.pan_rad,
+            tilt_rad=actuators.tilt_rad,
             bumped=self._sensors.bumped,
             stopped=self._stopped,
             T_base_gripper=joints.T_base_gripper,
@@ -166,17 +166,17 @@ class RosbridgeRobot:
     async def look(self, pan_rad: float, tilt_rad: float) -> None:
         """Aim the camera."""
         if self._may_move():
-            self._limbs.look(pan_rad, tilt_rad, self._sensors.joints)
+            self._actuators.look(pan_rad, tilt_rad, self._sensors.joints)
 
     async def move_arm(self, target: ArmTarget) -> None:
         """Move the arm."""
         if self._may_move():
-            self._limbs.move_arm(target, self._sensors.joints)
+            self._actuators.move_arm(target, self._sensors.joints)
 
     async def grip(self, opening_m: float, effort_n: float = 15.0) -> None:
         """Move the fingers."""
         if self._may_move():
-            self._limbs.grip(opening_m, effort_n)
+            self._actuators.grip(opening_m, effort_n)
 
     def stop(self) -> None:
         """Latch the stop: base and arm stand, the gripper keeps its grip. From any thread; never waits."""
@@ -229,7 +229,7 @@ class RosbridgeRobot:
 
     def _on_change(self, up: bool) -> None:
         self._governor.halt()
-        self._limbs.forget()
+        self._actuators.forget()
         self._hold_due = up
         if up:
             self._sensors.joints.position.clear()
@@ -238,7 +238,7 @@ class RosbridgeRobot:
     def _stand_still(self) -> None:
         self._governor.halt()
         self._drive_at(0.0, 0.0)
-        self._limbs.hold(self._sensors.joints)
+        self._actuators.hold(self._sensors.joints)
 
     async def _pace(self) -> None:
         """Command the base, twenty times a second while there is a reason to."""
@@ -258,7 +258,7 @@ class RosbridgeRobot:
         """After a connection is made the arm is held where it is, as soon as it is known where that is."""
         if self._hold_due and not self._sensors.waiting_for:
             self._hold_due = False
-            self._limbs.hold(self._sensors.joints)
+            self._actuators.hold(self._sensors.joints)
 
     def _drive_at(self, linear_mps: float, angular_radps: float) -> None:
         message = twist(linear_mps, angular_radps)

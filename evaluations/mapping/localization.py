@@ -25,7 +25,7 @@ from app.runtime import Runtime
 from evaluations.mapping.exploration import service_in_lockstep, until_explored
 from evaluations.mapping.floor_plan import compare, in_house, placement, plan_of_house, plan_of_scene
 from evaluations.mapping.mapping import house_of
-from evaluations.mapping.wandering import Wanderer
+from evaluations.mapping.patrol import Patrol
 from evaluations.plots import save
 from evaluations.pool import run_all
 from scene_graph.nodes import ROBOT_ID, ROOT_ID
@@ -95,7 +95,7 @@ class _Rounds:
 
     def __init__(self, runtime: Runtime, house: House) -> None:
         self._runtime, self._house = runtime, house
-        self._wanderer = Wanderer(self.name, runtime.memory)
+        self._patrol = Patrol(self.name, runtime.memory)
         self._true = plan_of_house(house)
         self._rooms: dict[str, str] = {}
         self._begun = False
@@ -113,12 +113,12 @@ class _Rounds:
     @property
     def visits(self) -> int:
         """Rooms that were to be visited."""
-        return self._wanderer.visits
+        return self._patrol.visits
 
     @property
     def failed(self) -> int:
         """Visits that failed."""
-        return self._wanderer.failed
+        return self._patrol.failed
 
     async def step(self, stamp_s: float) -> None:
         """Compare, and choose the next room when the last one was reached."""
@@ -126,7 +126,7 @@ class _Rounds:
             return
         truth = await self._runtime.require_robot().truth()
         self._compare(np.array(truth["robot"]["pose"][:2]), stamp_s)
-        self._wanderer.step(stamp_s)
+        self._patrol.step(stamp_s)
 
     def _compare(self, actual: Array, stamp_s: float) -> None:
         self.driven_m += 0.0 if self._last is None else float(np.linalg.norm(actual - self._last))

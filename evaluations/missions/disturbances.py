@@ -10,7 +10,7 @@ from typing import Any
 
 from numpy.random import Generator
 
-from evaluations.missions.crowding import boxes_over
+from evaluations.missions.clutter import boxes_over
 from evaluations.missions.mission import Mission
 from evaluations.missions.outcome import HAND, Scene
 from evaluations.missions.ways import PASSABLE_M, Ways

@@ -21,12 +21,12 @@ from rich.table import Table
 from app.runtime import Runtime
 from evaluations.mapping.exploration import service_in_lockstep, until_explored
 from evaluations.missions.disturbances import DISTURBANCES
+from evaluations.missions.episodes import play_mission, scene_of
 from evaluations.missions.evaluation import summarize
-from evaluations.missions.inventing import invent
 from evaluations.missions.mission import Mission
 from evaluations.missions.outcome import Scene
-from evaluations.missions.playing import play_mission, scene_of
-from evaluations.missions.resident import Resident
+from evaluations.missions.request_generator import invent
+from evaluations.missions.simulated_user import SimulatedUser
 from evaluations.perception.belief_scores import Sightings, score_house
 from evaluations.perception.belief_scores import summarize as summarize_graph
 from evaluations.perception.inventory import graph_contents, sizes_of, true_things
@@ -105,7 +105,7 @@ async def _run(
     async with service_in_lockstep(house, seed, camera=True, model=model) as runtime:
         explored = await until_explored(runtime, house)
         tell(f"{name}: {'explored' if explored else 'given up'} after {runtime.now_s:.0f} simulated seconds")
-        Resident(runtime, house).introduce()
+        SimulatedUser(runtime, house).introduce()
         run: dict[str, Any] = {"house": name, "seed": seed, "hours": hours, "explored": explored}
         run |= {"rounds": [await _account(runtime, house)], "missions": [], "memory": [_memory(runtime)]}
         while runtime.now_s < 3600.0 * hours:

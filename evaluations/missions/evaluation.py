@@ -17,10 +17,10 @@ from rich.table import Table
 
 from evaluations.missions.attempts import HANDLING
 from evaluations.missions.disturbances import DISTURBANCES
-from evaluations.missions.inventing import invent
+from evaluations.missions.episodes import Verdict, play_all
 from evaluations.missions.mission import Mission
 from evaluations.missions.mission_file import load_missions
-from evaluations.missions.playing import Verdict, play_all
+from evaluations.missions.request_generator import invent
 from evaluations.perception.perception import check, house_of
 from evaluations.perception.recognition import share
 from evaluations.pool import run_all

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from evaluations.perception.inventory import GraphContents, GraphThing, TrueThing, true_relations_of
+from evaluations.perception.matching import Matching, match_things, off_m
 from evaluations.perception.recognition import EITHER_WAY, share
-from evaluations.perception.stocktaking import Stocktaking, off_m, take_stock
 from perception.labels import room_label
 from scene_graph.nodes import UNKNOWN_LABEL
 from simulation.houses.house import House
@@ -38,10 +38,10 @@ class Sightings:
 
 def score_house(house: House, true: Sequence[TrueThing], graph: GraphContents, sightings: Sightings) -> dict[str, Any]:
     """One house as the JSON file holds it. Of things in rooms that the robot never found nothing is asked."""
-    stock = take_stock(true, graph.things)
+    matching = match_things(true, graph.things)
     asked = [thing for thing in true if thing.room in graph.rooms]
     return {
-        "things": [_thing_row(thing, graph, stock, sightings) for thing in asked],
+        "things": [_thing_row(thing, graph, matching, sightings) for thing in asked],
         "nodes": [
             {
                 "id": node.id,
@@ -51,9 +51,9 @@ def score_house(house: House, true: Sequence[TrueThing], graph: GraphContents, s
                 "position_m": node.position_m.round(3).tolist(),
             }
             for node in graph.things
-            for verdict, of in [_verdict(node, stock)]
+            for verdict, of in [_verdict(node, matching)]
         ],
-        "relations": _relation_counts(asked, graph, stock),
+        "relations": _relation_counts(asked, graph, matching),
         "rooms": _room_rows(house, asked, graph),
         "seconds": round(sightings.seconds, 2),
         "switches": sightings.switches,
@@ -106,9 +106,9 @@ def summarize(runs: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
     }
 
 
-def _thing_row(thing: TrueThing, graph: GraphContents, stock: Stocktaking, sightings: Sightings) -> dict[str, Any]:
-    node = next((node for node in graph.things if node.id == stock.node_of.get(thing.id)), None)
-    found = _verdict(node, stock)[0] if node is not None else "missed"
+def _thing_row(thing: TrueThing, graph: GraphContents, matching: Matching, sightings: Sightings) -> dict[str, Any]:
+    node = next((node for node in graph.things if node.id == matching.node_of.get(thing.id)), None)
+    found = _verdict(node, matching)[0] if node is not None else "missed"
     return {
         "id": thing.id,
         "category": thing.category,
@@ -123,7 +123,7 @@ def _thing_row(thing: TrueThing, graph: GraphContents, stock: Stocktaking, sight
         "in_view_m": sightings.in_view_m.get(thing.id),
         "renewed_m": sightings.renewed_m.get(node.id) if node is not None else None,
         "room_right": node is not None and node.room == graph.rooms.get(thing.room or ""),
-        "support": _support(thing, graph, stock),
+        "support": _support(thing, graph, matching),
     }
 
 
@@ -133,11 +133,11 @@ def _size_error_m(thing: TrueThing, node: GraphThing) -> float:
     return max(abs(true_m - said_m) for true_m, said_m in sides)
 
 
-def _support(thing: TrueThing, graph: GraphContents, stock: Stocktaking) -> str:
+def _support(thing: TrueThing, graph: GraphContents, matching: Matching) -> str:
     """What the graph says of what carries a thing: right, other (another carrier), lacking, or made up."""
-    node = stock.node_of.get(thing.id)
+    node = matching.node_of.get(thing.id)
     said = {
-        (predicate, stock.thing_of.get(target, stock.duplicates.get(target, "")))
+        (predicate, matching.thing_of.get(target, matching.duplicates.get(target, "")))
         for source, predicate, target in graph.relations
         if source == node and predicate in SUPPORTING
     }
@@ -150,23 +150,23 @@ def _support(thing: TrueThing, graph: GraphContents, stock: Stocktaking) -> str:
     return "other" if said else "lacking"
 
 
-def _verdict(node: GraphThing, stock: Stocktaking) -> tuple[str, str | None]:
+def _verdict(node: GraphThing, matching: Matching) -> tuple[str, str | None]:
     """What a node is, and of which thing; one that stands for a thing and claims no name is merely unnamed."""
-    if node.id in stock.duplicates:
-        return "duplicate", stock.duplicates[node.id]
-    thing = stock.thing_of.get(node.id)
+    if node.id in matching.duplicates:
+        return "duplicate", matching.duplicates[node.id]
+    thing = matching.thing_of.get(node.id)
     if thing is None:
         return "invented", None
-    if thing in stock.named:
+    if thing in matching.named:
         return "named", thing
     return ("unnamed" if node.label == UNKNOWN_LABEL else "misnamed"), thing
 
 
 def _relation_counts(
-    things: Sequence[TrueThing], graph: GraphContents, stock: Stocktaking
+    things: Sequence[TrueThing], graph: GraphContents, matching: Matching
 ) -> dict[str, tuple[int, int]]:
     """(stated by the graph, true) by predicate."""
-    thing_of = stock.thing_of
+    thing_of = matching.thing_of
     said = {(thing_of.get(a), predicate, thing_of.get(b)) for a, predicate, b in graph.relations}
     counts: dict[str, tuple[int, int]] = {}
     for subject, predicate, other in true_relations_of(things):

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from evaluations.perception.inventory import GraphThing, TrueThing
+from evaluations.perception.matching import Matching, match_things, off_m
 from evaluations.perception.recognition import share
-from evaluations.perception.stocktaking import Stocktaking, off_m, take_stock
 from scene_graph.nodes import UNKNOWN_LABEL
 
 PLACE_M = 0.3
@@ -27,12 +27,12 @@ class Moment:
 
     true: tuple[TrueThing, ...]
     graph: tuple[GraphThing, ...]
-    stock: Stocktaking
+    matching: Matching
 
     @classmethod
     def of(cls, true: Sequence[TrueThing], graph: Sequence[GraphThing]) -> Moment:
-        """Take stock now."""
-        return cls(true=tuple(true), graph=tuple(graph), stock=take_stock(true, graph))
+        """Match what is there with what the graph holds now."""
+        return cls(true=tuple(true), graph=tuple(graph), matching=match_things(true, graph))
 
     def thing(self, name: str) -> TrueThing | None:
         """The true thing of this identifier, if there is one."""
@@ -48,9 +48,9 @@ class Moment:
         A node that stands for a thing and claims no name is neither right nor wrong.
         """
         asked = [thing for thing in self.true if thing.room in rooms]
-        right = sum(thing.id in self.stock.named for thing in asked)
-        claims = [n for n in self.graph if n.label != UNKNOWN_LABEL or n.id not in self.stock.misnamed.values()]
-        return share(right, len(asked)), share(len(self.stock.named), len(claims))
+        right = sum(thing.id in self.matching.named for thing in asked)
+        claims = [n for n in self.graph if n.label != UNKNOWN_LABEL or n.id not in self.matching.misnamed.values()]
+        return share(right, len(asked)), share(len(self.matching.named), len(claims))
 
 
 def detected(kind: str, thing: str, before: Moment, after: Moment) -> dict[str, bool | None]:
@@ -60,15 +60,15 @@ def detected(kind: str, thing: str, before: Moment, after: Moment) -> dict[str, 
     its own name.
     """
     left = kind == "add" or _left(thing, before, after)
-    node = after.node(after.stock.node_of.get(thing, ""))
+    node = after.node(after.matching.node_of.get(thing, ""))
     now = after.thing(thing)
     there = node is not None and now is not None and off_m(now, node) <= PLACE_M
     if kind == "remove":
         return {"noticed": left, "named": left, "kept": None}
-    known = before.stock.node_of.get(thing)
+    known = before.matching.node_of.get(thing)
     return {
         "noticed": left and there,
-        "named": left and there and thing in after.stock.named,
+        "named": left and there and thing in after.matching.named,
         "kept": node is not None and node.id == known if kind == "move" else None,
     }
 
@@ -77,21 +77,21 @@ def false_alarms(before: Moment, after: Moment) -> list[dict[str, str]]:
     """Nodes that changed without cause: gone, shifted or renamed though their thing stands as it did, or made up."""
     stirred = _stirred(before, after)
     alarms = []
-    for thing, name in before.stock.node_of.items():
+    for thing, name in before.matching.node_of.items():
         if thing in stirred:
             continue
         was, now = before.node(name), after.node(name)
         if was is None:
             continue
         if now is None:
-            if thing not in after.stock.node_of:
+            if thing not in after.matching.node_of:
                 alarms.append({"node": name, "of": thing, "how": "gone"})
         elif float(np.linalg.norm(now.position_m - was.position_m)) > SHIFTED_M:
             alarms.append({"node": name, "of": thing, "how": "shifted"})
-        elif thing in before.stock.named and now.label != was.label:
+        elif thing in before.matching.named and now.label != was.label:
             alarms.append({"node": name, "of": thing, "how": "renamed"})
     known = {node.id for node in before.graph}
-    again = {**after.stock.duplicates, **dict.fromkeys(after.stock.invented, "")}
+    again = {**after.matching.duplicates, **dict.fromkeys(after.matching.invented, "")}
     alarms += [
         {"node": name, "of": thing, "how": "made up"}
         for name, thing in again.items()
@@ -134,10 +134,10 @@ def _of_kind(rows: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
 
 def _left(thing: str, before: Moment, after: Moment) -> bool:
     """Whether the node that stood for the thing where it was no longer says so, and no new one does."""
-    was, old = before.thing(thing), before.node(before.stock.node_of.get(thing, ""))
+    was, old = before.thing(thing), before.node(before.matching.node_of.get(thing, ""))
     if was is None or old is None:
         return True
-    others = {name for other, name in after.stock.node_of.items() if other != thing}
+    others = {name for other, name in after.matching.node_of.items() if other != thing}
     still = after.node(old.id)
     if still is not None and off_m(was, still) <= PLACE_M and still.id not in others:
         return False

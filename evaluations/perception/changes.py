@@ -109,11 +109,11 @@ async def _run(name: str, house: House, changes: int, model: Path) -> dict[str, 
         explored = await until_explored(runtime, house)
         tell(f"{name}: {'explored' if explored else 'given up'} after {runtime.now_s:.0f} simulated seconds")
         await pass_time(runtime, _SETTLE_S)
-        meddler = _Meddler(runtime, house, np.random.default_rng(zlib.crc32(name.encode())))
+        experiment = _Experiment(runtime, house, np.random.default_rng(zlib.crc32(name.encode())))
         made: list[dict[str, Any]] = []
         for number in range(changes):
             kind = KINDS[number % len(KINDS)]
-            row = await meddler.change(kind)
+            row = await experiment.change(kind)
             made += [row] if row is not None else []
             outcome = "not made" if row is None else "noticed" if row["noticed"] else "not noticed"
             tell(f"{name}: change {number + 1} of {changes} ({kind}) {outcome}")
@@ -128,7 +128,7 @@ async def _run(name: str, house: House, changes: int, model: Path) -> dict[str, 
         }
 
 
-class _Meddler:
+class _Experiment:
     """Changes one thing, sends the robot to look, and compares."""
 
     def __init__(self, runtime: Runtime, house: House, rng: np.random.Generator) -> None:
@@ -179,7 +179,7 @@ class _Meddler:
         x_m, y_m, yaw_rad = truth["robot"]["pose"]
         half_width_rad = CameraDescription().horizontal_fov_rad / 2.0
         gaze = Gaze(x_m=x_m, y_m=y_m, yaw_rad=yaw_rad + joints.pan_rad, half_width_rad=half_width_rad)
-        known = set(before.stock.node_of)
+        known = set(before.matching.node_of)
         possible = interventions(kind, self._house, truth, self._rng, rooms=self._rooms, gaze=gaze, known=known)
         for intervention in possible:
             if kind == "add":  # it is there even where it does not come to rest where it should
@@ -191,7 +191,7 @@ class _Meddler:
 
     async def _look(self, place: str, before: Moment) -> str:
         """One look at a piece of furniture, or around its room where the graph does not know it; why it was not had."""
-        node = self._runtime.memory.building().get(before.stock.node_of.get(place, ""))
+        node = self._runtime.memory.building().get(before.matching.node_of.get(place, ""))
         if isinstance(node, ObjectNode):
             return await self._look_at(node.id, InspectionSettings().standoff_from(node))
         item = next(item for item in self._house.furniture if item.id == place)

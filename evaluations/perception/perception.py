@@ -1,7 +1,7 @@
 """``evaluate perception``: what the graph holds of stocked houses after the robot has looked around in them.
 
 The robot explores with all of its own agents, in lockstep, its camera's pictures understood by the network that the
-service uses too. Then every object node is compared with what is there: see ``stocktaking`` for which node is which
+service uses too. Then every object node is compared with what is there: see ``matching`` for which node is which
 thing, and ``belief_scores`` for the figures. The network has learned from other houses.
 """
 
@@ -24,7 +24,7 @@ from evaluations.mapping.exploration import meter, pass_time, service_in_lockste
 from evaluations.mapping.mapping import house_of as mapped_house_of
 from evaluations.perception.belief_scores import BANDS_M, NEAR_M, score_house, summarize
 from evaluations.perception.inventory import graph_contents, true_things
-from evaluations.perception.onlooker import Onlooker
+from evaluations.perception.visibility import VisibilityMonitor
 from evaluations.plots import save
 from evaluations.pool import run_all, tell
 from evaluations.tables import shown
@@ -100,21 +100,21 @@ def run_once(name: str, model: Path) -> dict[str, Any]:
 
 
 async def _run(name: str, house: House, model: Path) -> dict[str, Any]:
-    made: list[Onlooker] = []
+    made: list[VisibilityMonitor] = []
 
-    def onlookers(runtime: Runtime) -> list[Onlooker]:
-        made.append(Onlooker(runtime, house))
+    def monitors(runtime: Runtime) -> list[VisibilityMonitor]:
+        made.append(VisibilityMonitor(runtime, house))
         return made
 
-    async with service_in_lockstep(house, 0, camera=True, model=model, witnesses=onlookers) as runtime:
+    async with service_in_lockstep(house, 0, camera=True, model=model, witnesses=monitors) as runtime:
         started = time.monotonic()
         meter(runtime)
         explored = await until_explored(runtime, house)
         tell(f"{name}: {'explored' if explored else 'given up'} after {runtime.now_s:.0f} simulated seconds")
         await pass_time(runtime, _SETTLE_S)
         truth = await runtime.require_robot().truth()
-        onlooker = made[0]
-        things = true_things(house, truth, onlooker.sizes)
+        monitor = made[0]
+        things = true_things(house, truth, monitor.sizes)
         graph = graph_contents(runtime.views.scene.document(), house)
         return {
             "house": name,
@@ -124,7 +124,7 @@ async def _run(name: str, house: House, model: Path) -> dict[str, Any]:
             "wall_seconds": round(time.monotonic() - started, 1),
             "cpu_seconds": {turns.agent.name: round(turns.cpu_s, 1) for turns in runtime.turns()},
             "failed_turns": sum(turns.restarts for turns in runtime.turns()),
-            **score_house(house, things, graph, onlooker.sightings()),
+            **score_house(house, things, graph, monitor.sightings()),
         }
 
 

@@ -8,7 +8,7 @@ from importlib import resources
 from pathlib import Path
 from typing import Any
 
-from evaluations.planning.crowd import crowd_lines
+from evaluations.planning.building_extension import extension_lines
 from evaluations.planning.floor_plan import scene_document
 from scene_graph.documents.interchange import from_json
 from scene_graph.snapshot import Snapshot
@@ -32,7 +32,7 @@ def building_document(name: str) -> dict[str, Any]:
     text = resources.files(__package__).joinpath("buildings", f"{name}.txt").read_text(encoding="utf-8")
     if NODES[name] > 200:
         more = NODES[name] - len(scene_document(text, name)["nodes"])
-        text = "\n".join([text, *crowd_lines(name, more, SEED)])
+        text = "\n".join([text, *extension_lines(name, more, SEED)])
     return scene_document(text, name)
 
 

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from app.stacks.graph import GraphStack
-from evaluations.planning.performance import perform, write
+from evaluations.planning.symbolic_execution import perform, write
 from planner.language.grammar.parser import CommandGrammar
 from planner.language.sentences.control import control_word
 from planner.models.protocol import LanguageModel

@@ -13,9 +13,9 @@ from app.garbage_collection import exempt_what_is_loaded
 from evaluations.planning.buildings import building
 from evaluations.planning.conversation import Conversation
 from evaluations.planning.corruption import Deaf, Oracle, can_be_put
-from evaluations.planning.counting import Counted, prompt_tokens
 from evaluations.planning.judging.expectations import Request
 from evaluations.planning.judging.judge import Judgement, Verdict, judge
+from evaluations.planning.model_usage import CountedModel, prompt_tokens
 from planner.language.grammar.parser import CommandGrammar
 from planner.models.protocol import LanguageModel
 from planner.models.scripted import ScriptedModel
@@ -79,7 +79,7 @@ async def run_one(
 ) -> Record:
     """All turns of a request, until one goes wrong."""
     snapshot = building(request.building, folder)
-    counted = Counted(model) if model is not None else None
+    counted = CountedModel(model) if model is not None else None
     talk = Conversation(snapshot, grammar, counted)
     judgement = Judgement(verdict=Verdict.RIGHT)
     ms: list[float] = []

@@ -27,8 +27,8 @@ from app.runtime import Runtime
 from app.server import SWITCH_INTERVAL_S
 from app.settings import ClockMode, Settings
 from evaluations.pool import run_all
-from evaluations.service.listening import Heard, listen
 from evaluations.service.rates import BESIDE_SIMULATOR, measured
+from evaluations.service.stream_load import Heard, listen
 from perception.network.shipped import SHIPPED
 
 API_P99_MS = 100.0

@@ -33,7 +33,7 @@ from app.server import SWITCH_INTERVAL_S, bind, serving
 from app.settings import ClockMode, Settings
 from app.stacks.robot import RobotStack
 from evaluations.pool import run_all
-from evaluations.service.probing import Answers, api_probe
+from evaluations.service.latency import Answers, api_probe
 from evaluations.service.replay import CAMERA_HZ, LIDAR_HZ, RecordedRobot, Recording, record
 from perception.network.model import OnnxPanopticModel
 from planner.models.protocol import LanguageModel

@@ -18,7 +18,7 @@ from app.recording.unmoved_body import UnmovedBody
 from app.runtime import Runtime
 from app.scheduler import Agent
 from evaluations.mapping.exploration import service_in_lockstep, until_explored
-from evaluations.mapping.wandering import Wanderer
+from evaluations.mapping.patrol import Patrol
 from perception.errors import SensorSilent
 from perception.ports import Intrinsics, JointState, LidarScan, Odometry, RgbdFrame
 from scene_graph.geometry.se3 import SE3
@@ -115,7 +115,7 @@ class _Recorder:
 
     def __init__(self, runtime: Runtime, tape: _Tape) -> None:
         self._runtime, self._tape = runtime, tape
-        self._wanderer = Wanderer(self.name, runtime.memory)
+        self._patrol = Patrol(self.name, runtime.memory)
 
     async def step(self, stamp_s: float) -> None:
         if not self._tape.running:
@@ -124,7 +124,7 @@ class _Recorder:
         self._tape.odometry.append(await robot.odometry())
         self._tape.scans.append(await robot.scan())
         self._tape.joints.append(await robot.joints())
-        self._wanderer.step(stamp_s)
+        self._patrol.step(stamp_s)
 
 
 class _FrameRecorder:

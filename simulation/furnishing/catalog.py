@@ -9,9 +9,7 @@ from types import MappingProxyType
 from simulation.furnishing.shapes import BUILDERS, Part, Size3, plain_box
 from simulation.furnishing.small_shapes import SMALL_BUILDERS
 from simulation.houses.colors import Rgb, color_of
-
-GRIPPER_M = 0.09
-"""A thing whose shorter horizontal side is at most this can be grasped with some play, in meters."""
+from simulation.robot.description import RobotDescription
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -37,7 +35,7 @@ class Category:
     @property
     def graspable(self) -> bool:
         """Whether the two-finger hand can take it at its usual size."""
-        return not self.static and min(self.size_m[:2]) <= GRIPPER_M
+        return not self.static and min(self.size_m[:2]) <= RobotDescription().graspable_m
 
     def parts(self, size_m: Size3, color: Rgb) -> tuple[Part, ...]:
         """The primitives that make up one of ``size_m`` meters, about the center of its bottom."""

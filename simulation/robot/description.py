@@ -128,6 +128,8 @@ class RobotDescription:
     """Length, thickness and height of a finger."""
     finger_behind_m: float = 0.03
     """The middle of a finger lies so far behind the point between the finger pads."""
+    graspable_m: float = 0.09
+    """What is no wider can be grasped: as far as the hand opens, less 15 mm of play on either side."""
     stow: ArmTarget = field(
         default_factory=lambda: ArmTarget(lift_m=0.75, extension_m=0.0, wrist_pitch_rad=-math.pi / 2)
     )

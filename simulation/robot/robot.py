@@ -12,9 +12,9 @@ from typing import Any
 import pybullet as p
 
 from scene_graph.geometry.se3 import SE3
+from simulation.robot.contacts import ContactSettings
 from simulation.robot.description import Motor, RobotDescription
 from simulation.robot.robot_urdf import robot_urdf
-from simulation.world.physics import ContactSettings
 from skills.ports import ArmGeometry, ArmTarget
 
 HAND_TURNS = ("base_yaw", "wrist_pitch", "wrist_roll")

@@ -11,12 +11,12 @@ pytest.importorskip("onnx")
 import torch
 
 from perception.network.model import OnnxPanopticModel
+from training.classes import CLASSES, STUFF
 from training.dataset import MOST, Lessons, batch_of
 from training.export import export, weights_of
 from training.fit import Course, fit, trained
 from training.losses import assigned, losses
 from training.muon import orthogonal
-from training.names import CLASSES, STUFF
 from training.network import HEIGHT, PEAKS, QUERIES, WIDTH, Network
 from training.photographs import photographs
 from training.shards import Examples, save_shard

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from simulation.pictures.photographs import FLOOR, WALL
+from training.classes import CLASSES, PREDICATES, STUFF, UNKNOWN
 from training.collecting import SHARD_PICTURES, collect, shards
-from training.names import CLASSES, PREDICATES, STUFF, UNKNOWN
 from training.photographs import HEIGHT, WIDTH, photographs
 from training.scenes import random_scene
 from training.shards import Examples, save_shard

@@ -6,7 +6,7 @@ import pytest
 
 from app.runtime import Runtime
 from app.settings import ClockMode, Settings
-from evaluations.service.probing import PATHS, api_probe
+from evaluations.service.latency import PATHS, api_probe
 from evaluations.service.rates import FROM_MEMORY, SPEED, Player, measured
 from evaluations.service.replay import CAMERA_HZ
 from paths import DATA

@@ -14,7 +14,7 @@ import pytest
 
 from app.journal.audit import Audit
 from app.journal.decisions import outline
-from app.journal.scrubbing import Scrubber
+from app.journal.redaction import Redactor
 from app.journal.tasks import INTERRUPTED, TaskJournal
 from planner.goals import Goal, Predicate
 from planner.tasks.approval import Approval
@@ -32,7 +32,7 @@ class Life:
         self.random = random.Random(seed)
         self.journal = TaskJournal.open(file)
         tasks = self.journal.take_up()
-        self.audit = Audit(self.journal, tasks, scrubber=Scrubber(()))
+        self.audit = Audit(self.journal, tasks, redactor=Redactor(()))
         self.queue = TaskQueue(tasks)
         self.queue.listen(lambda task: self.audit.hear_task(task, 1.0))
 

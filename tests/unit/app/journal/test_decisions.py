@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from app.journal import file as journal_file
 from app.journal.audit import Audit, NotKept
 from app.journal.decisions import Decision, DecisionKind, decisions_between, outline
-from app.journal.scrubbing import LONGEST, Scrubber
+from app.journal.redaction import LONGEST, Redactor
 from app.journal.tasks import TaskJournal
 from app.journal.trace import stored_traces
 from planner.goals import Goal, Predicate
@@ -51,7 +51,7 @@ def journal(file):
 
 @pytest.fixture
 def audit(journal):
-    return Audit(journal, scrubber=Scrubber((KEY,)))
+    return Audit(journal, redactor=Redactor((KEY,)))
 
 
 @pytest.fixture
@@ -127,7 +127,7 @@ class Disk:
 
 def test_what_cannot_be_written_is_not_taken_and_what_is_under_way_goes_on_and_is_told_later(journal, caplog):
     disk = Disk(journal)
-    audit, queue = Audit(disk, scrubber=Scrubber(())), TaskQueue()
+    audit, queue = Audit(disk, redactor=Redactor(())), TaskQueue()
     queue.listen(lambda task: audit.hear_task(task, 0.0))
     task_id = queue.submit("bring the cup", stamp_s=0.0).id
     queue.move(task_id, TaskStatus.PLANNING, stamp_s=0.0)
@@ -193,18 +193,18 @@ def test_what_a_model_was_asked_and_said_is_kept_without_secrets(queue, audit, j
 @given(st.text(max_size=200), st.text(alphabet="abcXYZ0189-_", min_size=6, max_size=40), st.text(max_size=200))
 def test_no_known_secret_is_left_wherever_it_stands(before, secret, after):
     data = {f"{before}{secret}": [f"{before}{secret}{after}", {"deep": (secret,)}]}
-    assert secret not in json.dumps(Scrubber((secret,)).data(data), ensure_ascii=False)
+    assert secret not in json.dumps(Redactor((secret,)).data(data), ensure_ascii=False)
 
 
 def test_ordinary_words_stay_as_they_are():
     text = "bring the token ring to the bearer of good news, e.g. at 10:30, user@example.org; skate-board"
-    assert Scrubber(()).text(text) == text
+    assert Redactor(()).text(text) == text
 
 
 def test_a_full_journal_drops_the_oldest_entries_and_says_so(file):
     journal = TaskJournal.open(file, max_bytes=100_000)
     queue = TaskQueue()
-    audit = Audit(journal, scrubber=Scrubber(()))
+    audit = Audit(journal, redactor=Redactor(()))
     queue.listen(lambda task: audit.hear_task(task, 0.0))
     for _ in range(60):
         carry_out(queue, audit, request="bring the cup " * 20)

@@ -16,12 +16,12 @@ from mcap.reader import make_reader
 from mcap.writer import Writer
 
 from app.recording.errors import NoRecording, RecordingDamaged, RecordingExists
+from app.recording.mcap_writer import WAITING_MOMENTS, McapWriter, free_path
 from app.recording.messages import messages_of
 from app.recording.moment import Moment
 from app.recording.playback import Playback
 from app.recording.profile import profile_of, settings_of
 from app.recording.recorder import Recorder
-from app.recording.tape import WAITING_MOMENTS, Tape, free_path
 from app.recording.topics import SCHEMAS
 from app.settings import Settings
 from perception.geometry.planar import Pose2
@@ -89,16 +89,16 @@ def same(one, other):
 
 
 def recorded(path, moments):
-    tape = Tape(path, PROFILE, limit_bytes=GIGABYTE, chunk_bytes=CHUNK_BYTES)
+    writer = McapWriter(path, PROFILE, limit_bytes=GIGABYTE, chunk_bytes=CHUNK_BYTES)
     for one in moments:
-        assert tape.put_patiently(one)
-    tape.close()
+        assert writer.put_patiently(one)
+    writer.close()
     return path
 
 
 @pytest.fixture(scope="module")
 def tape_file(tmp_path_factory):
-    return recorded(tmp_path_factory.mktemp("tape") / "drive.mcap", [moment(i, i % 4 == 0) for i in range(24)])
+    return recorded(tmp_path_factory.mktemp("recording") / "drive.mcap", [moment(i, i % 4 == 0) for i in range(24)])
 
 
 def test_what_is_recorded_comes_back_bit_for_bit(tape_file):
@@ -142,14 +142,14 @@ def test_a_recording_that_was_cut_off_is_played_up_to_there(tape_file, tmp_path)
 
 def test_what_was_written_when_the_process_is_killed_is_whole_chunks(tmp_path):
     path = tmp_path / "killed.mcap"
-    tape = Tape(path, PROFILE, limit_bytes=GIGABYTE, chunk_bytes=CHUNK_BYTES)
+    writer = McapWriter(path, PROFILE, limit_bytes=GIGABYTE, chunk_bytes=CHUNK_BYTES)
     for index in range(24):
-        tape.put_patiently(moment(index, True))
-    while tape.written < 24:
+        writer.put_patiently(moment(index, True))
+    while writer.written < 24:
         threading.Event().wait(0.01)
     left = tmp_path / "left.mcap"
     left.write_bytes(path.read_bytes())  # what the disk has while nothing has been closed
-    tape.close()
+    writer.close()
     with Playback(left) as playback:
         again = list(playback.moments())
     assert playback.truncated
@@ -213,28 +213,28 @@ def test_a_wrong_message_is_named(tmp_path):
 def test_no_file_is_written_over(tape_file):
     before = tape_file.read_bytes()
     with pytest.raises(RecordingExists, match="exists already"):
-        Tape(tape_file, PROFILE, limit_bytes=GIGABYTE, chunk_bytes=CHUNK_BYTES)
+        McapWriter(tape_file, PROFILE, limit_bytes=GIGABYTE, chunk_bytes=CHUNK_BYTES)
     assert tape_file.read_bytes() == before
     assert free_path(tape_file).name == "drive.2.mcap"
 
 
 def test_a_recording_ends_soundly_at_its_limit(tmp_path, caplog):
     path = tmp_path / "small.mcap"
-    tape = Tape(path, PROFILE, limit_bytes=2 * CHUNK_BYTES, chunk_bytes=CHUNK_BYTES)
+    writer = McapWriter(path, PROFILE, limit_bytes=2 * CHUNK_BYTES, chunk_bytes=CHUNK_BYTES)
     index = 0
-    while tape.put_patiently(moment(index % 8, True)):
+    while writer.put_patiently(moment(index % 8, True)):
         index += 1
         assert index < 200
-    tape.close()
-    assert not tape.running
+    writer.close()
+    assert not writer.running
     assert path.stat().st_size < 4 * CHUNK_BYTES
     assert "has reached its limit" in caplog.text
     with Playback(path) as playback:
-        assert len(list(playback.moments())) == tape.written
+        assert len(list(playback.moments())) == writer.written
     assert not playback.truncated
 
 
-class FullTape:
+class FullWriter:
     """Takes every second moment."""
 
     running = True
@@ -260,25 +260,25 @@ class StillBody:
 @pytest.mark.anyio
 @pytest.mark.parametrize("patient", [False, True])
 async def test_what_found_no_room_is_told_with_the_next_moment(patient):
-    tape, buffer = FullTape(), SensorBuffer(port=None)
-    recorder = Recorder(tape, WorkingMemory(), buffer, StillBody(), patient=patient, period_s=0.1)
+    writer, buffer = FullWriter(), SensorBuffer(port=None)
+    recorder = Recorder(writer, WorkingMemory(), buffer, StillBody(), patient=patient, period_s=0.1)
     buffer.add_scan(moment(1).scan)
     for stamp_s in (0.1, 0.2, 0.3, 0.4):
         await recorder.step(stamp_s)
-    assert [told.now_s for told in tape.taken] == [0.2, 0.4]
-    assert tape.taken[0].scan is buffer.scan
-    assert tape.taken[0].building is not None
-    assert tape.taken[1].scan is tape.taken[1].building is None
+    assert [told.now_s for told in writer.taken] == [0.2, 0.4]
+    assert writer.taken[0].scan is buffer.scan
+    assert writer.taken[0].building is not None
+    assert writer.taken[1].scan is writer.taken[1].building is None
 
 
 def test_who_comes_too_fast_is_counted_and_never_waits(tmp_path, caplog):
-    tape = Tape(tmp_path / "fast.mcap", PROFILE, limit_bytes=GIGABYTE, chunk_bytes=CHUNK_BYTES)
+    writer = McapWriter(tmp_path / "fast.mcap", PROFILE, limit_bytes=GIGABYTE, chunk_bytes=CHUNK_BYTES)
     one = moment(0, True)
-    taken = sum(tape.put(one) for _ in range(6 * WAITING_MOMENTS))
-    tape.close()
-    assert taken == tape.written
-    assert taken + tape.dropped == 6 * WAITING_MOMENTS
-    assert tape.dropped > 0
+    taken = sum(writer.put(one) for _ in range(6 * WAITING_MOMENTS))
+    writer.close()
+    assert taken == writer.written
+    assert taken + writer.dropped == 6 * WAITING_MOMENTS
+    assert writer.dropped > 0
     assert "falls behind" in caplog.text
 
 

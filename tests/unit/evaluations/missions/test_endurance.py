@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 from evaluations.missions.endurance import GROWTH, SWOLLEN_M, WORSE, as_it_is, grown, is_as_right
-from evaluations.missions.inventing import invent
 from evaluations.missions.outcome import Scene
+from evaluations.missions.request_generator import invent
 from simulation.houses.house import House
 from simulation.houses.house_file import load_house
 

@@ -13,16 +13,16 @@ import pytest
 from rich.console import Console
 
 from evaluations.missions.attempts import Attempts
-from evaluations.missions.crowding import boxes_over
+from evaluations.missions.clutter import boxes_over
 from evaluations.missions.disturbances import DISTURBANCES, Moment
+from evaluations.missions.episodes import OUT_OF_REACH, Verdict, impossible_as_told, is_within_reach, touched_last
 from evaluations.missions.evaluation import evaluate, met, summarize
 from evaluations.missions.filmstrip import MOST, Still, draw_filmstrip
-from evaluations.missions.inventing import invent
 from evaluations.missions.mission import Mission
 from evaluations.missions.mission_file import MissionFileError, load_missions
 from evaluations.missions.outcome import HAND, Outcome, Placed, RobotIn, Scene, stirred
-from evaluations.missions.playing import OUT_OF_REACH, Verdict, impossible_as_told, is_within_reach, touched_last
-from evaluations.missions.resident import meant
+from evaluations.missions.request_generator import invent
+from evaluations.missions.simulated_user import meant
 from evaluations.missions.ways import Ways
 from evaluations.perception.inventory import GraphContents, GraphThing
 from perception.network.shipped import SHIPPED

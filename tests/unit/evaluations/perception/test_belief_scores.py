@@ -16,8 +16,8 @@ from evaluations.perception.inventory import (
     true_relations_of,
     true_things,
 )
-from evaluations.perception.onlooker import in_view
 from evaluations.perception.perception import AT_LEAST, AT_MOST, met
+from evaluations.perception.visibility import in_view
 from simulation.houses.house import House
 
 HOUSE = House.model_validate(

@@ -8,7 +8,7 @@ from evaluations.planning.buildings import building
 from evaluations.planning.conversation import ANSWER, CLARIFY, PLAN, REFUSE, Outcome
 from evaluations.planning.judging.expectation_reader import read_expectation
 from evaluations.planning.judging.judge import Verdict, judge
-from evaluations.planning.performance import perform, write
+from evaluations.planning.symbolic_execution import perform, write
 from planner.tasks.tasks import StepReport
 from scene_graph.memory import WorkingMemory
 from skills.registry import load_registry

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from evaluations.service.clients import compared
-from evaluations.service.listening import Reader
+from evaluations.service.stream_load import Reader
 
 ALONE = {"lidar_hz": 10.0, "rgbd_hz": 5.0}
 HEARD = {"fewest": 100, "gaps": 0, "snapshots": 0, "closed": 0}

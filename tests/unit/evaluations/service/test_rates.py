@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from app.scheduler import Turns
-from evaluations.service.probing import Answers
+from evaluations.service.latency import Answers
 from evaluations.service.rates import BESIDE_SIMULATOR, FROM_MEMORY, Counts, summary
 
 SECONDS = 10.0

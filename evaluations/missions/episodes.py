@@ -16,11 +16,11 @@ from numpy.random import Generator
 from app.runtime import Runtime
 from evaluations.mapping.exploration import pass_time, service_in_lockstep, until_explored
 from evaluations.missions.attempts import Attempts
+from evaluations.missions.disturber import Disturber
 from evaluations.missions.filmstrip import Still, draw_filmstrip
-from evaluations.missions.meddler import Meddler
 from evaluations.missions.mission import Mission
 from evaluations.missions.outcome import HAND, Scene, stirred
-from evaluations.missions.resident import Resident
+from evaluations.missions.simulated_user import SimulatedUser
 from evaluations.missions.ways import PASSABLE_M, Point, Ways
 from evaluations.pool import tell
 from planner.tasks.tasks import Task, TaskStatus
@@ -50,15 +50,16 @@ async def play_all(
         began = time.monotonic()
         explored = await until_explored(runtime, house)
         tell(f"{name}: {'explored' if explored else 'given up'} after {runtime.now_s:.0f} simulated seconds")
-        Resident(runtime, house).introduce()
+        SimulatedUser(runtime, house).introduce()
         rows = []
         for number, mission in enumerate(missions):
-            play = _Play(runtime, house, mission, np.random.default_rng((seed, number)), filming=pictures is not None)
-            rows.append(await play.play())
+            rng = np.random.default_rng((seed, number))
+            episode = _Episode(runtime, house, mission, rng, filming=pictures is not None)
+            rows.append(await episode.play())
             line = f"{name}: {rows[-1]['verdict']}: {mission.request} [{mission.disturbance or 'undisturbed'}]"
             tell(line)
             if pictures is not None:
-                draw_filmstrip(house, play.way, play.stills, line, pictures / f"{slug(name)}_{seed}_{number}.png")
+                draw_filmstrip(house, episode.way, episode.stills, line, pictures / f"{slug(name)}_{seed}_{number}.png")
         return {
             "house": name,
             "seed": seed,
@@ -72,7 +73,7 @@ async def play_all(
 
 async def play_mission(runtime: Runtime, house: House, mission: Mission, rng: Generator) -> dict[str, Any]:
     """One mission in a service that is running, and what came of it."""
-    return await _Play(runtime, house, mission, rng).play()
+    return await _Episode(runtime, house, mission, rng).play()
 
 
 async def scene_of(runtime: Runtime, house: House) -> Scene:
@@ -112,7 +113,7 @@ class _Course:
         return sum(math.dist(a, b) for a, b in zip(self.points, self.points[1:], strict=False))
 
 
-class _Play:
+class _Episode:
     """One mission.
 
     Attributes:
@@ -123,8 +124,8 @@ class _Play:
         self, runtime: Runtime, house: House, mission: Mission, rng: Generator, *, filming: bool = False
     ) -> None:
         self._runtime, self._house, self._mission = runtime, house, mission
-        self._meddler = Meddler(runtime, mission, rng)
-        self._resident = Resident(runtime, house)
+        self._disturber = Disturber(runtime, mission, rng)
+        self._user = SimulatedUser(runtime, house)
         self._course = _Course()
         self._attempts = Attempts()
         self._filming, self._failures = filming, 0
@@ -152,15 +153,15 @@ class _Play:
         await self._film(after, task.explanation or task.reply)
         row = self._judged(task, before, after, within_reach=within_reach)
         collisions = int(after.truth["collisions"]) - int(before.truth["collisions"])
-        await self._meddler.tidy_up()
+        await self._disturber.tidy_up()
         return {
             "kind": self._mission.kind,
             "request": self._mission.request,
             "disturbance": self._mission.disturbance,
-            "made": self._meddler.made_s is not None,
+            "made": self._disturber.made_s is not None,
             **row,
             "ended": {name: _whereabouts(after, name) for name in self._mission.things},
-            "answers": self._resident.answers,
+            "answers": self._user.answers,
             "dialogue": [question for question, _ in task.dialogue],
             "status": task.status.value,
             "codes": [failure.code for failure in task.failures],
@@ -203,7 +204,7 @@ class _Play:
 
     async def _answer(self, task: Task) -> None:
         """Say which one is meant; where the right one is not offered, give the request up."""
-        text = self._resident.answer(task, self._mission, await self._scene())
+        text = self._user.answer(task, self._mission, await self._scene())
         if text is None:
             self._course.asked = True
             self._runtime.queue.cancel(task.id, stamp_s=self._runtime.now_s)
@@ -211,14 +212,14 @@ class _Play:
             self._runtime.queue.answer(task.id, text, stamp_s=self._runtime.now_s)
 
     async def _interfere(self, scene: Scene, task: Task, since_s: float) -> None:
-        calm = self._meddler.made_s is None
-        await self._meddler.step(scene, task, since_s)
-        if calm and self._meddler.made_s is not None:
+        calm = self._disturber.made_s is None
+        await self._disturber.step(scene, task, since_s)
+        if calm and self._disturber.made_s is not None:
             await self._film(scene, f"disturbed: {self._mission.disturbance.replace('_', ' ')}")
 
     async def _note(self, scene: Scene, task: Task) -> None:
         """Take down what was tried, and what went wrong, since the last look."""
-        for attempt in self._attempts.check(scene, calm=self._meddler.made_s is None):
+        for attempt in self._attempts.check(scene, calm=self._disturber.made_s is None):
             await self._film(scene, f"{attempt.step} {'done' if attempt.done else 'not done'}")
         for failure in task.failures[self._failures :]:
             await self._film(scene, f"{failure.code}: {failure.message}")
@@ -236,8 +237,8 @@ class _Play:
         outcomes = self._mission.outcomes
         met = any(outcome.met(after, task) and (reported or outcome.refused) for outcome in outcomes)
         question = all(outcome.words and not outcome.states for outcome in outcomes)
-        possible = self._meddler.possible and within_reach
-        reasons = self._meddler.reasons | (frozenset() if within_reach else OUT_OF_REACH)
+        possible = self._disturber.possible and within_reach
+        reasons = self._disturber.reasons | (frozenset() if within_reach else OUT_OF_REACH)
         if met:
             verdict = Verdict.DONE
         elif reported:
@@ -248,7 +249,7 @@ class _Play:
             verdict = Verdict.ASKED
         else:
             verdict = Verdict.REFUSED if task.status is TaskStatus.REFUSED else Verdict.HONEST_FAILURE
-        spared = frozenset(self._mission.things) | self._meddler.touched
+        spared = frozenset(self._mission.things) | self._disturber.touched
         return {
             "verdict": verdict,
             "possible": possible,

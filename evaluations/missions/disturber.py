@@ -21,7 +21,7 @@ _STROLL_S = 25.0
 """So long a person stands in the way before they go home."""
 
 
-class Meddler:
+class Disturber:
     """Interferes once with one mission.
 
     Attributes:

@@ -22,7 +22,7 @@ STYLES = {
 _WIDTH = 10
 
 
-class Teller:
+class ProgressPrinter:
     """Prints what is new about one task, a line each."""
 
     def __init__(self, console: Console) -> None:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from evaluations.perception.inventory import GraphThing, TrueThing
-from evaluations.perception.stocktaking import Identities, off_m, take_stock
+from evaluations.perception.matching import Identities, match_things, off_m
 
 
 def thing(name, category, position, size=(0.08, 0.08, 0.1), **more):
@@ -25,21 +25,23 @@ BED = thing("a_bed", "bed", (4.0, 2.0, 0.45), size=(1.5, 2.0, 0.9), furniture=Tr
 
 def test_a_node_is_the_nearest_thing_of_its_name_and_each_only_once():
     other = thing("other_cup", "cup", (1.3, 1.0, 0.8))
-    stock = take_stock([CUP, other], [node("cup_1", "cup", (1.28, 1.0, 0.8)), node("cup_2", "cup", (1.2, 1.0, 0.8))])
-    assert stock.named == {"a_cup": "cup_2", "other_cup": "cup_1"}
-    assert stock.misnamed == stock.duplicates == {}
-    assert stock.invented == ()
+    matching = match_things(
+        [CUP, other], [node("cup_1", "cup", (1.28, 1.0, 0.8)), node("cup_2", "cup", (1.2, 1.0, 0.8))]
+    )
+    assert matching.named == {"a_cup": "cup_2", "other_cup": "cup_1"}
+    assert matching.misnamed == matching.duplicates == {}
+    assert matching.invented == ()
 
 
 def test_a_small_thing_is_looked_for_within_half_a_meter():
-    assert take_stock([CUP], [node("cup_1", "cup", (1.45, 1.0, 0.8))]).named == {"a_cup": "cup_1"}
-    assert take_stock([CUP], [node("cup_1", "cup", (1.55, 1.0, 0.8))]).invented == ("cup_1",)
+    assert match_things([CUP], [node("cup_1", "cup", (1.45, 1.0, 0.8))]).named == {"a_cup": "cup_1"}
+    assert match_things([CUP], [node("cup_1", "cup", (1.55, 1.0, 0.8))]).invented == ("cup_1",)
 
 
 @pytest.mark.parametrize(("x_m", "found"), [(4.7, True), (4.0 + 0.75 + 0.25, True), (4.0 + 0.75 + 0.35, False)])
 def test_furniture_is_looked_for_around_its_footprint(x_m, found):
-    stock = take_stock([BED], [node("bed_1", "bed", (x_m, 2.0, 0.4), size=(1.4, 1.9, 0.8))])
-    assert stock.named == ({"a_bed": "bed_1"} if found else {})
+    matching = match_things([BED], [node("bed_1", "bed", (x_m, 2.0, 0.4), size=(1.4, 1.9, 0.8))])
+    assert matching.named == ({"a_bed": "bed_1"} if found else {})
 
 
 def test_a_turned_footprint_is_turned():
@@ -50,15 +52,15 @@ def test_a_turned_footprint_is_turned():
 
 
 def test_a_thing_under_another_name_is_misnamed_and_not_invented():
-    stock = take_stock([CUP], [node("mug_1", "mug", (1.03, 1.0, 0.8))])
-    assert stock.misnamed == stock.node_of == {"a_cup": "mug_1"}
-    assert stock.thing_of == {"mug_1": "a_cup"}
-    assert stock.named == {}
-    assert stock.invented == ()
+    matching = match_things([CUP], [node("mug_1", "mug", (1.03, 1.0, 0.8))])
+    assert matching.misnamed == matching.node_of == {"a_cup": "mug_1"}
+    assert matching.thing_of == {"mug_1": "a_cup"}
+    assert matching.named == {}
+    assert matching.invented == ()
 
 
 def test_what_is_much_smaller_than_a_thing_is_not_that_thing_under_another_name():
-    assert take_stock([BED], [node("book_1", "book", (4.0, 2.0, 0.5))]).invented == ("book_1",)
+    assert match_things([BED], [node("book_1", "book", (4.0, 2.0, 0.5))]).invented == ("book_1",)
 
 
 def test_a_second_node_of_one_thing_is_a_duplicate_by_name_or_by_place():
@@ -67,21 +69,21 @@ def test_a_second_node_of_one_thing_is_a_duplicate_by_name_or_by_place():
         node("cup_2", "cup", (1.3, 1.0, 0.8)),
         node("mug_1", "mug", (1.05, 1.0, 0.8)),
     ]
-    stock = take_stock([CUP], nodes)
-    assert stock.named == {"a_cup": "cup_1"}
-    assert stock.duplicates == {"cup_2": "a_cup", "mug_1": "a_cup"}
+    matching = match_things([CUP], nodes)
+    assert matching.named == {"a_cup": "cup_1"}
+    assert matching.duplicates == {"cup_2": "a_cup", "mug_1": "a_cup"}
 
 
 def test_a_nodes_own_name_goes_before_a_nearer_place():
     mug = thing("a_mug", "mug", (1.1, 1.0, 0.8))
-    stock = take_stock([CUP, mug], [node("cup_1", "cup", (1.1, 1.0, 0.8)), node("mug_1", "mug", (1.0, 1.0, 0.8))])
-    assert stock.named == {"a_cup": "cup_1", "a_mug": "mug_1"}
+    matching = match_things([CUP, mug], [node("cup_1", "cup", (1.1, 1.0, 0.8)), node("mug_1", "mug", (1.0, 1.0, 0.8))])
+    assert matching.named == {"a_cup": "cup_1", "a_mug": "mug_1"}
 
 
 def test_nothing_there_and_nothing_known_is_no_mistake():
-    assert take_stock([], []).node_of == {}
-    assert take_stock([CUP], []).node_of == {}
-    assert take_stock([], [node("cup_1", "cup", (0, 0, 0))]).invented == ("cup_1",)
+    assert match_things([], []).node_of == {}
+    assert match_things([CUP], []).node_of == {}
+    assert match_things([], [node("cup_1", "cup", (0, 0, 0))]).invented == ("cup_1",)
 
 
 def test_the_error_is_the_distance_between_centers():

@@ -37,7 +37,7 @@ def free_path(path: Path) -> Path:
     return free
 
 
-class Tape:
+class McapWriter:
     """Writes moments to a new file. ``put`` never waits for the disk, ``put_patiently`` does.
 
     The thread ends itself, and says so, when the file has ``limit_bytes`` or cannot be written; what is in it then is
@@ -70,7 +70,7 @@ class Tape:
         self._writer.add_metadata(PROFILE, dict(profile))
         self._channels = {topic: self._channel(topic) for topic in SCHEMAS}
         self._sequence = 0
-        self._thread = threading.Thread(target=self._write_all, name="tape", daemon=True)
+        self._thread = threading.Thread(target=self._write_all, name="recording", daemon=True)
         self._thread.start()
 
     @property

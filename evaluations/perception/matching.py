@@ -20,7 +20,7 @@ SIZE_RATIO = 2.5
 
 
 @dataclass(frozen=True, kw_only=True)
-class Stocktaking:
+class Matching:
     """True identifiers by node and the other way round.
 
     ``named``: true thing -> node of its name. ``misnamed``: true thing -> node of another name. ``duplicates``: node ->
@@ -43,7 +43,7 @@ class Stocktaking:
         return {node: thing for thing, node in self.node_of.items()}
 
 
-def take_stock(true: Sequence[TrueThing], graph: Sequence[GraphThing]) -> Stocktaking:
+def match_things(true: Sequence[TrueThing], graph: Sequence[GraphThing]) -> Matching:
     """Assign nodes to things of their own name first, then to the rest by place and size; then sort what is left."""
     named = _assign(true, graph, _may_be)
     left_true = [thing for thing in true if thing.id not in named]
@@ -51,7 +51,7 @@ def take_stock(true: Sequence[TrueThing], graph: Sequence[GraphThing]) -> Stockt
     misnamed = _assign(left_true, left, _looks_like)
     left = [node for node in left if node.id not in misnamed.values()]
     duplicates = {node.id: again for node in left if (again := _already(true, node)) is not None}
-    return Stocktaking(
+    return Matching(
         named=named,
         misnamed=misnamed,
         duplicates=duplicates,
@@ -87,7 +87,7 @@ class Identities:
             if thing.id in self.last and self.last[thing.id] in nodes and _near(thing, nodes[self.last[thing.id]])
         }
         rest = [node for node in graph if node.id not in kept.values()]
-        fresh = take_stock([thing for thing in true if thing.id not in kept], rest).node_of
+        fresh = match_things([thing for thing in true if thing.id not in kept], rest).node_of
         self.switches += sum(thing in self.last and self.last[thing] != node for thing, node in fresh.items())
         self.last |= kept | fresh
 

@@ -22,7 +22,7 @@ STOWED = ArmTarget(lift_m=0.75, extension_m=0.0, wrist_pitch_rad=-math.pi / 2)
 
 @dataclass(frozen=True, kw_only=True)
 class Measured:
-    """Limbs as measured: meters and radians."""
+    """Actuators as measured: meters and radians."""
 
     arm: ArmTarget
     pan_rad: float
@@ -31,7 +31,7 @@ class Measured:
     finger_contacts: tuple[bool, bool]
 
 
-class Limbs:
+class Actuators:
     """Commands are clipped to the limits, and sent when they change: a controller begins anew with each."""
 
     def __init__(self, profile: Profile, connection: Connection) -> None:
@@ -47,7 +47,7 @@ class Limbs:
         return topics
 
     def measured(self, joints: Joints) -> Measured:
-        """What the joints say; of limbs that are not there, that they rest."""
+        """What the joints say; of actuators that are not there, that they rest."""
         arm, head, gripper = self._profile.arm, self._profile.head, self._profile.gripper
         at, effort = joints.position, joints.effort
         return Measured(

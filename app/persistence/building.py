@@ -9,8 +9,8 @@ import threading
 from collections.abc import Callable
 from pathlib import Path
 
-from app.memory.history_file import HistoryFile
-from app.memory.node_history import NodeHistory
+from app.persistence.history_file import HistoryFile
+from app.persistence.node_history import NodeHistory
 from perception.crossing import lose_robot
 from scene_graph.identifiers import slug
 from scene_graph.long_term.keeping import held_in, rooms_to_keep, take_up

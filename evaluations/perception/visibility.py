@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from app.runtime import Runtime
 from evaluations.perception.belief_scores import Sightings
 from evaluations.perception.inventory import GraphThing, Size3, graph_contents, sizes_of, true_things
-from evaluations.perception.stocktaking import Identities
+from evaluations.perception.matching import Identities
 from scene_graph.nodes import ObjectNode
 from simulation.houses.house import House, room_at
 from simulation.robot.description import RobotDescription
@@ -25,14 +25,14 @@ IDENTITIES_EVERY = 4
 """Turns between two comparisons of identities."""
 
 
-class Onlooker:
+class VisibilityMonitor:
     """An agent that takes the last turn twice a simulated second.
 
     Attributes:
         sizes: extent of every thing that can be moved; what is brought in later is added from outside.
     """
 
-    name = "onlooker"
+    name = "visibility"
     period_s = 0.5
 
     def __init__(self, runtime: Runtime, house: House) -> None:

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 
-from app.memory.building import Remembering, building_folder
+from app.persistence.building import Remembering, building_folder
 from perception.crossing import find_robot
 from perception.geometry.planar import Pose2
 from planner.mission.teaching import teach

@@ -8,9 +8,9 @@ import math
 from collections.abc import Sequence
 
 from app.runtime import Runtime
-from evaluations.missions.inventing import room_name
 from evaluations.missions.mission import Mission
 from evaluations.missions.outcome import Scene
+from evaluations.missions.referring_expressions import room_name
 from evaluations.perception.inventory import GraphContents, graph_contents
 from planner.mission.teaching import teach
 from planner.tasks.tasks import Task
@@ -23,7 +23,7 @@ _ORDINALS = ("first", "second", "third", "fourth", "fifth")
 """As many as the robot offers at once."""
 
 
-class Resident:
+class SimulatedUser:
     """Knows the house by its truth, and tells the robot only what its requests are about, in words.
 
     Attributes:

@@ -9,7 +9,7 @@ from urllib.parse import quote
 HIDDEN = "[hidden]"
 
 
-class DiscreetFormatter(logging.Formatter):
+class RedactingFormatter(logging.Formatter):
     """A formatter that writes ``[hidden]`` for secrets, in messages and stack traces, also as addresses hold them."""
 
     def __init__(self, layout: str, *, secrets: Iterable[str]) -> None:

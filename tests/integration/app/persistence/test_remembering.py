@@ -6,7 +6,7 @@ import signal
 import anyio
 import pytest
 
-from app.memory.building import building_folder
+from app.persistence.building import building_folder
 from app.runtime import Runtime
 from app.settings import ClockMode, Settings
 from app.views.scene_documents import document_nodes

@@ -8,7 +8,7 @@ from typing import Literal
 
 from pydantic import TypeAdapter
 
-from app.memory.node_history import NodeHistory, Pasts
+from app.persistence.node_history import NodeHistory, Pasts
 from scene_graph.long_term.json_files import replace_file, set_aside
 
 FILE = "history.json"

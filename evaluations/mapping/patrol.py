@@ -11,7 +11,7 @@ from scene_graph.nodes import ROBOT_ID, RoomNode
 _ENDED = (IntentionStatus.DONE, IntentionStatus.FAILED)
 
 
-class Wanderer:
+class Patrol:
     """Proposes visits to rooms drawn at random.
 
     Attributes:

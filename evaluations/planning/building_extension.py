@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from random import Random
 
 FIRST = 100
-"""Numbers of rooms and things in the crowd begin here, so that those written by hand keep theirs."""
+"""Numbers of rooms and things of the extension begin here, so that those written by hand keep theirs."""
 COLORS = ("red", "blue", "green", "black", "white", "gray", "yellow", "brown", "silver")
 ROOMS_PER_CORRIDOR = 24
 
@@ -53,13 +53,13 @@ HOSPITAL = (
     Furnishing(label="storage", pieces=(("shelf", "towel soap pen bottle", 6),) * 4, numbered=False),
     Furnishing(label="bathroom", pieces=(("sink", "soap towel", 2), ("cabinet", "towel", 3)), numbered=False),
 )
-CROWDS = {"office": OFFICE, "school": SCHOOL, "hospital": HOSPITAL}
+EXTENSIONS = {"office": OFFICE, "school": SCHOOL, "hospital": HOSPITAL}
 
 
-def crowd_lines(kind: str, nodes: int, seed: int) -> Iterator[str]:
+def extension_lines(kind: str, nodes: int, seed: int) -> Iterator[str]:
     """Lines of a floor plan with about ``nodes`` more nodes; the same seed, the same lines."""
     random, numbers = Random(f"{kind} {seed}"), Counter[str]()
-    rooms, furnishings = 0, CROWDS[kind]
+    rooms, furnishings = 0, EXTENSIONS[kind]
     while nodes > 0:
         if rooms % ROOMS_PER_CORRIDOR == 0:
             wing = rooms // ROOMS_PER_CORRIDOR

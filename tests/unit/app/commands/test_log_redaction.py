@@ -5,13 +5,13 @@ from __future__ import annotations
 import io
 import logging
 
-from app.commands.discretion import DiscreetFormatter
+from app.commands.log_redaction import RedactingFormatter
 
 
 def logged(secrets, write):
     lines = io.StringIO()
     handler = logging.StreamHandler(lines)
-    handler.setFormatter(DiscreetFormatter("%(name)s: %(message)s", secrets=secrets))
+    handler.setFormatter(RedactingFormatter("%(name)s: %(message)s", secrets=secrets))
     logger = logging.getLogger("test of discretion")
     logger.addHandler(handler)
     logger.propagate = False

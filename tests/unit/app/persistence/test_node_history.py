@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from app.memory.node_history import ENTRIES, NodeHistory
+from app.persistence.node_history import ENTRIES, NodeHistory
 
 
 def thing(at=(1.0, 2.0, 0.8), *, state="present", seen_s=0.0, room="room_1", name="", label="cup"):

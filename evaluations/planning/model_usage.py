@@ -16,7 +16,7 @@ from scene_graph.snapshot import Snapshot
 from skills.registry import load_registry
 
 
-class Counted:
+class CountedModel:
     """A language model, how often it was asked, and whether what it said last was a question of its own."""
 
     def __init__(self, model: LanguageModel) -> None:

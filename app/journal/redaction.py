@@ -20,7 +20,7 @@ _LOOKS_SECRET = (
 )
 
 
-class Scrubber:
+class Redactor:
     """Replaces secrets in texts and plain data.
 
     Args:
@@ -43,7 +43,7 @@ class Scrubber:
         return f"{text[: LONGEST // 2]} … ({left_out} characters left out) … {text[-LONGEST // 2 :]}"
 
     def data(self, data: Any) -> Any:
-        """Plain data with all texts in it scrubbed, keys too."""
+        """Plain data with all texts in it redacted, keys too."""
         if isinstance(data, str):
             return self.text(data)
         if isinstance(data, Mapping):

@@ -6,7 +6,7 @@ import json
 
 import pytest
 
-from training.card import BEGIN, END, CardError, write
+from training.model_card import BEGIN, END, CardError, write
 
 REPORT = {
     "pictures": 8, "recall": 0.5, "precision": 0.75, "least_class": None, "mask_iou": 0.9,

@@ -12,7 +12,7 @@ import numpy as np
 from simulation.generation.stocking import stocked_house
 from simulation.pictures.photographer import photographer
 from simulation.pictures.photographs import Photograph
-from training.photographs import photographs
+from training.rooms.photographs import photographs
 from training.shards import save_shard
 
 SHARD_PICTURES = 300

@@ -18,7 +18,7 @@ from training.fit import Course, fit, trained
 from training.losses import assigned, losses
 from training.muon import orthogonal
 from training.network import HEIGHT, PEAKS, QUERIES, WIDTH, Network
-from training.photographs import photographs
+from training.rooms.photographs import photographs
 from training.shards import Examples, save_shard
 
 pytestmark = pytest.mark.filterwarnings("ignore")

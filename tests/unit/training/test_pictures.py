@@ -8,10 +8,11 @@ import numpy as np
 import pytest
 
 from simulation.pictures.photographs import FLOOR, WALL
+from simulation.robot.description import CameraDescription
 from training.classes import CLASSES, PREDICATES, STUFF, UNKNOWN
 from training.collecting import SHARD_PICTURES, collect, shards
-from training.photographs import HEIGHT, WIDTH, photographs
-from training.scenes import random_scene
+from training.rooms.photographs import photographs
+from training.rooms.scenes import random_scene
 from training.shards import Examples, save_shard
 
 
@@ -56,7 +57,8 @@ def test_what_is_on_something_touches_it():
 
 
 def test_pictures_show_several_things(pictures):
-    assert all(picture.rgb.shape == (HEIGHT, WIDTH, 3) for picture in pictures)
+    camera = CameraDescription()
+    assert all(picture.rgb.shape == (camera.height_px, camera.width_px, 3) for picture in pictures)
     assert np.mean([np.count_nonzero(picture.pixels()[2:] > 60) for picture in pictures]) > 3
     assert all(picture.categories[:2] == ("wall", "floor") for picture in pictures)
     assert (WALL, FLOOR) == (0, 1)

@@ -12,16 +12,22 @@ from numpy.typing import NDArray
 
 from simulation.furnishing.shapes import box
 from simulation.pictures.photographs import MOST_INSTANCES, NOTHING, Photograph, photograph
-from training.scenes import Item, Scene, random_scene, visible_targets
-from training.shapes import Generator, random_color
+from simulation.robot.camera import BODY_MASK
+from simulation.robot.description import RobotDescription
+from training.rooms.scene import Item, Scene
+from training.rooms.scenes import random_scene, visible_targets
+from training.rooms.shapes import Generator, random_color
 
-WIDTH, HEIGHT = 320, 240
+ROBOT = RobotDescription()
+CAMERA = ROBOT.camera
 VIEWS = 3
+"""Of one room; chosen."""
 _TRIES = 4
 _SEEN_PX = 60
-_NEAR_M, _FAR_M = 0.05, 30.0
+"""What fewer pixels show does not count among what makes a picture worth a look."""
 _KINDS = {"box": p.GEOM_BOX, "cylinder": p.GEOM_CYLINDER, "sphere": p.GEOM_SPHERE}
 _VOLUME = 32
+"""Cells along each axis of the grain of surfaces, which repeats itself."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -64,7 +70,10 @@ def _worth_a_look(
         for body in hand:
             p.removeBody(body, physicsClientId=client)
         pixels = picture.pixels()[2:]
-        if np.count_nonzero(pixels > _SEEN_PX) >= wanted and pixels.max(initial=0) < 0.6 * WIDTH * HEIGHT:
+        if (
+            np.count_nonzero(pixels > _SEEN_PX) >= wanted
+            and pixels.max(initial=0) < 0.6 * CAMERA.width_px * CAMERA.height_px
+        ):
             break
     return picture
 
@@ -94,8 +103,10 @@ def _body(item: Item, client: int) -> list[int]:
 def _lens(scene: Scene, targets: list[tuple[Item, tuple[float, float, float]]], rng: Generator) -> _Lens:
     """Where the camera stands and what it looks at; the robot's own height and angle half of the time."""
     usual = rng.random() < 0.5
-    height = 1.4 + (float(rng.normal(0.0, 0.02)) if usual else float(rng.uniform(-0.45, 0.35)))
-    width_rad = math.radians(60.0 if usual else float(rng.uniform(48.0, 74.0)))
+    height = ROBOT.geometry.camera_height_m + (
+        float(rng.normal(0.0, 0.02)) if usual else float(rng.uniform(-0.45, 0.35))
+    )
+    width_rad = CAMERA.horizontal_fov_rad if usual else math.radians(float(rng.uniform(48.0, 74.0)))
     roll = 0.0 if usual else float(rng.normal(0.0, 0.03))
     for _ in range(60):
         aimed = targets and rng.random() < 0.85
@@ -118,7 +129,7 @@ def _lens(scene: Scene, targets: list[tuple[Item, tuple[float, float, float]]], 
     side /= max(float(np.linalg.norm(side)), 1e-6)
     up = np.cross(side, forward)
     up = math.cos(roll) * up + math.sin(roll) * side
-    return _Lens(eye_m=eye, forward=forward, up=up, focal_px=WIDTH / 2 / math.tan(width_rad / 2))
+    return _Lens(eye_m=eye, forward=forward, up=up, focal_px=CAMERA.width_px / 2 / math.tan(width_rad / 2))
 
 
 def _free(scene: Scene, eye: NDArray[np.float64]) -> bool:
@@ -161,20 +172,29 @@ def _hand(lens: _Lens, client: int, rng: Generator) -> list[int]:
 def _photograph(scene: Scene, bodies: list[list[int]], lens: _Lens, look: _Look, client: int) -> Photograph:
     view = p.computeViewMatrix(lens.eye_m.tolist(), (lens.eye_m + lens.forward).tolist(), lens.up.tolist())
     projection = p.computeProjectionMatrixFOV(
-        math.degrees(2 * math.atan(HEIGHT / 2 / lens.focal_px)), WIDTH / HEIGHT, _NEAR_M, _FAR_M
+        math.degrees(2 * math.atan(CAMERA.height_px / 2 / lens.focal_px)),
+        CAMERA.width_px / CAMERA.height_px,
+        *CAMERA.clip_m,
     )
     _, _, rgba, buffer, segmentation = p.getCameraImage(
-        WIDTH, HEIGHT, view, projection, renderer=p.ER_TINY_RENDERER, physicsClientId=client, **look.light
+        CAMERA.width_px,
+        CAMERA.height_px,
+        view,
+        projection,
+        renderer=p.ER_TINY_RENDERER,
+        physicsClientId=client,
+        **look.light,
     )
-    buffer = np.asarray(buffer, dtype=np.float64).reshape(HEIGHT, WIDTH)
-    depth_m = _FAR_M * _NEAR_M / (_FAR_M - (_FAR_M - _NEAR_M) * buffer)
+    buffer = np.asarray(buffer, dtype=np.float64).reshape(CAMERA.height_px, CAMERA.width_px)
+    near_m, far_m = CAMERA.clip_m
+    depth_m = far_m * near_m / (far_m - (far_m - near_m) * buffer)
     of_body = np.full(max(max(made) for made in bodies) + 66, NOTHING, dtype=np.uint8)
     for index, made in enumerate(bodies):
         of_body[made] = index
-    segmentation = np.asarray(segmentation, dtype=np.int64).reshape(HEIGHT, WIDTH)
-    body = np.where(segmentation >= 0, segmentation & ((1 << 24) - 1), len(of_body) - 1)
+    segmentation = np.asarray(segmentation, dtype=np.int64).reshape(CAMERA.height_px, CAMERA.width_px)
+    body = np.where(segmentation >= 0, segmentation & BODY_MASK, len(of_body) - 1)
     ids = of_body[np.minimum(body, len(of_body) - 1)]
-    rgb = np.asarray(rgba, dtype=np.uint8).reshape(HEIGHT, WIDTH, 4)[:, :, :3]
+    rgb = np.asarray(rgba, dtype=np.uint8).reshape(CAMERA.height_px, CAMERA.width_px, 4)[:, :, :3]
     rgb = look.painted(rgb, ids, _points(depth_m, lens))
     return photograph(
         rgb, ids, depth_m, [item.category for item in scene.items], [item.solid() for item in scene.items]
@@ -183,10 +203,10 @@ def _photograph(scene: Scene, bodies: list[list[int]], lens: _Lens, look: _Look,
 
 def _points(depth_m: NDArray[np.float64], lens: _Lens) -> NDArray[np.float32]:
     """(H, W, 3) where each pixel's ray ends, in the room."""
-    rows, columns = np.mgrid[0:HEIGHT, 0:WIDTH]
+    rows, columns = np.mgrid[0 : CAMERA.height_px, 0 : CAMERA.width_px]
     right = np.cross(lens.forward, lens.up)
-    x = (columns - (WIDTH - 1) / 2) / lens.focal_px * depth_m
-    y = (rows - (HEIGHT - 1) / 2) / lens.focal_px * depth_m
+    x = (columns - (CAMERA.width_px - 1) / 2) / lens.focal_px * depth_m
+    y = (rows - (CAMERA.height_px - 1) / 2) / lens.focal_px * depth_m
     points = lens.eye_m + depth_m[..., None] * lens.forward + x[..., None] * right - y[..., None] * lens.up
     return points.astype(np.float32)
 

@@ -20,17 +20,31 @@ from training.shards import Examples
 
 MOST = 40
 """Things of a picture that are asked for, the largest first; wall and floor come before them."""
-SMALLEST_PX = 20
-_HINT_PX = 6
-LARGE_PX = 44.0
-"""Square root of the area from which on a thing belongs to the coarse heat map."""
-_NOISE = 0.5
-_CUT = 0.5
 _TILES = 4
-_TILE_SHARES = (0.45, 0.95)
+"""Of a mosaic, two rows of two."""
 _TILE_THINGS = 60
+"""So many things of each tile are kept: with wall and floor, four times as many are numbered in a byte."""
 _NOTHING = 255
-_CLEAR_PX = 300
+
+
+@dataclass(frozen=True, kw_only=True)
+class LessonSettings:
+    """What of a picture is asked for, and how pictures are changed before they are shown; chosen."""
+
+    smallest_px: int = 20
+    """What fewer pixels show of a thing is not asked for."""
+    hint_px: int = 6
+    """Nor is it held against the network to find it, from so many on."""
+    large_px: float = 44.0
+    """Square root of the area from which on a thing belongs to the coarse heat map."""
+    noise_share: float = 0.5
+    """Of pictures that get noise."""
+    cut_share: float = 0.5
+    """Of pictures of which a part is shown."""
+    tile_shares: tuple[float, float] = (0.45, 0.95)
+    """Of the picture's sides that a tile of a mosaic shows."""
+    clear_px: int = 300
+    """Things that so many pixels show are chosen to have a tile around them."""
 
 
 @dataclass(kw_only=True)
@@ -76,8 +90,15 @@ class Lessons(Dataset[Row]):
             is the likelier the rarer it is: there is more to learn from each (Bochkovskiy et al. 2020, YOLOv4).
     """
 
-    def __init__(self, examples: Examples, *, vary: bool, mosaics: float = 0.0) -> None:
-        self._examples, self._vary, self.mosaics = examples, vary, mosaics
+    def __init__(
+        self,
+        examples: Examples,
+        *,
+        vary: bool,
+        mosaics: float = 0.0,
+        settings: LessonSettings = LessonSettings(),
+    ) -> None:
+        self._examples, self._vary, self.mosaics, self._settings = examples, vary, mosaics, settings
         counts = examples.counts()
         self._rarity = 1.0 / np.sqrt(np.maximum(counts, 1.0))
 
@@ -91,17 +112,17 @@ class Lessons(Dataset[Row]):
             return self._row(shown, shown.rgb.astype(np.float32))
         shown = self._mosaic(index, rng) if rng.random() < self.mosaics else self._single(index, rng)
         curve = 255.0 * np.linspace(0.0, 1.0, 256) ** np.exp(rng.normal(0.0, 0.15))
-        return self._row(shown, _disturbed(curve.astype(np.uint8)[shown.rgb].astype(np.float32), rng))
+        return self._row(shown, _disturbed(curve.astype(np.uint8)[shown.rgb].astype(np.float32), rng, self._settings))
 
-    @staticmethod
-    def _row(shown: _Shown, image: NDArray[np.float32]) -> Row:
-        targets = _targets(np.ascontiguousarray(shown.ids), shown.classes, shown.distances_m, shown.relations)
+    def _row(self, shown: _Shown, image: NDArray[np.float32]) -> Row:
+        ids = np.ascontiguousarray(shown.ids)
+        targets = _targets(ids, shown.classes, shown.distances_m, shown.relations, self._settings)
         normalized = (image - np.array(MEAN, np.float32)) / np.array(STD, np.float32)
         return {"image": np.ascontiguousarray(normalized.transpose(2, 0, 1), dtype=np.float32), **targets}
 
     def _single(self, index: int, rng: np.random.Generator) -> _Shown:
         rgb, ids, classes, distances_m, relations = self._examples[index]
-        rgb, ids, zoom = _cut(rgb, ids, rng)
+        rgb, ids, zoom = _cut(rgb, ids, rng, self._settings.cut_share)
         return _mirrored(_sized((HEIGHT, WIDTH), zoom, rgb, ids, classes, distances_m, relations), rng)
 
     def _mosaic(self, index: int, rng: np.random.Generator) -> _Shown:
@@ -126,9 +147,9 @@ class Lessons(Dataset[Row]):
         """A quarter of the network's picture, around one of the things."""
         rgb, ids, classes, distances_m, relations = self._examples[index]
         pixels = np.bincount(ids.ravel(), minlength=256)[: len(classes)]
-        clear = np.nonzero(pixels[len(STUFF) :] >= _CLEAR_PX)[0] + len(STUFF)
+        clear = np.nonzero(pixels[len(STUFF) :] >= self._settings.clear_px)[0] + len(STUFF)
         height, width = ids.shape
-        share = float(rng.uniform(*_TILE_SHARES))
+        share = float(rng.uniform(*self._settings.tile_shares))
         h, w = int(height * share), int(width * share)
         middle = np.array((rng.uniform(0, height), rng.uniform(0, width)))
         if len(clear):
@@ -199,10 +220,10 @@ def _padded(values: NDArray[np.generic], value: int) -> NDArray[np.generic]:
 
 
 def _cut(
-    rgb: NDArray[np.uint8], ids: NDArray[np.uint8], rng: np.random.Generator
+    rgb: NDArray[np.uint8], ids: NDArray[np.uint8], rng: np.random.Generator, cut_share: float
 ) -> tuple[NDArray[np.uint8], NDArray[np.uint8], float]:
     """A part of the picture half of the time, and how much nearer everything seems by it."""
-    if rng.random() > _CUT:
+    if rng.random() > cut_share:
         return rgb, ids, 1.0
     height, width = ids.shape
     share = float(rng.uniform(0.62, 1.0))
@@ -212,7 +233,7 @@ def _cut(
     return rgb[top : top + h, left : left + w], ids[top : top + h, left : left + w], 1.0 / share
 
 
-def _disturbed(image: NDArray[np.float32], rng: np.random.Generator) -> NDArray[np.float32]:
+def _disturbed(image: NDArray[np.float32], rng: np.random.Generator, settings: LessonSettings) -> NDArray[np.float32]:
     """Another exposure and color of light, noise, and now and then blur."""
     if rng.random() < 0.7:
         gain = np.exp(rng.normal(0.0, 0.2)) * np.exp(rng.normal(0.0, 0.05, 3))
@@ -221,16 +242,22 @@ def _disturbed(image: NDArray[np.float32], rng: np.random.Generator) -> NDArray[
         image = ((image - mean) * contrast + mean) * gain.astype(np.float32) + offset
     if rng.random() < 0.12:
         image = np.asarray(cv2.GaussianBlur(image, (0, 0), float(rng.uniform(0.3, 0.9))), np.float32)
-    if rng.random() < _NOISE:
+    if rng.random() < settings.noise_share:
         image = image + rng.standard_normal(image.shape, dtype=np.float32) * np.float32(rng.uniform(0.5, 8.0))
     return np.clip(image, 0.0, 255.0).astype(np.float32)
 
 
 def _targets(
-    ids: NDArray[np.uint8], classes: NDArray[np.int16], distances_m: NDArray[np.float32], relations: NDArray[np.int16]
+    ids: NDArray[np.uint8],
+    classes: NDArray[np.int16],
+    distances_m: NDArray[np.float32],
+    relations: NDArray[np.int16],
+    settings: LessonSettings,
 ) -> Row:
     pixels = np.bincount(ids.ravel(), minlength=256)[: len(classes)]
-    things = [k for k in np.argsort(-pixels[len(STUFF) :], kind="stable") + len(STUFF) if pixels[k] >= SMALLEST_PX]
+    things = [
+        k for k in np.argsort(-pixels[len(STUFF) :], kind="stable") + len(STUFF) if pixels[k] >= settings.smallest_px
+    ]
     things = things[:MOST]
     kept = [*range(len(STUFF)), *things]
     count = len(STUFF) + MOST
@@ -238,13 +265,13 @@ def _targets(
     row_of[kept] = np.arange(len(kept))
     rows = row_of[ids]
     boxes, there = np.zeros((count, 4), np.float32), np.zeros(count, np.bool_)
-    there[: len(STUFF)] = pixels[: len(STUFF)] >= SMALLEST_PX
+    there[: len(STUFF)] = pixels[: len(STUFF)] >= settings.smallest_px
     windows = ndimage.find_objects(rows.astype(np.int32) + 1, max_label=len(kept))
     for row, (ys, xs) in enumerate(windows[len(STUFF) :], start=len(STUFF)):
         boxes[row] = (xs.start + xs.stop) / 2, (ys.start + ys.stop) / 2, xs.stop - xs.start, ys.stop - ys.start
         there[row] = True
     level = np.zeros(count, np.int64)
-    level[: len(kept)] = (np.sqrt(pixels[kept]) >= LARGE_PX).astype(np.int64)
+    level[: len(kept)] = (np.sqrt(pixels[kept]) >= settings.large_px).astype(np.int64)
     log_distance = np.full(count, np.nan, np.float32)
     far = distances_m[kept]
     log_distance[: len(kept)] = np.where(far > 0.05, np.log(np.maximum(far, 0.05)), np.nan)
@@ -257,7 +284,7 @@ def _targets(
             related[a, b] = predicate + 1
             if predicate == 2:  # beside holds both ways
                 related[b, a] = predicate + 1
-    hints = [k for k in np.nonzero(pixels[len(STUFF) :] >= _HINT_PX)[0] + len(STUFF) if row_of[k] == 255]
+    hints = [k for k in np.nonzero(pixels[len(STUFF) :] >= settings.hint_px)[0] + len(STUFF) if row_of[k] == 255]
     unclear = np.isin(ids, hints) if hints else np.zeros(ids.shape, np.bool_)
     heats = [_heat(boxes[len(STUFF) :], level[len(STUFF) :], there[len(STUFF) :], k, unclear) for k in (0, 1)]
     return {

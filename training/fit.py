@@ -20,27 +20,29 @@ from training.muon import Muon
 from training.network import Network
 from training.shards import Examples
 
-_KEEP = 0.999
-_CLIP = 5.0
-_MOSAICS_UNTIL = 0.7
-"""Share of the course after which there are whole pictures only, as the network will see them."""
 _ENDS = ("stuff", "stem.0", "embed", "heat_", "coarse", "fine", "kind.2", "box.2", "relation.2", "hints")
 """Parts of names of weights at the input and at the outputs, which AdamW trains like all that is no matrix."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Course:
-    """How long and how fast. ``steps``: the learning rate falls to nothing within them; ``rate``: where it begins.
-
-    ``mosaics``: share of examples of the first part that are put together from several pictures.
-    """
+    """How long and how fast; chosen."""
 
     steps: int
+    """The learning rate falls to nothing within them."""
     batch: int = 16
     rate: float = 2e-3
+    """Learning rate where it begins."""
     weight_decay: float = 0.02
     warm_up_steps: int = 300
     mosaics: float = 0.6
+    """Share of examples of the first part that are put together from several pictures."""
+    mosaics_until: float = 0.7
+    """Share of the course after which there are whole pictures only, as the network will see them."""
+    keep: float = 0.999
+    """Share of the mean of the weights that each step leaves: the mean is over about a thousand steps."""
+    clip: float = 5.0
+    """Greatest norm of a gradient."""
     workers: int = 1
     seed: int = 0
 
@@ -81,7 +83,7 @@ def fit(
         files = list(shards())
         if lessons is None or files != known:
             known, lessons = files, Lessons(Examples(files), vary=True)
-        mixing = step < _MOSAICS_UNTIL * course.steps
+        mixing = step < course.mosaics_until * course.steps
         lessons.mosaics = course.mosaics if mixing else 0.0
         torch.manual_seed(course.seed * 1000 + passes)
         loader = DataLoader(
@@ -92,9 +94,9 @@ def fit(
             warm = min(1.0, (step + 1) / course.warm_up_steps)
             for group in (group for optimizer in optimizers for group in optimizer.param_groups):
                 group["lr"] = course.rate * warm * 0.5 * (1.0 + math.cos(math.pi * step / course.steps))
-            parts = _step(network, batch, optimizers)
+            parts = _step(network, batch, optimizers, clip=course.clip)
             step += 1
-            _follow(mean, network, min(_KEEP, (1.0 + step) / (10.0 + step)))
+            _follow(mean, network, min(course.keep, (1.0 + step) / (10.0 + step)))
             for name, value in parts.items():
                 sums[name] = sums.get(name, 0.0) + value
             if time.monotonic() - told_s > 60.0:
@@ -103,7 +105,7 @@ def fit(
                 tell(f"step {step} of {course.steps}, {len(lessons)} pictures, {rate:.0f}/s: {means}")
                 sums, said, told_s = {}, step, time.monotonic()
                 _save(checkpoint, network, mean, optimizers, step, passes)
-            if step >= course.steps or (mixing and step >= _MOSAICS_UNTIL * course.steps):
+            if step >= course.steps or (mixing and step >= course.mosaics_until * course.steps):
                 break
     _save(checkpoint, network, mean, optimizers, step, passes)
     return mean
@@ -128,7 +130,9 @@ def _optimizers(network: Network, course: Course) -> tuple[torch.optim.Optimizer
     )
 
 
-def _step(network: Network, batch: Batch, optimizers: Sequence[torch.optim.Optimizer]) -> dict[str, float]:
+def _step(
+    network: Network, batch: Batch, optimizers: Sequence[torch.optim.Optimizer], *, clip: float
+) -> dict[str, float]:
     network.train()
     batch.image = batch.image.contiguous(memory_format=torch.channels_last)
     with torch.autocast("cpu", torch.bfloat16):
@@ -137,7 +141,7 @@ def _step(network: Network, batch: Batch, optimizers: Sequence[torch.optim.Optim
     network.zero_grad(set_to_none=True)
     if torch.isfinite(total):
         total.backward()
-        torch.nn.utils.clip_grad_norm_(network.parameters(), _CLIP)
+        torch.nn.utils.clip_grad_norm_(network.parameters(), clip)
         for optimizer in optimizers:
             optimizer.step()
     return {name: float(part.detach()) for name, part in parts.items()}

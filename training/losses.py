@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import torch
 from torch import Tensor
 from torch.nn import functional
@@ -11,7 +13,23 @@ from training.dataset import Batch
 from training.network import BACKGROUND, HEIGHT, HINTS, PEAKS, STRIDES, WIDTH, Answers, Network
 
 _STUFF = len(STUFF)
-_BACKGROUND_WEIGHT = 0.6
+
+
+@dataclass(frozen=True, kw_only=True)
+class LossWeights:
+    """What counts how much in the sum; chosen so that no part is drowned by the others."""
+
+    heat: float = 1.0
+    hint: float = 0.5
+    kind: float = 2.0
+    background: float = 0.6
+    """Of queries that stand for nothing, among the kinds; they are many."""
+    open_set: float = 0.5
+    box: float = 2.0
+    distance: float = 0.5
+    mask: float = 3.0
+    coarse: float = 1.0
+    relation: float = 3.0
 
 
 def assigned(peaks: tuple[Tensor, ...], batch: Batch) -> tuple[tuple[Tensor, ...], Tensor]:
@@ -55,7 +73,7 @@ def assigned(peaks: tuple[Tensor, ...], batch: Batch) -> tuple[tuple[Tensor, ...
     return cells, row_of
 
 
-def losses(network: Network, batch: Batch) -> dict[str, Tensor]:
+def losses(network: Network, batch: Batch, weights: LossWeights = LossWeights()) -> dict[str, Tensor]:
     """Named parts of what is to be minimized, weighted."""
     features = network.features(batch.image)
     heat = sum(
@@ -70,7 +88,11 @@ def losses(network: Network, batch: Batch) -> dict[str, Tensor]:
         _of_cells(tell(features.pyramid[level]), batch, 4 << level)
         for tell, level in zip(network.hints, HINTS, strict=True)
     )
-    return {"heat": 1.0 * heat, "hint": 0.5 * hint, **_of_answers(found, row_of, standing, batch)}
+    return {
+        "heat": weights.heat * heat,
+        "hint": weights.hint * hint,
+        **_of_answers(found, row_of, standing, batch, weights),
+    }
 
 
 def _of_cells(logits: Tensor, batch: Batch, stride: int) -> Tensor:
@@ -102,13 +124,15 @@ def _focal(logits: Tensor, target: Tensor, weight: Tensor) -> Tensor:
     return (torch.where(hit, found, spared) * weight).sum() / hit.sum().clamp(min=1)
 
 
-def _of_answers(found: Answers, row_of: Tensor, standing: Tensor, batch: Batch) -> dict[str, Tensor]:
+def _of_answers(
+    found: Answers, row_of: Tensor, standing: Tensor, batch: Batch, weights: LossWeights
+) -> dict[str, Tensor]:
     b, n = torch.nonzero(row_of >= 0, as_tuple=True)
     row = row_of[b, n]
     kind = torch.full_like(row_of, BACKGROUND)
     kind[b, n] = batch.classes[b, row]
     named = kind != UNKNOWN
-    weight = torch.where(kind == BACKGROUND, _BACKGROUND_WEIGHT, 1.0) * named
+    weight = torch.where(kind == BACKGROUND, weights.background, 1.0) * named
     entropy = functional.cross_entropy(
         found.classes.flatten(0, 1), kind.clamp(min=0).flatten(), reduction="none", label_smoothing=0.02
     ).reshape(kind.shape)
@@ -127,12 +151,12 @@ def _of_answers(found: Answers, row_of: Tensor, standing: Tensor, batch: Batch) 
     masks = _mask_loss(found.masks[drawn][:, None], functional.avg_pool2d(truth, 4))
     coarse = _mask_loss(found.coarse[drawn[0], standing[drawn]][:, None], functional.avg_pool2d(truth, 8))
     return {
-        "kind": 2.0 * classes + 0.5 * open_set,
-        "box": 2.0 * boxes,
-        "distance": 0.5 * distance,
-        "mask": 3.0 * masks,
-        "coarse": 1.0 * coarse,
-        "relation": 3.0 * _related(found.relations, rows, batch),
+        "kind": weights.kind * classes + weights.open_set * open_set,
+        "box": weights.box * boxes,
+        "distance": weights.distance * distance,
+        "mask": weights.mask * masks,
+        "coarse": weights.coarse * coarse,
+        "relation": weights.relation * _related(found.relations, rows, batch),
     }
 
 

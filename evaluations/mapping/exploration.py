@@ -18,8 +18,14 @@ from app.settings import ClockMode, Settings
 from perception.network.shipped import SHIPPED
 from simulation.houses.house import House
 
-LIMIT_S = 300.0
-LIMIT_PER_ROOM_S = 120.0
+
+@dataclass(frozen=True, kw_only=True)
+class ExplorationLimit:
+    """After how much simulated time an exploration is given up: several times as long as it takes."""
+
+    house_s: float = 300.0
+    room_s: float = 120.0
+    """More for each room."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -91,9 +97,9 @@ def meter(runtime: Runtime) -> None:
         turns.metered = True
 
 
-async def until_explored(runtime: Runtime, house: House) -> bool:
+async def until_explored(runtime: Runtime, house: House, limit: ExplorationLimit = ExplorationLimit()) -> bool:
     """Wait until the robot says that it is done; false when that takes far too long."""
-    limit_s = LIMIT_S + LIMIT_PER_ROOM_S * len(house.rooms)
+    limit_s = limit.house_s + limit.room_s * len(house.rooms)
     while not runtime.memory.snapshot().root.explored:
         if runtime.now_s > limit_s:
             return False

@@ -15,9 +15,17 @@ from simulation.houses.house import OUTSIDE, House
 
 Array = NDArray[np.float64]
 
-SAME_ROOM_IOU = 0.5
-SAME_DOOR_M = 0.6
-_GRID = 240
+
+@dataclass(frozen=True, kw_only=True)
+class PlanMatching:
+    """Which of two plans' rooms and doors are the same."""
+
+    room_iou: float = 0.5
+    """Rooms that share more than this are the same: then no other can be."""
+    door_m: float = 0.6
+    """Doors of the same rooms that are nearer than this are the same: less than the width of a door."""
+    samples: int = 240
+    """Along each axis of the grid on which shared area is counted."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -138,16 +146,16 @@ def in_house(points_map: Array, start: Sequence[float]) -> Array:
     return np.asarray(points_map @ _rotation(start[2]).T + np.array(start[:2]))
 
 
-def compare(found: FloorPlan, true: FloorPlan) -> Score:
+def compare(found: FloorPlan, true: FloorPlan, matching: PlanMatching = PlanMatching()) -> Score:
     """Match rooms by shared area and doors by place and rooms; then measure.
 
     Rooms that no open door leads to, and their doors, cannot be found and are not missed.
     """
-    same = _same_rooms(found, true)
+    same = _same_rooms(found, true, matching)
     open_to = _open_to(true, same)
     rotation, shift = _alignment(found, true, same)
     aligned = found.moved(rotation, shift)
-    doors = _same_doors(aligned, true, same)
+    doors = _same_doors(aligned, true, same, matching)
     return Score(
         found=same,
         rooms_missed=tuple(room for room in true.rooms if room not in same and room in open_to),
@@ -168,10 +176,10 @@ def placement(found: Array, true: Array) -> tuple[Array, Array]:
     return _kabsch(*_boxes(found, true))
 
 
-def iou(first: Array, second: Array) -> float:
-    """Shared area of two simple polygons over the area of both together, on a grid of 240 x 240 samples."""
+def iou(first: Array, second: Array, samples: int = PlanMatching.samples) -> float:
+    """Shared area of two simple polygons over the area of both together, on a grid."""
     low, high = np.minimum(first.min(axis=0), second.min(axis=0)), np.maximum(first.max(axis=0), second.max(axis=0))
-    axes = [low[k] + (high[k] - low[k]) * (np.arange(_GRID) + 0.5) / _GRID for k in (0, 1)]
+    axes = [low[k] + (high[k] - low[k]) * (np.arange(samples) + 0.5) / samples for k in (0, 1)]
     points = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 2)
     in_first, in_second = _inside(first, points), _inside(second, points)
     return float((in_first & in_second).sum() / max(1, (in_first | in_second).sum()))
@@ -188,15 +196,16 @@ def _inside(polygon: Array, points: Array) -> NDArray[np.bool_]:
     return result
 
 
-def _same_rooms(found: FloorPlan, true: FloorPlan) -> dict[str, str]:
+def _same_rooms(found: FloorPlan, true: FloorPlan, matching: PlanMatching) -> dict[str, str]:
     names, truths = list(found.rooms), list(true.rooms)
     if not names:
         return {}
-    shared = np.array([[iou(found.rooms[name], true.rooms[truth]) for name in names] for truth in truths])
+    samples = matching.samples
+    shared = np.array([[iou(found.rooms[name], true.rooms[truth], samples) for name in names] for truth in truths])
     return {
         truths[row]: names[column]
         for row, column in zip(*linear_sum_assignment(-shared), strict=True)
-        if shared[row, column] > SAME_ROOM_IOU
+        if shared[row, column] > matching.room_iou
     }
 
 
@@ -213,7 +222,7 @@ def _open_to(true: FloorPlan, same: Mapping[str, str]) -> set[str]:
     return reached
 
 
-def _same_doors(found: FloorPlan, true: FloorPlan, rooms: Mapping[str, str]) -> dict[str, str]:
+def _same_doors(found: FloorPlan, true: FloorPlan, rooms: Mapping[str, str], matching: PlanMatching) -> dict[str, str]:
     """True door -> found door: same rooms, nearest. Of a closed door one side may be all that is known."""
     names, truths = list(found.doors), list(true.doors)
     if not names or not truths:
@@ -228,7 +237,7 @@ def _same_doors(found: FloorPlan, true: FloorPlan, rooms: Mapping[str, str]) -> 
     return {
         truths[row]: names[column]
         for row, column in zip(*linear_sum_assignment(cost), strict=True)
-        if cost[row, column] < SAME_DOOR_M
+        if cost[row, column] < matching.door_m
     }
 
 

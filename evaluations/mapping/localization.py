@@ -12,6 +12,7 @@ import math
 import statistics
 import time
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -34,22 +35,37 @@ from simulation.houses.house import House
 Array = NDArray[np.float64]
 
 PAPER_MAX_MM = 150.0
-AIM_MAX_MM = 50.0
+"""Greatest error that the Concepts paper reports."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class LocalizationAims:
+    """How far off the robot may believe to be."""
+
+    max_mm: float = 50.0
+    """At any time: chosen, a third of the paper's."""
 
 
 def evaluate(
-    *, houses: Sequence[str], hours: float, jobs: int, json_file: Path | None, plot_file: Path | None, console: Console
+    *,
+    houses: Sequence[str],
+    hours: float,
+    jobs: int,
+    json_file: Path | None,
+    plot_file: Path | None,
+    console: Console,
+    aims: LocalizationAims = LocalizationAims(),
 ) -> bool:
     """Drive about in every house for ``hours`` each; whether the error never exceeded what it may."""
     runs = run_all(run_once, [(house, hours) for house in houses], jobs=jobs, console=console)
-    console.print(_table(runs))
+    console.print(_table(runs, aims))
     if json_file is not None:
         json_file.parent.mkdir(parents=True, exist_ok=True)
-        document = {"runs": runs, "paper_max_mm": PAPER_MAX_MM, "aim_max_mm": AIM_MAX_MM}
+        document = {"runs": runs, "paper_max_mm": PAPER_MAX_MM, "aim_max_mm": aims.max_mm}
         json_file.write_text(json.dumps(document) + "\n", encoding="utf-8")
     if plot_file is not None:
-        draw(runs, plot_file)
-    return all(run["explored"] and run["max_mm"] <= AIM_MAX_MM for run in runs)
+        draw(runs, plot_file, aims)
+    return all(run["explored"] and run["max_mm"] <= aims.max_mm for run in runs)
 
 
 def run_once(name: str, hours: float) -> dict[str, Any]:
@@ -144,8 +160,8 @@ class _Rounds:
         self.errors_mm.append(1000.0 * float(np.linalg.norm(rotation @ believed + shift - actual)))
 
 
-def _table(runs: Sequence[Mapping[str, Any]]) -> Table:
-    table = Table(title=f"localization error in mm (aim: at most {AIM_MAX_MM:.0f}; paper: {PAPER_MAX_MM:.0f})")
+def _table(runs: Sequence[Mapping[str, Any]], aims: LocalizationAims) -> Table:
+    table = Table(title=f"localization error in mm (aim: at most {aims.max_mm:.0f}; paper: {PAPER_MAX_MM:.0f})")
     for column in ("house", "hours", "driven m", "visits", "failed", "mean", "p99", "max"):
         table.add_column(column, justify="left" if column == "house" else "right")
     for run in runs:
@@ -160,13 +176,13 @@ def _table(runs: Sequence[Mapping[str, Any]]) -> Table:
     return table
 
 
-def draw(runs: Sequence[Mapping[str, Any]], file: Path) -> None:
+def draw(runs: Sequence[Mapping[str, Any]], file: Path, aims: LocalizationAims = LocalizationAims()) -> None:
     """Error over time."""
     figure = Figure(figsize=(8.0, 3.2), layout="constrained")
     axis = figure.subplots()
     for run in runs:
         axis.plot([stamp / 3600.0 for stamp in run["stamps_s"]], run["errors_mm"], linewidth=0.6, label=run["house"])
-    axis.axhline(AIM_MAX_MM, color="#b91c1c", linestyle="--", linewidth=1.0)
+    axis.axhline(aims.max_mm, color="#b91c1c", linestyle="--", linewidth=1.0)
     axis.set_xlabel("hours")
     axis.set_ylabel("error in mm")
     axis.set_ylim(bottom=0.0)

@@ -11,12 +11,22 @@ from simulation.furnishing.catalog import category_named
 from simulation.houses.house import Furniture
 from simulation.world.blocks import Block
 
-_SIDE_M, _LEAST_M = 0.3, 0.1
-"""About as wide is a box where there is room for it, and no narrower is one that fits beside what stands there."""
-_GAP_M = 0.015
-_HEIGHT_M, _BELOW_BOARD_M = 0.25, 0.06
-
 Range = tuple[float, float]
+
+
+@dataclass(frozen=True, kw_only=True)
+class ClutterSettings:
+    """How large the boxes are; chosen, so that the hand finds no room between them."""
+
+    side_m: float = 0.3
+    """About as wide is a box where there is room for it."""
+    least_m: float = 0.1
+    """No narrower is one that fits beside what stands there."""
+    gap_m: float = 0.015
+    """Around each, so that it touches nothing."""
+    height_m: float = 0.25
+    below_board_m: float = 0.06
+    """As high is a box, and so far it ends below the next board."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -33,7 +43,7 @@ class _Cuboid:
         return all(a[0] < b[1] and b[0] < a[1] for a, b in pairs)
 
 
-def boxes_over(item: Furniture, scene: Scene) -> list[Block]:
+def boxes_over(item: Furniture, scene: Scene, settings: ClutterSettings = ClutterSettings()) -> list[Block]:
     """Boxes, house coordinates, that fill every level of ``item`` as it now is, without touching anything."""
     kind = category_named(item.category, item.size, static=True)
     width_m, depth_m, height_m = item.size or kind.size_m
@@ -43,10 +53,10 @@ def boxes_over(item: Furniture, scene: Scene) -> list[Block]:
     levels_m = sorted({level * height_m for level in kind.levels})
     boxes: list[Block] = []
     for level_m, next_m in zip(levels_m, [*levels_m[1:], math.inf], strict=True):
-        top_m = min(level_m + _HEIGHT_M, next_m - _BELOW_BOARD_M)
+        top_m = min(level_m + settings.height_m, next_m - settings.below_board_m)
         whole = _Cuboid(x_m=(-width_m / 2, width_m / 2), y_m=(-depth_m / 2, depth_m / 2), z_m=(level_m + 0.005, top_m))
-        for room in _cells(_between(whole, solid), _SIDE_M):
-            boxes += (_block(item, box) for box in _free(room, taken))
+        for room in _cells(_between(whole, solid), settings.side_m):
+            boxes += (_block(item, box) for box in _free(room, taken, settings))
     return boxes
 
 
@@ -68,18 +78,18 @@ def _between(room: _Cuboid, solid: Sequence[_Cuboid]) -> _Cuboid:
     return room
 
 
-def _free(room: _Cuboid, taken: Sequence[_Cuboid]) -> Iterator[_Cuboid]:
+def _free(room: _Cuboid, taken: Sequence[_Cuboid], settings: ClutterSettings) -> Iterator[_Cuboid]:
     """One box in the room, or smaller ones where something stands."""
-    if min(_length(room.x_m), _length(room.y_m)) < _LEAST_M:
+    if min(_length(room.x_m), _length(room.y_m)) < settings.least_m:
         return
-    box = replace(room, x_m=_within(room.x_m), y_m=_within(room.y_m))
+    box = replace(room, x_m=_within(room.x_m, settings.gap_m), y_m=_within(room.y_m, settings.gap_m))
     if not any(box.meets(other) for other in taken):
         yield box
         return
     halves = list(_cells(room, max(_length(room.x_m), _length(room.y_m)) / 2))
     if len(halves) > 1:
         for half in halves:
-            yield from _free(half, taken)
+            yield from _free(half, taken, settings)
 
 
 def _cells(room: _Cuboid, side_m: float) -> Iterator[_Cuboid]:
@@ -124,8 +134,8 @@ def _frame(item: Furniture) -> Block:
     return Block(center_m=(*item.pose[:2], 0.0), size_m=(0.0, 0.0, 0.0), yaw_rad=item.pose[2])
 
 
-def _within(side: Range) -> Range:
-    return side[0] + _GAP_M, side[1] - _GAP_M
+def _within(side: Range, gap_m: float) -> Range:
+    return side[0] + gap_m, side[1] - gap_m
 
 
 def _length(side: Range) -> float:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import Any
 
@@ -13,20 +13,37 @@ from numpy.random import Generator
 from evaluations.missions.clutter import boxes_over
 from evaluations.missions.mission import Mission
 from evaluations.missions.outcome import HAND, Scene
-from evaluations.missions.ways import PASSABLE_M, Ways
+from evaluations.missions.ways import Ways, WaySettings
 from planner.tasks.tasks import Task, TaskStatus
 from simulation.furnishing.catalog import category_named
 from simulation.houses.house import Door, House, room_at
 from skills.failures import FailureCode
 
 Event = Mapping[str, Any]
-_BEGUN_S = 1.5
-_NEAR_M = 1.4
-_CRATE_M = (0.5, 0.5, 0.5)
-_LEAST_DRIVE_M = 1.2
-"""Doors closer to the robot are not shut in its face, nor is anything put there: it may be within them."""
-_FROM_PEOPLE_M, _FROM_THINGS_M = 0.55, 0.45
-"""The robot is not set down on anybody's feet, nor on what lies on the floor."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class DisturbanceSettings:
+    """When and how people and chance interfere; chosen, so that the robot can notice."""
+
+    begun_s: float = 1.5
+    """So long the robot has been on its way before anything happens."""
+    near_m: float = 1.4
+    """From so near the robot sees what happens to the thing that it is about to take."""
+    crate_m: tuple[float, float, float] = (0.5, 0.5, 0.5)
+    least_drive_m: float = 1.2
+    """Doors closer to the robot are not shut in its face, nor is anything put there: it may be within them."""
+    from_people_m: float = 0.55
+    from_things_m: float = 0.45
+    """The robot is not set down on anybody's feet, nor on what lies on the floor."""
+    lowest_m: float = 0.15
+    highest_m: float = 1.05
+    """Things are put elsewhere only onto tops of these heights, as they are asked for to be put."""
+    aside_m: float = 0.8
+    """So far from its middle what slips falls to the floor."""
+    push_m: float = 0.3
+    push_rad: float = 0.5
+    """Half a step aside, and turned."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -39,6 +56,7 @@ class Moment:
     ways: Ways
     since_s: float
     rng: Generator
+    settings: DisturbanceSettings = field(default_factory=DisturbanceSettings)
 
     @property
     def thing(self) -> str | None:
@@ -87,23 +105,35 @@ class Disturbance:
 
 def _driving(moment: Moment) -> bool:
     """Under way to the thing, with an empty hand."""
-    return moment.task.status is TaskStatus.RUNNING and moment.since_s > _BEGUN_S and moment.scene.holding is None
+    return (
+        moment.task.status is TaskStatus.RUNNING
+        and moment.since_s > moment.settings.begun_s
+        and moment.scene.holding is None
+    )
 
 
 def _carrying(moment: Moment) -> bool:
     """Under way with what was asked for."""
     held = moment.scene.holding
-    return held is not None and held in moment.mission.things and _distance(moment, moment.place) > _LEAST_DRIVE_M
+    return (
+        held is not None
+        and held in moment.mission.things
+        and _distance(moment, moment.place) > moment.settings.least_drive_m
+    )
 
 
 def _near(moment: Moment) -> bool:
     """Close to the thing, with an empty hand."""
-    return _driving(moment) and _distance(moment, moment.thing) < _NEAR_M
+    return _driving(moment) and _distance(moment, moment.thing) < moment.settings.near_m
 
 
 def _on_the_way(moment: Moment) -> bool:
     """A door is still to be driven through."""
-    return moment.task.status is TaskStatus.RUNNING and moment.since_s > _BEGUN_S and _door_ahead(moment) is not None
+    return (
+        moment.task.status is TaskStatus.RUNNING
+        and moment.since_s > moment.settings.begun_s
+        and _door_ahead(moment) is not None
+    )
 
 
 def _distance(moment: Moment, name: str | None) -> float:
@@ -118,7 +148,7 @@ def _door_ahead(moment: Moment) -> Door | None:
     if at is None:
         return None
     doors = moment.ways.doors_between(moment.scene.robot_at, at)
-    ahead = [door for door in doors if math.dist(door.center, moment.scene.robot_at) > _LEAST_DRIVE_M]
+    ahead = [door for door in doors if math.dist(door.center, moment.scene.robot_at) > moment.settings.least_drive_m]
     return ahead[0] if ahead else None
 
 
@@ -128,17 +158,17 @@ def _elsewhere(moment: Moment, *, same_room: bool) -> list[list[Event]]:
     record = moment.scene.thing(thing) if thing is not None else None
     if thing is None or record is None:
         return []
-    house = moment.scene.house
+    house, settings = moment.scene.house, moment.settings
     spots = []
     for item in house.furniture:
         kind = category_named(item.category, item.size, static=True)
         top_m = kind.levels[0] * (item.size or kind.size_m)[2]
         there = room_at(house, item.pose[0], item.pose[1]) == record["room"]
         taken = item.id in moment.mission.places or item.id == record["on"]
-        if kind.support and 0.15 <= top_m <= 1.05 and not taken and there == same_room:
+        if kind.support and settings.lowest_m <= top_m <= settings.highest_m and not taken and there == same_room:
             spots.append(item.id)
     moment.rng.shuffle(spots)
-    passable, begin = Ways(moment.scene, spared=(thing,), radius_m=PASSABLE_M), moment.scene.robot_at
+    passable, begin = Ways(moment.scene, spared=(thing,), radius_m=WaySettings().passable_m), moment.scene.robot_at
     reached = [s for s in spots if (at := moment.where(s)) is not None and math.isfinite(passable.length_m(begin, at))]
     return [[{"do": "move", "id": thing, "to": {"on": spot}}] for spot in reached]
 
@@ -148,7 +178,8 @@ def _aside(moment: Moment) -> list[list[Event]]:
     held = moment.scene.holding
     x_m, y_m, yaw_rad = moment.scene.truth["robot"]["pose"]
     turns = (0.6, -0.6, 1.0, -1.0, 1.5, -1.5)
-    spots = [(x_m + 0.8 * math.cos(yaw_rad + turn), y_m + 0.8 * math.sin(yaw_rad + turn)) for turn in turns]
+    away_m = moment.settings.aside_m
+    spots = [(x_m + away_m * math.cos(yaw_rad + turn), y_m + away_m * math.sin(yaw_rad + turn)) for turn in turns]
     free = [spot for spot in spots if moment.ways.is_free(spot)]
     return [[{"do": "move", "id": held, "to": {"pose": [x, y, 0.0, 0.0]}}] for x, y in free]
 
@@ -190,7 +221,7 @@ def _crate(moment: Moment) -> list[list[Event]]:
     if door is None:
         return []
     pose = [*door.center, 0.0, 0.0]
-    crate = {"id": f"crate_{door.id}", "category": "box", "size": [*_CRATE_M], "pose": pose}
+    crate = {"id": f"crate_{door.id}", "category": "box", "size": [*moment.settings.crate_m], "pose": pose}
     return [[{"do": "add", "object": crate}]]
 
 
@@ -206,10 +237,11 @@ def _stroll(moment: Moment) -> list[list[Event]]:
 def _push(moment: Moment) -> list[list[Event]]:
     """Half a step aside, and turned."""
     x_m, y_m, yaw_rad = moment.scene.truth["robot"]["pose"]
-    turned = yaw_rad + float(moment.rng.choice((-0.5, 0.5)))
+    push_m, push_rad = moment.settings.push_m, moment.settings.push_rad
+    turned = yaw_rad + float(moment.rng.choice((-push_rad, push_rad)))
     around = [k * math.pi / 4 for k in range(8)]
     moment.rng.shuffle(around)
-    spots = [(x_m + 0.3 * math.cos(a), y_m + 0.3 * math.sin(a)) for a in around]
+    spots = [(x_m + push_m * math.cos(a), y_m + push_m * math.sin(a)) for a in around]
     free = [spot for spot in spots if moment.ways.is_free(spot) and not _is_taken(moment, spot)]
     return [[{"do": "move", "id": "robot", "to": {"pose": [*spot, turned]}}] for spot in free]
 
@@ -225,9 +257,10 @@ def _carry_off(moment: Moment) -> list[list[Event]]:
 
 def _is_taken(moment: Moment, spot: tuple[float, float]) -> bool:
     """Whether somebody stands there, or something lies there now, as what the robot has just put on the floor."""
-    truth, held = moment.scene.truth, moment.scene.holding
+    truth, held, settings = moment.scene.truth, moment.scene.holding, moment.settings
     lying = [each for each in truth["objects"] if not (each["on"] or each["in"]) and each["id"] != held]
-    taken = [(each, _FROM_PEOPLE_M) for each in truth["people"]] + [(each, _FROM_THINGS_M) for each in lying]
+    taken = [(each, settings.from_people_m) for each in truth["people"]]
+    taken += [(each, settings.from_things_m) for each in lying]
     return any(math.dist(each["position_m"][:2], spot) < away_m for each, away_m in taken)
 
 

@@ -12,13 +12,10 @@ from app.runtime import Runtime
 from evaluations.missions.disturbances import DISTURBANCES, Disturbance, Event, Moment
 from evaluations.missions.mission import Mission
 from evaluations.missions.outcome import HAND, Scene
-from evaluations.missions.ways import PASSABLE_M, Ways
+from evaluations.missions.ways import Ways, WaySettings
 from planner.tasks.tasks import Task
 from simulation.errors import DisturbError
 from skills.failures import FailureCode
-
-_STROLL_S = 25.0
-"""So long a person stands in the way before they go home."""
 
 
 class Disturber:
@@ -28,8 +25,9 @@ class Disturber:
         made_s: simulated time at which it was done, None before. possible: whether the request can still be fulfilled.
     """
 
-    def __init__(self, runtime: Runtime, mission: Mission, rng: Generator) -> None:
-        self._runtime, self._mission, self._rng = runtime, mission, rng
+    def __init__(self, runtime: Runtime, mission: Mission, rng: Generator, *, stroll_s: float = 25.0) -> None:
+        """``stroll_s``: so long a person stands in the way before they go home."""
+        self._runtime, self._mission, self._rng, self._stroll_s = runtime, mission, rng, stroll_s
         self._disturbance: Disturbance | None = DISTURBANCES.get(mission.disturbance)
         self._undoing: list[Event] = []
         self._ways: tuple[object, Ways] | None = None
@@ -54,7 +52,8 @@ class Disturber:
         if self._disturbance is None:
             return
         if self.made_s is not None:
-            if any(event["do"] == "walk" for event in self._undoing) and self._runtime.now_s > self.made_s + _STROLL_S:
+            strolls = any(event["do"] == "walk" for event in self._undoing)
+            if strolls and self._runtime.now_s > self.made_s + self._stroll_s:
                 await self.tidy_up()
             return
         moment = Moment(
@@ -98,7 +97,7 @@ def _still_possible(disturbance: Disturbance, moment: Moment, done: Sequence[Eve
         return not disturbance.ends_it
     shut = {str(event["id"]) for event in done if event["do"] == "close_door"}
     shut |= {str(event["object"]["id"]).removeprefix("crate_") for event in done if event["do"] == "add"}
-    left = Ways(moment.scene, shut=shut, radius_m=PASSABLE_M)
+    left = Ways(moment.scene, shut=shut, radius_m=WaySettings().passable_m)
     stops = [moment.where(name) for name in (moment.thing, moment.place) if name is not None and name != HAND]
     return math.isfinite(left.length_m(moment.scene.robot_at, *[stop for stop in stops if stop is not None]))
 

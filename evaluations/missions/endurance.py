@@ -8,7 +8,7 @@ import json
 import os
 import time
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from statistics import median
 from typing import Any
@@ -37,15 +37,21 @@ from evaluations.tables import shown
 from simulation.errors import DisturbError
 from simulation.houses.house import House, Object
 
-GROWTH = 1.05
-"""Memory is flat when the last fifth of the time has at most so many times that of the first after warming up."""
-WARM = 0.1
-"""Share of the time in which caches and buffers may fill."""
-WORSE = 0.05
-"""So much recall and precision of the graph may be lower at the end than after exploration."""
-SWOLLEN_M = 0.03
-"""So much farther off may the sides of furniture be, in the mean: the arm goes by them."""
 _GRAPH = ("recall", "precision", "duplicates", "support_right", "size_error_furniture_m")
+
+
+@dataclass(frozen=True, kw_only=True)
+class EnduranceAims:
+    """What hours of missions may change."""
+
+    growth: float = 1.05
+    """Memory is flat when the last fifth of the time has at most so many times that of the first after warming up."""
+    warm: float = 0.1
+    """Share of the time in which caches and buffers may fill."""
+    worse: float = 0.05
+    """So much recall and precision of the graph may be lower at the end than after exploration."""
+    swollen_m: float = 0.03
+    """So much farther off may the sides of furniture be, in the mean: the arm goes by them."""
 
 
 def evaluate(
@@ -195,29 +201,29 @@ def _next(disturb: Sequence[str], turn: int, mission: Mission, house: House) -> 
     return next((name for name in names if DISTURBANCES[name].fits(mission, house)), "")
 
 
-def _judged(run: Mapping[str, Any]) -> dict[str, Any]:
+def _judged(run: Mapping[str, Any], aims: EnduranceAims = EnduranceAims()) -> dict[str, Any]:
     """Figures of the run so far."""
-    growth = {name: grown(run["memory"], name) for name in ("service_mb", "simulator_mb")}
-    right = is_as_right(run["rounds"][0], run["rounds"][-1])
+    growth = {name: grown(run["memory"], name, aims) for name in ("service_mb", "simulator_mb")}
+    right = is_as_right(run["rounds"][0], run["rounds"][-1], aims)
     figures = summarize(run["missions"])
     good = run["explored"] and right and not figures["phantoms"] and not figures["collisions"]
-    flat = growth["service_mb"] <= GROWTH
+    flat = growth["service_mb"] <= aims.growth
     return {"growth": growth, "summary": figures, "met": bool(good and flat and not run["failed_turns"])}
 
 
-def is_as_right(first: Mapping[str, Any], last: Mapping[str, Any]) -> bool:
+def is_as_right(first: Mapping[str, Any], last: Mapping[str, Any], aims: EnduranceAims = EnduranceAims()) -> bool:
     """Whether the graph is about as right as after exploration."""
     names = ("recall", "precision", "size_error_furniture_m")
     if any(account[name] is None for account in (first, last) for name in names):
         return False
     recall, precision, size_m = (last[name] - first[name] for name in names)
-    return bool(recall >= -WORSE and precision >= -WORSE and size_m <= SWOLLEN_M)
+    return bool(recall >= -aims.worse and precision >= -aims.worse and size_m <= aims.swollen_m)
 
 
-def grown(samples: Sequence[Mapping[str, float]], name: str) -> float:
-    """Median of the last fifth of the time over that of the first fifth after ``WARM``; 1 while that is too short."""
+def grown(samples: Sequence[Mapping[str, float]], name: str, aims: EnduranceAims = EnduranceAims()) -> float:
+    """Median of the last fifth of the time over that of the first fifth once warm; 1 while that is too short."""
     end_s = samples[-1]["stamp_s"]
-    first = [each[name] for each in samples if WARM * end_s <= each["stamp_s"] <= (WARM + 0.2) * end_s]
+    first = [each[name] for each in samples if aims.warm * end_s <= each["stamp_s"] <= (aims.warm + 0.2) * end_s]
     last = [each[name] for each in samples if each["stamp_s"] >= 0.8 * end_s]
     return median(last) / median(first) if first and last and median(first) > 0.0 else 1.0
 
@@ -230,7 +236,7 @@ def _progress(run: Mapping[str, Any]) -> str:
     )
 
 
-def _table(run: Mapping[str, Any]) -> Table:
+def _table(run: Mapping[str, Any], aims: EnduranceAims = EnduranceAims()) -> Table:
     table = Table(title=f"{run['hours']:g} simulated hours in {run['house']}", box=SIMPLE_HEAD)
     for column in ("figure", "measured", "aim"):
         table.add_column(column, justify="left" if column == "figure" else "right")
@@ -242,7 +248,7 @@ def _table(run: Mapping[str, Any]) -> Table:
         ("phantom successes", str(figures["phantoms"]), "0"),
         ("collisions", str(figures["collisions"]), "0"),
         ("restarts of agents", str(run["failed_turns"]), "0"),
-        ("service's memory, last fifth over first", shown(run["growth"]["service_mb"]), f"<= {GROWTH:g}"),
+        ("service's memory, last fifth over first", shown(run["growth"]["service_mb"]), f"<= {aims.growth:g}"),
         ("simulator's memory, last fifth over first", shown(run["growth"]["simulator_mb"]), ""),
     ]
     rows += [

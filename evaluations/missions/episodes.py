@@ -21,22 +21,31 @@ from evaluations.missions.filmstrip import Still, draw_filmstrip
 from evaluations.missions.mission import Mission
 from evaluations.missions.outcome import HAND, Scene, stirred
 from evaluations.missions.simulated_user import SimulatedUser
-from evaluations.missions.ways import PASSABLE_M, Point, Ways
+from evaluations.missions.ways import Point, Ways, WaySettings
 from evaluations.pool import tell
 from planner.tasks.tasks import Task, TaskStatus
 from scene_graph.identifiers import slug
 from simulation.houses.house import House
 from skills.failures import FailureCode
 
-LIMIT_S = 900.0
-"""Simulated seconds after which a request is given up."""
 OUT_OF_REACH = frozenset(
     {FailureCode.UNREACHABLE, FailureCode.WAY_BLOCKED, FailureCode.DOOR_CLOSED, FailureCode.PERSON_IN_WAY}
 )
 """What the robot may rightly say of a thing or place that no free floor leads near enough to."""
-_LOOK_S = 0.4
-_SETTLE_S = 1.5
-_SITTING_STILL_M = 0.02
+
+
+@dataclass(frozen=True, kw_only=True)
+class EpisodeSettings:
+    """How a mission is watched, in simulated time."""
+
+    limit_s: float = 900.0
+    """After so long a request is given up."""
+    look_s: float = 0.4
+    """Between two looks at the truth."""
+    settle_s: float = 1.5
+    """So long things may fall and roll before it is judged where they are."""
+    still_m: float = 0.02
+    """Less than this is no way that the robot has made."""
 
 
 async def play_all(
@@ -99,12 +108,13 @@ class Verdict(StrEnum):
 class _Course:
     """Where the robot has been, and whether it asked something that nobody could answer."""
 
+    still_m: float
     points: list[Point] = field(default_factory=list)
     asked: bool = False
 
     def at(self, point: Point) -> None:
         """The robot is there now."""
-        if not self.points or math.dist(point, self.points[-1]) > _SITTING_STILL_M:
+        if not self.points or math.dist(point, self.points[-1]) > self.still_m:
             self.points.append(point)
 
     @property
@@ -121,12 +131,20 @@ class _Episode:
     """
 
     def __init__(
-        self, runtime: Runtime, house: House, mission: Mission, rng: Generator, *, filming: bool = False
+        self,
+        runtime: Runtime,
+        house: House,
+        mission: Mission,
+        rng: Generator,
+        *,
+        filming: bool = False,
+        settings: EpisodeSettings = EpisodeSettings(),
     ) -> None:
+        self._settings = settings
         self._runtime, self._house, self._mission = runtime, house, mission
         self._disturber = Disturber(runtime, mission, rng)
         self._user = SimulatedUser(runtime, house)
-        self._course = _Course()
+        self._course = _Course(still_m=settings.still_m)
         self._attempts = Attempts()
         self._filming, self._failures = filming, 0
         self.stills: list[Still] = []
@@ -142,13 +160,13 @@ class _Episode:
         before = await self._scene()
         ways = Ways(before, spared=self._mission.things)
         shortest_m = self._shortest_m(before, ways)
-        passable = Ways(before, spared=self._mission.things, radius_m=PASSABLE_M)
+        passable = Ways(before, spared=self._mission.things, radius_m=WaySettings().passable_m)
         within_reach = is_within_reach(self._mission, before, passable)
         task = self._runtime.orders.submit(self._mission.request)
         await self._film(before, self._mission.request)
         task = await self._watch(task)
         await self._note(await self._scene(), task)
-        await pass_time(self._runtime, _SETTLE_S)
+        await pass_time(self._runtime, self._settings.settle_s)
         after = await self._scene()
         await self._film(after, task.explanation or task.reply)
         row = self._judged(task, before, after, within_reach=within_reach)
@@ -190,9 +208,9 @@ class _Episode:
             now_s = self._runtime.now_s
             if task.status is TaskStatus.AWAITING_ANSWER:
                 await self._answer(task)
-            elif now_s > began_s + LIMIT_S:
+            elif now_s > began_s + self._settings.limit_s:
                 self._runtime.queue.cancel(task.id, stamp_s=now_s)
-            elif now_s >= looked_s + _LOOK_S:
+            elif now_s >= looked_s + self._settings.look_s:
                 looked_s = now_s
                 scene = await self._scene()
                 self._course.at(scene.robot_at)

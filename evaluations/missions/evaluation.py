@@ -6,7 +6,7 @@ import asyncio
 import json
 from collections import defaultdict
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from statistics import median
 from typing import Any
@@ -27,9 +27,37 @@ from evaluations.pool import run_all
 from evaluations.tables import shown
 
 OWN_HOUSES = ("flat", "office", *(f"stocked:{number}" for number in range(20, 26)))
-LEAST = {"success_undisturbed": 0.90, "success_disturbed": 0.80, "right_reason": 0.95, "picks": 0.95, "places": 0.97}
-MOST = {"phantoms": 0, "collisions": 0, "way_over_shortest": 1.25}
 Row = Mapping[str, Any]
+
+
+@dataclass(frozen=True, kw_only=True)
+class LeastAims:
+    """Shares that are to be reached: chosen, as high as a person would put up with."""
+
+    success_undisturbed: float = 0.90
+    success_disturbed: float = 0.80
+    right_reason: float = 0.95
+    """Of what was impossible, what the robot said."""
+    picks: float = 0.95
+    places: float = 0.97
+    """At the first go."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class MostAims:
+    """What is not to be exceeded: nothing untrue, nothing touched, and ways a quarter longer than the shortest."""
+
+    phantoms: int = 0
+    collisions: int = 0
+    way_over_shortest: float = 1.25
+
+
+@dataclass(frozen=True, kw_only=True)
+class MissionAims:
+    """What missions are to come to together."""
+
+    least: LeastAims = field(default_factory=LeastAims)
+    most: MostAims = field(default_factory=MostAims)
 
 
 def evaluate(
@@ -44,6 +72,7 @@ def evaluate(
     json_file: Path | None,
     console: Console,
     pictures: Path | None = None,
+    aims: MissionAims = MissionAims(),
 ) -> bool:
     """Play everything, print tables, write JSON; whether all aims were met.
 
@@ -58,6 +87,7 @@ def evaluate(
         json_file: where to write the figures.
         console: where to print the tables.
         pictures: folder for a filmstrip of each mission; none by default.
+        aims: what all is to come to.
 
     Raises:
         MissionFileError: what is wrong with the file; said before anything is played.
@@ -80,11 +110,12 @@ def evaluate(
     summary = summarize(rows)
     for title, key in (("by request", "kind"), ("by disturbance", "disturbance")):
         console.print(_table(title, rows, key))
-    console.print(_aims(summary))
+    console.print(_aims(summary, aims))
     if json_file is not None:
-        document = {"runs": runs, "summary": summary, "least": LEAST, "most": MOST, "met": met(summary)}
+        wanted = {"least": asdict(aims.least), "most": asdict(aims.most)}
+        document = {"runs": runs, "summary": summary, **wanted, "met": met(summary, aims)}
         json_file.write_text(json.dumps(document, indent=1) + "\n", encoding="utf-8")
-    return met(summary) and all(run["explored"] for run in runs)
+    return met(summary, aims) and all(run["explored"] for run in runs)
 
 
 def run_once(
@@ -130,10 +161,10 @@ def summarize(rows: Sequence[Row]) -> dict[str, Any]:
     }
 
 
-def met(summary: Mapping[str, Any]) -> bool:
+def met(summary: Mapping[str, Any], aims: MissionAims = MissionAims()) -> bool:
     """Whether every figure that could be measured is where it is to be."""
-    high = all(summary[name] is None or summary[name] >= aim for name, aim in LEAST.items())
-    low = all(summary[name] is None or summary[name] <= aim for name, aim in MOST.items())
+    high = all(summary[name] is None or summary[name] >= aim for name, aim in asdict(aims.least).items())
+    low = all(summary[name] is None or summary[name] <= aim for name, aim in asdict(aims.most).items())
     return high and low and summary["missions"] > 0
 
 
@@ -195,12 +226,12 @@ def _count(rows: Sequence[Row], verdict: Verdict) -> int:
     return sum(row["verdict"] == verdict for row in rows)
 
 
-def _aims(summary: Mapping[str, Any]) -> Table:
+def _aims(summary: Mapping[str, Any], aims: MissionAims) -> Table:
     table = Table(title="missions")
     for column in ("figure", "measured", "aim"):
         table.add_column(column, justify="left" if column == "figure" else "right")
-    for aims, sign in ((LEAST, ">="), (MOST, "<=")):
-        for name, aim in aims.items():
+    for wanted, sign in ((asdict(aims.least), ">="), (asdict(aims.most), "<=")):
+        for name, aim in wanted.items():
             value = summary[name]
             table.add_row(
                 name.replace("_", " "), str(value) if isinstance(value, int) else shown(value), f"{sign} {aim:g}"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 from planner.tasks.tasks import Task, TaskStatus
@@ -12,9 +12,16 @@ from simulation.houses.house import Furniture, House, room_at
 
 HAND = "hand"
 ROBOT = "robot"
-ARMS_LENGTH_M = 2.0
-"""A thing is with a person when it is at most so far from where they stand."""
-STIRRED_M = 0.3
+
+
+@dataclass(frozen=True, kw_only=True)
+class JudgingSettings:
+    """Tolerances in the simulator's truth."""
+
+    arms_length_m: float = 2.0
+    """A thing is with a person when it is at most so far from where they stand: a step, and an arm's length."""
+    stirred_m: float = 0.3
+    """What is farther than this from where it was has been moved, and not merely nudged."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -23,6 +30,7 @@ class Scene:
 
     house: House
     truth: Mapping[str, Any]
+    judging: JudgingSettings = field(default_factory=JudgingSettings)
 
     def thing(self, name: str) -> Mapping[str, Any] | None:
         """The record of a thing that can be moved; None once it is gone."""
@@ -83,7 +91,7 @@ class Scene:
             return bool(record["room"] == place)
         person = next((entry for entry in self.truth["people"] if entry["id"] == place), None)
         if person is not None:
-            return math.dist(record["position_m"][:2], person["position_m"]) <= ARMS_LENGTH_M
+            return math.dist(record["position_m"][:2], person["position_m"]) <= self.judging.arms_length_m
         return place in self.carriers(thing)
 
 
@@ -156,6 +164,6 @@ def stirred(before: Scene, after: Scene, spared: frozenset[str]) -> tuple[str, .
         now = after.thing(record["id"])
         if now is None or record["id"] in spared or spared & {*before.carriers(record["id"])}:
             continue
-        if math.dist(record["position_m"], now["position_m"]) > STIRRED_M:
+        if math.dist(record["position_m"], now["position_m"]) > before.judging.stirred_m:
             moved.append(record["id"])
     return tuple(moved)

@@ -16,9 +16,8 @@ from planner.mission.teaching import teach
 from planner.tasks.tasks import Task
 from simulation.houses.house import House
 
-SAME_M = 0.4
-"""A node this close to a thing, and closer than the other candidates, is what the person means."""
 MOST_ANSWERS = 3
+"""Questions about one request that a person puts up with."""
 _ORDINALS = ("first", "second", "third", "fourth", "fifth")
 """As many as the robot offers at once."""
 
@@ -57,9 +56,19 @@ class SimulatedUser:
 
 
 def meant(
-    candidates: Sequence[str], mission: Mission, scene: Scene, contents: GraphContents, *, held: str | None = None
+    candidates: Sequence[str],
+    mission: Mission,
+    scene: Scene,
+    contents: GraphContents,
+    *,
+    held: str | None = None,
+    same_m: float = 0.4,
 ) -> int | None:
-    """Index of the candidate that is what the mission is about; ``held``: the node that the robot has in its hand."""
+    """Index of the candidate that is what the mission is about.
+
+    ``held``: the node that the robot has in its hand. ``same_m``: a node this close to a thing, and closer than the
+    other candidates, is what the person means.
+    """
     at = {thing.id: (float(thing.position_m[0]), float(thing.position_m[1])) for thing in contents.things}
     for name in (*mission.things, *mission.places):
         if contents.rooms.get(name) in candidates:
@@ -68,6 +77,6 @@ def meant(
             return candidates.index(held)
         where = scene.where(name)
         near = [(math.dist(where, at[node]), node) for node in candidates if node in at] if where is not None else []
-        if near and min(near)[0] <= SAME_M:
+        if near and min(near)[0] <= same_m:
             return candidates.index(min(near)[1])
     return None

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Iterator, Mapping
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -16,24 +17,34 @@ from scipy.sparse.csgraph import dijkstra
 from evaluations.missions.outcome import Scene
 from simulation.furnishing.catalog import category_named
 from simulation.houses.house import OUTSIDE, Door, Furniture, House, room_at
+from simulation.robot.description import RobotDescription
 
-CELL_M = 0.05
 HALF = 0.5
 """Of a cell: so much nearer than the middle of a covered cell the thing that covers it ends, on average."""
-ROBOT_RADIUS_M = 0.25
-PASSABLE_M = 0.32
-"""What a body of that radius can be asked to pass, given how well it sees: 7 cm to each side."""
-REACH_M = 0.85
-"""How near the robot's middle has to come to a thing: so far the hand is brought from above."""
-PERSON_RADIUS_M = 0.25
-_STAYS_M = 0.1
 Point = tuple[float, float]
+
+
+@dataclass(frozen=True, kw_only=True)
+class WaySettings:
+    """What a free way is."""
+
+    cell_m: float = 0.05
+    """Side of the grid's cells."""
+    robot_radius_m: float = RobotDescription.base_radius_m
+    passable_m: float = 0.32
+    """What a body of that radius can be asked to pass, given how well it sees: 7 cm to each side."""
+    reach_m: float = 0.85
+    """How near the robot's middle has to come to a thing: so far the hand is brought from above."""
+    person_radius_m: float = 0.25
+    stays_m: float = 0.1
+    """Who is found no farther from where the house puts them has stayed."""
 
 
 class Ways:
     """Free floor of the house as it is, on a grid; furniture stands where the house says, doors are as the truth says,
     but for those that are ``shut``, and what lies on the floor is in the way, but for the ``spared``, and so is who
-    stands where the house puts them and never walks. ``radius_m``: how far the robot's middle keeps off all of it.
+    stands where the house puts them and never walks. ``radius_m``: how far the robot's middle keeps off all of it, its
+    own radius if left out.
 
     Attributes:
         clearance_m: (H, W) distance of each cell from walls and furniture.
@@ -45,32 +56,35 @@ class Ways:
         *,
         shut: Collection[str] = (),
         spared: Collection[str] = (),
-        radius_m: float = ROBOT_RADIUS_M,
+        radius_m: float | None = None,
+        settings: WaySettings = WaySettings(),
     ) -> None:
-        house = scene.house
+        house, cell_m = scene.house, settings.cell_m
+        self._settings = settings
         self._house = house
         corners = np.array([corner for room in house.rooms for corner in room.polygon])
         self._low = corners.min(axis=0) - 1.0
-        width, height = (int(n) for n in np.ceil((corners.max(axis=0) + 1.0 - self._low) / CELL_M))
+        width, height = (int(n) for n in np.ceil((corners.max(axis=0) + 1.0 - self._low) / cell_m))
         closed = {door["id"] for door in scene.truth["doors"] if door["state"] == "closed"} | {*shut}
         self._open = [door for door in house.doors if door.id not in closed and OUTSIDE not in door.rooms]
         rows, columns = np.indices((height, width))
-        self._places = self._low + (np.stack((columns, rows), axis=-1) + 0.5) * CELL_M
+        self._places = self._low + (np.stack((columns, rows), axis=-1) + 0.5) * cell_m
         free = np.zeros((height, width), np.bool_)
         self._floors = {room.id: self._inside(np.array(room.polygon)) for room in house.rooms}
         for floor in self._floors.values():
             free |= floor
         for door in self._open:
-            free |= self._inside(gap(house, door))
+            free |= self._inside(gap(house, door, settings))
         for item in house.furniture:
             free &= ~self._inside(outline(item))
         for record in scene.truth["objects"]:
             if record["id"] not in spared and record["id"] != scene.holding and not (record["on"] or record["in"]):
                 free &= ~self._covered(record)
-        for spot in _who_stays(scene):
-            free &= np.linalg.norm(self._places - np.array(spot), axis=-1) >= PERSON_RADIUS_M
-        self.clearance_m: NDArray[np.float64] = np.maximum(distance_transform_edt(free) - HALF, 0.0) * CELL_M
-        self._number, self._graph = _grid_graph(self.clearance_m > radius_m)
+        for spot in _who_stays(scene, settings.stays_m):
+            free &= np.linalg.norm(self._places - np.array(spot), axis=-1) >= settings.person_radius_m
+        self.clearance_m: NDArray[np.float64] = np.maximum(distance_transform_edt(free) - HALF, 0.0) * cell_m
+        off_m = settings.robot_radius_m if radius_m is None else radius_m
+        self._number, self._graph = _grid_graph(self.clearance_m > off_m, cell_m)
 
     def length_m(self, start: Point, *stops: Point | str) -> float:
         """The shortest way from ``start`` that comes within reach of each stop in turn, and into each that is the
@@ -112,8 +126,9 @@ class Ways:
     def is_free(self, point: Point) -> bool:
         """Whether the robot could stand there."""
         row, column = self._cell(point)
+        settings = self._settings
         inside = 0 <= row < self.clearance_m.shape[0] and 0 <= column < self.clearance_m.shape[1]
-        return inside and bool(self.clearance_m[row, column] > ROBOT_RADIUS_M + CELL_M)
+        return inside and bool(self.clearance_m[row, column] > settings.robot_radius_m + settings.cell_m)
 
     def middle_of(self, room_id: str) -> Point | None:
         """The place in a room that is farthest from walls and furniture."""
@@ -133,10 +148,10 @@ class Ways:
         """(H, W) cells under a thing: those as near as its sides are on average."""
         radius_m = sum(category_named(record["category"]).size_m[:2]) / 4.0
         away_m = np.linalg.norm(self._places - np.array(record["position_m"][:2]), axis=-1)
-        return np.asarray(away_m < max(radius_m, CELL_M))
+        return np.asarray(away_m < max(radius_m, self._settings.cell_m))
 
     def _cell(self, point: Point) -> tuple[int, int]:
-        column, row = np.floor((np.array(point) - self._low) / CELL_M).astype(int)
+        column, row = np.floor((np.array(point) - self._low) / self._settings.cell_m).astype(int)
         return int(row), int(column)
 
     def _points(self, numbers: NDArray[np.int64]) -> NDArray[np.float64]:
@@ -147,7 +162,7 @@ class Ways:
     def _within(self, point: Point) -> NDArray[np.int64]:
         """Numbers of the cells within reach of a point, on the same side of the walls."""
         points = self._points(np.arange(int(self._number.max()) + 1))
-        near = np.linalg.norm(points - np.array(point), axis=1) < REACH_M
+        near = np.linalg.norm(points - np.array(point), axis=1) < self._settings.reach_m
         floor = self._floors.get(room_at(self._house, *point) or "")
         return np.flatnonzero(near if floor is None else near & floor[self._number >= 0])
 
@@ -160,13 +175,13 @@ class Ways:
         return int(np.argmin(np.linalg.norm(points - np.array(point), axis=1))) if len(points) else None
 
 
-def gap(house: House, door: Door) -> NDArray[np.float64]:
+def gap(house: House, door: Door, settings: WaySettings = WaySettings()) -> NDArray[np.float64]:
     """The floor of a doorway, from room to room, as (4, 2) corners: along the side of a room that is nearest."""
     rooms = [room for room in house.rooms if room.id in door.rooms]
     sides = [_direction_at(np.array(room.polygon), np.array(door.center)) for room in rooms]
     along = sides[0] if sides else np.array((1.0, 0.0))
     yaw_rad = math.atan2(along[1], along[0])
-    return _rectangle(door.center, (door.width, house.wall_thickness + 4 * CELL_M), yaw_rad)
+    return _rectangle(door.center, (door.width, house.wall_thickness + 4 * settings.cell_m), yaw_rad)
 
 
 def outline(item: Furniture) -> NDArray[np.float64]:
@@ -175,7 +190,7 @@ def outline(item: Furniture) -> NDArray[np.float64]:
     return _rectangle((item.pose[0], item.pose[1]), size[:2], item.pose[2])
 
 
-def _grid_graph(free: NDArray[np.bool_]) -> tuple[NDArray[np.int64], coo_matrix]:
+def _grid_graph(free: NDArray[np.bool_], cell_m: float) -> tuple[NDArray[np.int64], coo_matrix]:
     """Numbers of the free cells, -1 elsewhere, and their graph: eight neighbors, lengths in meters."""
     number = np.full(free.shape, -1, np.int64)
     number[free] = np.arange(int(free.sum()))
@@ -187,7 +202,7 @@ def _grid_graph(free: NDArray[np.bool_]) -> tuple[NDArray[np.int64], coo_matrix]
         both = (here >= 0) & (there >= 0)
         rows.append(here[both])
         columns.append(there[both])
-        lengths.append(np.full(int(both.sum()), CELL_M * math.hypot(dx, dy)))
+        lengths.append(np.full(int(both.sum()), cell_m * math.hypot(dx, dy)))
     count = int(free.sum())
     data = (np.concatenate(lengths), (np.concatenate(rows), np.concatenate(columns)))
     return number, coo_matrix(data, shape=(count, count)).tocsr()
@@ -212,12 +227,12 @@ def _direction_at(polygon: NDArray[np.float64], point: NDArray[np.float64]) -> N
     return direction
 
 
-def _who_stays(scene: Scene) -> Iterator[Point]:
+def _who_stays(scene: Scene, stays_m: float) -> Iterator[Point]:
     """Where somebody stands for good: nothing that happens in the house by itself makes them walk, and nobody led them
     away.
     """
     now = {entry["id"]: entry["position_m"] for entry in scene.truth.get("people", ())}
     walking = {event.id for event in scene.house.events}
     for person in scene.house.people:
-        if person.id in now and person.id not in walking and math.dist(now[person.id][:2], person.pose[:2]) < _STAYS_M:
+        if person.id in now and person.id not in walking and math.dist(now[person.id][:2], person.pose[:2]) < stays_m:
             yield person.pose[0], person.pose[1]

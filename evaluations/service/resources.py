@@ -20,7 +20,7 @@ from rich.console import Console
 from rich.table import Table
 
 from app.runtime import Runtime
-from evaluations.mapping.exploration import LIMIT_S, meter, service_in_lockstep, until_explored
+from evaluations.mapping.exploration import ExplorationLimit, meter, service_in_lockstep, until_explored
 from evaluations.mapping.known_building import known_building
 from evaluations.plots import save
 from evaluations.pool import run_all
@@ -83,7 +83,7 @@ async def _run(name: str, *, camera: bool) -> dict[str, Any]:
     return {
         "house": name,
         "camera": camera,
-        "explored": explored and seconds < LIMIT_S * 10,
+        "explored": explored and seconds < ExplorationLimit().house_s * 10,
         "sim_seconds": seconds,
         "cpu_percent": cpu,
         "service_mb_max": max(sample["service_mb"] for sample in samples),

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import pytest
 
-from evaluations.missions.endurance import GROWTH, SWOLLEN_M, WORSE, as_it_is, grown, is_as_right
+from evaluations.missions.endurance import EnduranceAims, as_it_is, grown, is_as_right
 from evaluations.missions.outcome import Scene
 from evaluations.missions.request_generator import invent
 from simulation.houses.house import House
 from simulation.houses.house_file import load_house
 
 FLAT = load_house("flat")
+AIMS = EnduranceAims()
 
 
 def _record(entry, **place):
@@ -57,7 +58,7 @@ def test_requests_follow_the_things():
 @pytest.mark.parametrize(("leak_mb", "flat"), [(0.0, True), (0.2, False)])
 def test_memory_that_grows_all_the_time_is_noticed_and_a_warm_up_is_not_held_against_it(leak_mb, flat):
     samples = [{"stamp_s": 10.0 * k, "mb": 100.0 + min(k, 50) + leak_mb * max(0, k - 50)} for k in range(1000)]
-    assert (grown(samples, "mb") <= GROWTH) is flat
+    assert (grown(samples, "mb") <= AIMS.growth) is flat
 
 
 def test_a_run_of_no_length_has_not_grown():
@@ -68,9 +69,9 @@ def test_a_run_of_no_length_has_not_grown():
     ("worse", "right"),
     [
         ({}, True),
-        ({"recall": 0.9 - 1.1 * WORSE}, False),
-        ({"precision": 1.0 - 1.1 * WORSE}, False),
-        ({"size_error_furniture_m": 0.05 + 1.1 * SWOLLEN_M}, False),
+        ({"recall": 0.9 - 1.1 * AIMS.worse}, False),
+        ({"precision": 1.0 - 1.1 * AIMS.worse}, False),
+        ({"size_error_furniture_m": 0.05 + 1.1 * AIMS.swollen_m}, False),
         ({"size_error_furniture_m": 0.01}, True),
         ({"size_error_furniture_m": None}, False),
     ],

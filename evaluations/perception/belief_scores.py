@@ -17,7 +17,8 @@ from simulation.houses.house import House
 
 BANDS_M = (0.0, 1.0, 2.0, 3.0)
 """Where the bands of the distance begin from which a thing was seen at the nearest."""
-NEAR_M = 3.0
+NEAR_M = BANDS_M[-1]
+"""What was seen from farther than the last band begins is not asked how right its place is."""
 SUPPORTING = ("on", "in")
 LABELS_ALIKE = {"corridor": "hall", "lounge": "living room"}
 """Uses of rooms that the graph has one word for."""

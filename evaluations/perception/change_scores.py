@@ -13,12 +13,17 @@ from evaluations.perception.matching import Matching, match_things, off_m
 from evaluations.perception.recognition import share
 from scene_graph.nodes import UNKNOWN_LABEL
 
-PLACE_M = 0.3
-"""A thing is at its new place for the graph if its node is so near, and has left the old one if none is."""
-STIRRED_M = 0.05
-"""What truly moved farther than this may move in the graph too, whoever was asked to."""
-SHIFTED_M = 0.3
-"""A node that moved so far although its thing did not is a false alarm."""
+
+@dataclass(frozen=True, kw_only=True)
+class ChangeTolerances:
+    """How far off a change may be noticed."""
+
+    place_m: float = 0.3
+    """A thing is at its new place for the graph if its node is so near, and has left the old one if none is."""
+    stirred_m: float = 0.05
+    """What truly moved farther than this may move in the graph too, whoever was asked to."""
+    shifted_m: float = 0.3
+    """A node that moved so far although its thing did not is a false alarm."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -53,16 +58,18 @@ class Moment:
         return share(right, len(asked)), share(len(self.matching.named), len(claims))
 
 
-def detected(kind: str, thing: str, before: Moment, after: Moment) -> dict[str, bool | None]:
+def detected(
+    kind: str, thing: str, before: Moment, after: Moment, tolerances: ChangeTolerances = ChangeTolerances()
+) -> dict[str, bool | None]:
     """What the graph made of one change. ``kept``: whether a moved thing kept its node; None where that means nothing.
 
     ``noticed``: that it is gone from where it was, and stands where it is now, under whatever name; ``named``: under
     its own name.
     """
-    left = kind == "add" or _left(thing, before, after)
+    left = kind == "add" or _left(thing, before, after, tolerances.place_m)
     node = after.node(after.matching.node_of.get(thing, ""))
     now = after.thing(thing)
-    there = node is not None and now is not None and off_m(now, node) <= PLACE_M
+    there = node is not None and now is not None and off_m(now, node) <= tolerances.place_m
     if kind == "remove":
         return {"noticed": left, "named": left, "kept": None}
     known = before.matching.node_of.get(thing)
@@ -73,9 +80,11 @@ def detected(kind: str, thing: str, before: Moment, after: Moment) -> dict[str, 
     }
 
 
-def false_alarms(before: Moment, after: Moment) -> list[dict[str, str]]:
+def false_alarms(
+    before: Moment, after: Moment, tolerances: ChangeTolerances = ChangeTolerances()
+) -> list[dict[str, str]]:
     """Nodes that changed without cause: gone, shifted or renamed though their thing stands as it did, or made up."""
-    stirred = _stirred(before, after)
+    stirred = _stirred(before, after, tolerances.stirred_m)
     alarms = []
     for thing, name in before.matching.node_of.items():
         if thing in stirred:
@@ -86,7 +95,7 @@ def false_alarms(before: Moment, after: Moment) -> list[dict[str, str]]:
         if now is None:
             if thing not in after.matching.node_of:
                 alarms.append({"node": name, "of": thing, "how": "gone"})
-        elif float(np.linalg.norm(now.position_m - was.position_m)) > SHIFTED_M:
+        elif float(np.linalg.norm(now.position_m - was.position_m)) > tolerances.shifted_m:
             alarms.append({"node": name, "of": thing, "how": "shifted"})
         elif thing in before.matching.named and now.label != was.label:
             alarms.append({"node": name, "of": thing, "how": "renamed"})
@@ -132,27 +141,27 @@ def _of_kind(rows: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
     }
 
 
-def _left(thing: str, before: Moment, after: Moment) -> bool:
+def _left(thing: str, before: Moment, after: Moment, place_m: float) -> bool:
     """Whether the node that stood for the thing where it was no longer says so, and no new one does."""
     was, old = before.thing(thing), before.node(before.matching.node_of.get(thing, ""))
     if was is None or old is None:
         return True
     others = {name for other, name in after.matching.node_of.items() if other != thing}
     still = after.node(old.id)
-    if still is not None and off_m(was, still) <= PLACE_M and still.id not in others:
+    if still is not None and off_m(was, still) <= place_m and still.id not in others:
         return False
     known = {node.id for node in before.graph}
     return not any(
-        node.id not in known and node.id not in others and node.label == old.label and off_m(was, node) <= PLACE_M
+        node.id not in known and node.id not in others and node.label == old.label and off_m(was, node) <= place_m
         for node in after.graph
     )
 
 
-def _stirred(before: Moment, after: Moment) -> set[str]:
+def _stirred(before: Moment, after: Moment, stirred_m: float) -> set[str]:
     """Things that came, went or moved in truth."""
     places = {thing.id: thing.position_m for thing in before.true}
     now = {thing.id: thing.position_m for thing in after.true}
-    moved = {name for name in places.keys() & now.keys() if float(np.linalg.norm(now[name] - places[name])) > STIRRED_M}
+    moved = {name for name in places.keys() & now.keys() if float(np.linalg.norm(now[name] - places[name])) > stirred_m}
     return moved | (places.keys() ^ now.keys())
 
 

@@ -19,10 +19,11 @@ from perception.objects.seeing.shape import Shape
 from perception.objects.tracking.center import CenterBelief, CenterSettings
 from perception.objects.tracking.particle_filter import Likelihood, ParticleSettings
 from scene_graph.geometry.se3 import SE3
+from skills.ports import ArmGeometry
 
 Array = NDArray[np.float64]
 _SIZE_M = (0.1, 0.1, 0.1)
-_CAMERA_DISTANCE_M, _CAMERA_HEIGHT_M, _CAMERA_STEP_RAD = 2.0, 1.4, 0.2
+"""Made up: filters of the center do not look at it."""
 _EXACT_POSE = np.zeros((3, 3))
 
 
@@ -54,9 +55,9 @@ CONTENDERS = (PAPER, KINDEST, OURS)
 
 def camera_pose(step: int) -> SE3:
     """T_room_camera at a measurement: the camera circles the room's origin and faces it."""
-    bearing_rad = _CAMERA_STEP_RAD * step
-    x_m, y_m = _CAMERA_DISTANCE_M * math.cos(bearing_rad), _CAMERA_DISTANCE_M * math.sin(bearing_rad)
-    return SE3.from_xyz_yaw(x_m, y_m, _CAMERA_HEIGHT_M, bearing_rad + math.pi)
+    bearing_rad, away_m = 0.2 * step, 2.0
+    x_m, y_m = away_m * math.cos(bearing_rad), away_m * math.sin(bearing_rad)
+    return SE3.from_xyz_yaw(x_m, y_m, ArmGeometry().camera_height_m, bearing_rad + math.pi)
 
 
 def measure(places: Array, sigma_m: Array, random: np.random.Generator) -> Array:

@@ -17,9 +17,6 @@ from simulation.houses.house import House, room_at
 
 Kind = Literal["move", "remove", "add"]
 KINDS: tuple[Kind, ...] = ("move", "remove", "add")
-HIGHEST_M = 1.25
-"""Onto tops above this a person puts nothing that the robot, whose camera is 1.4 m high, has to see."""
-VIEW_RANGE_M = 6.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -41,6 +38,8 @@ class Gaze:
     y_m: float
     yaw_rad: float
     half_width_rad: float
+    range_m: float = 6.0
+    """Beyond, no change is seen: twice as far as depth tells anything of small things."""
 
     def meets(self, x_m: float, y_m: float, radius_m: float = 0.0) -> bool:
         """Whether a disc may be in the picture, as far as walls do not hide it."""
@@ -48,7 +47,7 @@ class Gaze:
         if distance_m <= radius_m:
             return True
         aside_rad = abs(math.remainder(math.atan2(y_m - self.y_m, x_m - self.x_m) - self.yaw_rad, math.tau))
-        return distance_m < VIEW_RANGE_M and aside_rad < self.half_width_rad + math.asin(radius_m / distance_m)
+        return distance_m < self.range_m and aside_rad < self.half_width_rad + math.asin(radius_m / distance_m)
 
 
 def interventions(
@@ -60,6 +59,7 @@ def interventions(
     rooms: Collection[str],
     gaze: Gaze,
     known: Collection[str] | None = None,
+    highest_m: float = 1.25,
 ) -> Sequence[Intervention]:
     """What could be done now, in random order; whether there is room for a thing shows when it is put.
 
@@ -71,8 +71,9 @@ def interventions(
         rooms: in which things may change.
         gaze: of the robot's camera; no place in it is touched.
         known: things that may be moved or removed; all by default.
+        highest_m: onto tops above this nothing is put that the robot, whose camera is 1.4 m high, has to see.
     """
-    places = _supports(house, rooms, gaze)
+    places = _supports(house, rooms, gaze, highest_m)
     if kind == "add":
         taken = {entry["id"] for entry in truth["objects"]}
         return [_adding(places[k], taken, rng) for k in rng.permutation(len(places))]
@@ -88,14 +89,14 @@ def interventions(
     return [_moving(entry, str(rng.choice(others))) for entry, others in goals if others]
 
 
-def _supports(house: House, rooms: Collection[str], gaze: Gaze) -> list[str]:
+def _supports(house: House, rooms: Collection[str], gaze: Gaze, highest_m: float) -> list[str]:
     """Furniture onto which things are put, not in view."""
     found = []
     for item in house.furniture:
         kind = category_named(item.category, item.size, static=True)
         size = item.size or kind.size_m
         x_m, y_m, _ = item.pose
-        carries = kind.support and kind.levels[0] * size[2] <= HIGHEST_M
+        carries = kind.support and kind.levels[0] * size[2] <= highest_m
         if carries and room_at(house, x_m, y_m) in rooms and not gaze.meets(x_m, y_m, math.hypot(*size[:2]) / 2.0):
             found.append(item.id)
     return found

@@ -10,13 +10,19 @@ from scipy.optimize import linear_sum_assignment
 
 from evaluations.perception.inventory import GraphThing, TrueThing
 
-SMALL_GATE_M = 0.5
-"""So far from the center of a small thing its node may be."""
-FURNITURE_GATE_M = 0.3
-"""So far from the box of a piece of furniture its node may be."""
-CLOSE_M = 0.15
-"""Nodes under another name than a thing's count as that thing within so much of its box, and if its size is similar."""
-SIZE_RATIO = 2.5
+
+@dataclass(frozen=True, kw_only=True)
+class MatchingSettings:
+    """How near a node must be to a thing to stand for it; chosen, wide enough that what is merely off is not missed."""
+
+    small_gate_m: float = 0.5
+    """So far from the center of a small thing its node may be."""
+    furniture_gate_m: float = 0.3
+    """So far from the box of a piece of furniture its node may be."""
+    close_m: float = 0.15
+    """Nodes under another name than a thing's count as that thing within so much of its box."""
+    size_ratio: float = 2.5
+    """And if neither is so many times as long as the other."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -43,14 +49,17 @@ class Matching:
         return {node: thing for thing, node in self.node_of.items()}
 
 
-def match_things(true: Sequence[TrueThing], graph: Sequence[GraphThing]) -> Matching:
+def match_things(
+    true: Sequence[TrueThing], graph: Sequence[GraphThing], settings: MatchingSettings = MatchingSettings()
+) -> Matching:
     """Assign nodes to things of their own name first, then to the rest by place and size; then sort what is left."""
-    named = _assign(true, graph, _may_be)
+    gates = _Gates(settings)
+    named = _assign(true, graph, gates.may_be)
     left_true = [thing for thing in true if thing.id not in named]
     left = [node for node in graph if node.id not in named.values()]
-    misnamed = _assign(left_true, left, _looks_like)
+    misnamed = _assign(left_true, left, gates.looks_like)
     left = [node for node in left if node.id not in misnamed.values()]
-    duplicates = {node.id: again for node in left if (again := _already(true, node)) is not None}
+    duplicates = {node.id: again for node in left if (again := gates.already(true, node)) is not None}
     return Matching(
         named=named,
         misnamed=misnamed,
@@ -77,42 +86,46 @@ class Identities:
 
     switches: int = 0
     last: dict[str, str] = field(default_factory=dict)
+    settings: MatchingSettings = field(default_factory=MatchingSettings)
 
     def update(self, true: Sequence[TrueThing], graph: Sequence[GraphThing]) -> None:
         """The graph as it is now."""
-        nodes = {node.id: node for node in graph}
+        nodes, gates = {node.id: node for node in graph}, _Gates(self.settings)
         kept = {
             thing.id: self.last[thing.id]
             for thing in true
-            if thing.id in self.last and self.last[thing.id] in nodes and _near(thing, nodes[self.last[thing.id]])
+            if thing.id in self.last and self.last[thing.id] in nodes and gates.near(thing, nodes[self.last[thing.id]])
         }
         rest = [node for node in graph if node.id not in kept.values()]
-        fresh = match_things([thing for thing in true if thing.id not in kept], rest).node_of
+        fresh = match_things([thing for thing in true if thing.id not in kept], rest, self.settings).node_of
         self.switches += sum(thing in self.last and self.last[thing] != node for thing, node in fresh.items())
         self.last |= kept | fresh
 
 
-def _near(thing: TrueThing, node: GraphThing) -> bool:
-    if thing.furniture:
-        return thing.gap_m(node.position_m) <= FURNITURE_GATE_M
-    return off_m(thing, node) <= SMALL_GATE_M
+class _Gates:
+    """What may stand for what."""
 
+    def __init__(self, settings: MatchingSettings) -> None:
+        self._settings = settings
 
-def _may_be(thing: TrueThing, node: GraphThing) -> bool:
-    return thing.category == node.label and _near(thing, node)
+    def near(self, thing: TrueThing, node: GraphThing) -> bool:
+        if thing.furniture:
+            return thing.gap_m(node.position_m) <= self._settings.furniture_gate_m
+        return off_m(thing, node) <= self._settings.small_gate_m
 
+    def may_be(self, thing: TrueThing, node: GraphThing) -> bool:
+        return thing.category == node.label and self.near(thing, node)
 
-def _looks_like(thing: TrueThing, node: GraphThing) -> bool:
-    """Whether place and size are right, whatever it is called."""
-    longest, other = max(thing.size_m), max(*node.size_m, 1e-3)
-    similar = max(longest / other, other / longest) <= SIZE_RATIO
-    return similar and thing.gap_m(node.position_m) <= CLOSE_M
+    def looks_like(self, thing: TrueThing, node: GraphThing) -> bool:
+        """Whether place and size are right, whatever it is called."""
+        longest, other = max(thing.size_m), max(*node.size_m, 1e-3)
+        similar = max(longest / other, other / longest) <= self._settings.size_ratio
+        return similar and thing.gap_m(node.position_m) <= self._settings.close_m
 
-
-def _already(true: Sequence[TrueThing], node: GraphThing) -> str | None:
-    """The nearest thing that a node left over may be."""
-    near = [thing for thing in true if _may_be(thing, node) or _looks_like(thing, node)]
-    return min(near, key=lambda thing: (thing.gap_m(node.position_m), off_m(thing, node))).id if near else None
+    def already(self, true: Sequence[TrueThing], node: GraphThing) -> str | None:
+        """The nearest thing that a node left over may be."""
+        near = [thing for thing in true if self.may_be(thing, node) or self.looks_like(thing, node)]
+        return min(near, key=lambda thing: (thing.gap_m(node.position_m), off_m(thing, node))).id if near else None
 
 
 def _assign(

@@ -16,11 +16,12 @@ from scene_graph.nodes import UNKNOWN_LABEL
 from simulation.furnishing.catalog import CATEGORIES, category_named
 from simulation.pictures.photographs import FLOOR, WALL, Photograph
 
-MATCH_IOU = 0.5
 SIZES_PX = (20, 50, 100, 200, 1000)
 """Where the bins of visible pixels begin, at the network's input."""
-CLEAR_PX = 200
+CLEAR_PX = SIZES_PX[3]
+"""From so many on a thing is clear: about as many as a cup has that is 1.4 m away."""
 TOP = 20
+"""So many relations of a picture count, the surest: recall at 20, as the PSG paper has it."""
 SUPPORT = ("on", "in")
 EITHER_WAY = "beside"
 _STUFF = (WALL, FLOOR)
@@ -183,10 +184,15 @@ def overlaps(photo: Photograph, masks: Sequence[NDArray[np.bool_]]) -> NDArray[n
     return result
 
 
-def matches(overlap: NDArray[np.float64], names: Sequence[str], labels: Sequence[str]) -> dict[int, int]:
-    """Which instance shows each thing, one to one, those of the right name preferred."""
+def matches(
+    overlap: NDArray[np.float64], names: Sequence[str], labels: Sequence[str], *, least_iou: float = 0.5
+) -> dict[int, int]:
+    """Which instance shows each thing, one to one, those of the right name preferred.
+
+    ``least_iou``: with less in common they are not the same, as COCO counts it.
+    """
     named = np.array([[name == label for label in labels] for name in names], dtype=np.float64)
-    worth = np.where(overlap >= MATCH_IOU, overlap + named.reshape(overlap.shape), 0.0)
+    worth = np.where(overlap >= least_iou, overlap + named.reshape(overlap.shape), 0.0)
     rows, columns = linear_sum_assignment(-worth)
     return {int(row): int(column) for row, column in zip(rows, columns, strict=True) if worth[row, column] > 0.0}
 

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -48,13 +49,30 @@ PAPER_M = {
     "paper": {"error_of_mean": (0.02, 0.02, 0.01), "standard_deviation": (0.17, 0.12, 0.02)},
 }
 """Table 1: one run of 30 measurements."""
-AIM_BOUND_RATIO = 1.5
-MOVE_M, WITHIN_M = 0.5, 0.1
-BEFORE_MOVE, AFTER_MOVE, MOST_MOVES = 30, 60, 200
-MOVE_NOISE = (1.0, 0.1)
-"""Parts of the paper's noise under which a thing is moved."""
 TITLES = {"no_filter": "no filter", **{contender.name: contender.title for contender in CONTENDERS}}
 COLORS = {"no_filter": "#9ca3af", PAPER.name: "#c2410c", KINDEST.name: "#f59e0b", OURS.name: "#1d4ed8"}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Move:
+    """How a thing is moved, and when it counts as found again."""
+
+    distance_m: float = 0.5
+    within_m: float = 0.1
+    before: int = 30
+    after: int = 60
+    """Measurements before and after it."""
+    most_runs: int = 200
+    noise: tuple[float, ...] = (1.0, 0.1)
+    """Parts of the paper's noise under which it is moved."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class TrackingAims:
+    """How well ours is to do."""
+
+    bound_ratio: float = 1.5
+    """At most so many times the mean absolute error that is possible at all: chosen."""
 
 
 def evaluate(
@@ -65,21 +83,26 @@ def evaluate(
     json_file: Path | None,
     plot_file: Path | None,
     console: Console,
+    move: Move = Move(),
+    aims: TrackingAims = TrackingAims(),
 ) -> bool:
     """Measure, print tables, write JSON and plot; whether ours errs less than the paper's filter on every axis, in
-    either reading of it, and at most ``AIM_BOUND_RATIO`` times the mean absolute error that is possible at all.
+    either reading of it, and at most ``bound_ratio`` times the mean absolute error that is possible at all.
     """
     rest = at_rest(seed=seed, repetitions=repetitions, measurements=measurements, console=console)
-    moves = [moving(part, seed=seed, runs=min(repetitions, MOST_MOVES), console=console) for part in MOVE_NOISE]
-    for table in (_rest_table(rest), _paper_table(rest), _moves_table(moves)):
+    runs = min(repetitions, move.most_runs)
+    moves = [moving(part, seed=seed, runs=runs, console=console, move=move) for part in move.noise]
+    good = met(rest, aims)
+    for table in (_rest_table(rest, aims), _paper_table(rest), _moves_table(moves, move)):
         console.print(table)
     if json_file is not None:
         json_file.parent.mkdir(parents=True, exist_ok=True)
-        document = {"seed": seed, "at_rest": rest, "moved": moves, "aim_bound_ratio": AIM_BOUND_RATIO, "met": met(rest)}
+        figures = {"seed": seed, "at_rest": rest, "moved": moves}
+        document = {**figures, "aim_bound_ratio": aims.bound_ratio, "met": good}
         json_file.write_text(json.dumps(document, indent=2) + "\n", encoding="utf-8")
     if plot_file is not None:
         draw(rest, moves, plot_file)
-    return met(rest)
+    return good
 
 
 def at_rest(*, seed: int, repetitions: int, measurements: int, console: Console) -> dict[str, Any]:
@@ -109,32 +132,32 @@ def _as_paper(estimates: Array) -> dict[str, Any]:
     }
 
 
-def met(rest: Mapping[str, Any]) -> bool:
+def met(rest: Mapping[str, Any], aims: TrackingAims = TrackingAims()) -> bool:
     """Whether ours is where it is to be; the bound is the stricter of the two, that of the mean absolute error."""
     errors = {name: np.array(each) for name, each in rest["mean_absolute_m"].items()}
     ours, bound = errors[OURS.name], np.array(rest["bound_m"]["mean_absolute"])
     better = (ours < errors[PAPER.name]) & (ours < errors[KINDEST.name])
-    return bool((better & (ours <= AIM_BOUND_RATIO * bound)).all())
+    return bool((better & (ours <= aims.bound_ratio * bound)).all())
 
 
-def moving(part: float, *, seed: int, runs: int, console: Console) -> dict[str, Any]:
+def moving(part: float, *, seed: int, runs: int, console: Console, move: Move = Move()) -> dict[str, Any]:
     """A thing measured with a part of the paper's noise is moved; the median over runs of the error's length."""
     sigma_m, random = part * SIGMA_M, np.random.default_rng(seed)
-    places = moved(TRUE_M, before=BEFORE_MOVE, after=AFTER_MOVE, distance_m=MOVE_M, runs=runs, random=random)
+    places = moved(TRUE_M, before=move.before, after=move.after, distance_m=move.distance_m, runs=runs, random=random)
     measured = measure(places, sigma_m, random)
     estimates = _estimates(measured, sigma_m, seed, console, f"moved, noise x {part:g}")
-    since = {name: each[:, BEFORE_MOVE:] for name, each in estimates.items()}
-    since["told"] = running_mean(measured[:, BEFORE_MOVE:])
-    errors = {name: np.linalg.norm(each - places[:, BEFORE_MOVE:], axis=2) for name, each in since.items()}
+    since = {name: each[:, move.before :] for name, each in estimates.items()}
+    since["told"] = running_mean(measured[:, move.before :])
+    errors = {name: np.linalg.norm(each - places[:, move.before :], axis=2) for name, each in since.items()}
     medians = {name: np.median(each, axis=0) for name, each in errors.items()}
     return {
         "sigma_m": sigma_m.tolist(),
         "runs": runs,
-        "move_m": MOVE_M,
-        "within_m": WITHIN_M,
-        "measurements_before": BEFORE_MOVE,
-        "measurements_after": AFTER_MOVE,
-        "measurements_needed": {name: recovered(each, WITHIN_M) for name, each in medians.items()},
+        "move_m": move.distance_m,
+        "within_m": move.within_m,
+        "measurements_before": move.before,
+        "measurements_after": move.after,
+        "measurements_needed": {name: recovered(each, move.within_m) for name, each in medians.items()},
         "medians_m": {name: each.tolist() for name, each in medians.items()},
     }
 
@@ -147,10 +170,10 @@ def _estimates(measured: Array, sigma_m: Array, seed: int, console: Console, wha
     return estimates
 
 
-def _rest_table(rest: Mapping[str, Any]) -> Table:
+def _rest_table(rest: Mapping[str, Any], aims: TrackingAims) -> Table:
     table = Table(
         title=f"mean absolute error after {rest['measurements']} measurements, {rest['repetitions']} repetitions",
-        caption=f"aim: ours below either paper's filter, and at most {AIM_BOUND_RATIO:g} x bound",
+        caption=f"aim: ours below either paper's filter, and at most {aims.bound_ratio:g} x bound",
     )
     table.add_column("")
     for column in (*(f"{axis} mm" for axis in "xyz"), *(f"{axis} / bound" for axis in "xyz")):
@@ -184,15 +207,16 @@ def _triple(values: Sequence[float]) -> str:
     return "  ".join(f"{value:.3f}" for value in values)
 
 
-def _moves_table(moves: Sequence[Mapping[str, Any]]) -> Table:
-    table = Table(title=f"measurements after a move of {MOVE_M:g} m until half of the runs are within {WITHIN_M:g} m")
+def _moves_table(moves: Sequence[Mapping[str, Any]], how: Move) -> Table:
+    until = f"until half of the runs are within {how.within_m:g} m"
+    table = Table(title=f"measurements after a move of {how.distance_m:g} m {until}")
     titles = {contender.name: contender.title for contender in CONTENDERS} | {"told": "mean since"}
     table.add_column("σ in m", no_wrap=True)
     for column in titles.values():
         table.add_column(column, justify="right")
     for move in moves:
         needed = (move["measurements_needed"][name] for name in titles)
-        cells = (f"over {AFTER_MOVE}" if each is None else str(each) for each in needed)
+        cells = (f"over {how.after}" if each is None else str(each) for each in needed)
         table.add_row(_triple(move["sigma_m"]), *cells)
     return table
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import asdict, replace
 
 import numpy as np
 import pytest
@@ -16,9 +16,11 @@ from evaluations.perception.inventory import (
     true_relations_of,
     true_things,
 )
-from evaluations.perception.perception import AT_LEAST, AT_MOST, met
+from evaluations.perception.perception import PerceptionAims, met
 from evaluations.perception.visibility import in_view
 from simulation.houses.house import House
+
+AT_LEAST, AT_MOST = asdict(PerceptionAims().least), asdict(PerceptionAims().most)
 
 HOUSE = House.model_validate(
     {

@@ -16,8 +16,6 @@ from planner.mission.teaching import teach
 from planner.tasks.tasks import Task
 from simulation.houses.house import House
 
-MOST_ANSWERS = 3
-"""Questions about one request that a person puts up with."""
 _ORDINALS = ("first", "second", "third", "fourth", "fifth")
 """As many as the robot offers at once."""
 
@@ -29,8 +27,9 @@ class SimulatedUser:
         answers: how many questions were answered so far.
     """
 
-    def __init__(self, runtime: Runtime, house: House) -> None:
-        self._runtime, self._house = runtime, house
+    def __init__(self, runtime: Runtime, house: House, *, most_answers: int = 3) -> None:
+        """``most_answers``: so many questions about one request a person puts up with."""
+        self._runtime, self._house, self._most_answers = runtime, house, most_answers
         self.answers = 0
 
     def introduce(self) -> None:
@@ -43,7 +42,7 @@ class SimulatedUser:
 
     def answer(self, task: Task, mission: Mission, scene: Scene) -> str | None:
         """Which of the candidates is meant, *the second one*; None where none of those that the robot offers is."""
-        if self.answers >= MOST_ANSWERS:
+        if self.answers >= self._most_answers:
             return None
         robot = self._runtime.memory.snapshot().robot
         held = robot.holding if robot is not None else None

@@ -19,11 +19,6 @@ from scene_graph.nodes import ObjectNode
 from simulation.houses.house import House, room_at
 from simulation.robot.description import RobotDescription
 
-MARGIN_RAD = 0.04
-"""What is nearer to the edge of the picture than this is not counted as in view: most of it may be outside."""
-IDENTITIES_EVERY = 4
-"""Turns between two comparisons of identities."""
-
 
 class VisibilityMonitor:
     """An agent that takes the last turn twice a simulated second.
@@ -35,8 +30,9 @@ class VisibilityMonitor:
     name = "visibility"
     period_s = 0.5
 
-    def __init__(self, runtime: Runtime, house: House) -> None:
-        self._runtime, self._house = runtime, house
+    def __init__(self, runtime: Runtime, house: House, *, identities_every: int = 4) -> None:
+        """``identities_every``: turns between two comparisons of identities."""
+        self._runtime, self._house, self._identities_every = runtime, house, identities_every
         self._identities = Identities()
         self._in_view_m: dict[str, float] = {}
         self._renewed_m: dict[str, float] = {}
@@ -56,7 +52,7 @@ class VisibilityMonitor:
             if thing.room == here and in_view(thing.position_m, camera):
                 _nearest(self._in_view_m, thing.id, _distance_m(thing.position_m, pose))
         self._see_renewed()
-        if self._turns % IDENTITIES_EVERY == 0:
+        if self._turns % self._identities_every == 0:
             self._identities.update(things, self._graph())
         self._turns += 1
 
@@ -90,15 +86,19 @@ def in_view(
     point_m: NDArray[np.float64],
     camera: tuple[float, float, float, float],
     robot: RobotDescription = RobotDescription(),
+    margin_rad: float = 0.04,
 ) -> bool:
-    """Whether a point (3,) is in the picture of a camera at (x, y) that looks along a yaw and up by a tilt, radians."""
+    """Whether a point (3,) is in the picture of a camera at (x, y) that looks along a yaw and up by a tilt, radians.
+
+    ``margin_rad``: what is nearer to the edge of the picture is not counted: most of it may be outside.
+    """
     x_m, y_m, yaw_rad, tilt_rad = camera
     dx, dy, dz = point_m - (x_m, y_m, robot.geometry.camera_height_m)
     aside_rad = math.remainder(math.atan2(dy, dx) - yaw_rad, math.tau)
     up_rad = math.atan2(dz, math.hypot(dx, dy)) - tilt_rad
     half_width_rad = robot.camera.horizontal_fov_rad / 2.0
     half_height_rad = math.atan(math.tan(half_width_rad) * robot.camera.height_px / robot.camera.width_px)
-    return abs(aside_rad) <= half_width_rad - MARGIN_RAD and abs(up_rad) <= half_height_rad - MARGIN_RAD
+    return abs(aside_rad) <= half_width_rad - margin_rad and abs(up_rad) <= half_height_rad - margin_rad
 
 
 def _nearest(nearest: dict[str, float], name: str, distance_m: float) -> None:

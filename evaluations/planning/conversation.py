@@ -18,8 +18,6 @@ from scene_graph.snapshot import Snapshot
 from skills.registry import load_registry
 from skills.state.state import PlanState
 
-TURN_S = 60.0
-"""Robot time between two turns."""
 PLAN, ANSWER, CLARIFY, REFUSE, CONTROL, FAILED = "plan", "answer", "clarify", "refuse", "control", "failed"
 _KINDS = {TaskStatus.AWAITING_ANSWER: CLARIFY, TaskStatus.REFUSED: REFUSE, TaskStatus.FAILED: FAILED}
 
@@ -57,9 +55,13 @@ class Conversation:
     Args:
         model: takes what the grammar cannot parse; ``None`` for the grammar alone.
         grammar: shared by conversations, since it takes long to make.
+        turn_s: robot time between two turns.
     """
 
-    def __init__(self, snapshot: Snapshot, grammar: CommandGrammar, model: LanguageModel | None = None) -> None:
+    def __init__(
+        self, snapshot: Snapshot, grammar: CommandGrammar, model: LanguageModel | None = None, *, turn_s: float = 60.0
+    ) -> None:
+        self._turn_s = turn_s
         self._memory = WorkingMemory(snapshot)
         self._queue = TaskQueue()
         self._stack = GraphStack(self._memory, self._queue, model, grammar=grammar)
@@ -74,7 +76,7 @@ class Conversation:
 
     async def say(self, text: str) -> Outcome:
         """One turn: a control word, the answer to an open question, or a new request."""
-        self._stamp_s += TURN_S
+        self._stamp_s += self._turn_s
         watch = _Watch()
         control = control_word(text)
         if control is not None:

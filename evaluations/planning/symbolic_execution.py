@@ -16,6 +16,7 @@ from skills.skill import Skill
 from skills.state.state import PlaceRelation, PlanState
 
 BESIDE_M = 0.3
+"""From the middle of what is no support, a person or a room, a thing is put down beside; any place would do."""
 _GRIPPER = SE3.from_xyz_yaw(0.3, 0.0, 0.8, 0.0)
 
 

@@ -12,10 +12,8 @@ from collections.abc import AsyncIterator
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 
-REQUESTS_HZ = 10.0
 PATHS = ("/v1/status", "/v1/scene?frame=map", "/v1/tasks", "/healthz")
 """What is asked for, in turn."""
-_TIMEOUT_S = 10.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -33,7 +31,7 @@ class ApiProbe:
         self._pool = pool
 
     async def ask(self, port: int, token: str, seconds: float) -> Answers:
-        """Ask ``REQUESTS_HZ`` times a second over one connection, for so many wall seconds."""
+        """Ask over one connection for so many wall seconds."""
         return await asyncio.get_running_loop().run_in_executor(self._pool, ask, port, token, seconds)
 
 
@@ -45,15 +43,18 @@ async def api_probe() -> AsyncIterator[ApiProbe]:
         yield ApiProbe(pool)
 
 
-def ask(port: int, token: str, seconds: float) -> Answers:
-    """As ``ApiProbe.ask``, in this process. A request that is due while another is under way is sent after it."""
-    connection = http.client.HTTPConnection("127.0.0.1", port, timeout=_TIMEOUT_S)
+def ask(port: int, token: str, seconds: float, *, rate_hz: float = 10.0, timeout_s: float = 10.0) -> Answers:
+    """As ``ApiProbe.ask``, in this process, ``rate_hz`` times a second; as often as a page asks.
+
+    A request that is due while another is under way is sent after it.
+    """
+    connection = http.client.HTTPConnection("127.0.0.1", port, timeout=timeout_s)
     latencies_ms: list[float] = []
     failures: list[str] = []
     started = time.perf_counter()
     with contextlib.closing(connection):
-        for path, number in zip(itertools.cycle(PATHS), range(round(seconds * REQUESTS_HZ)), strict=False):
-            time.sleep(max(0.0, started + number / REQUESTS_HZ - time.perf_counter()))
+        for path, number in zip(itertools.cycle(PATHS), range(round(seconds * rate_hz)), strict=False):
+            time.sleep(max(0.0, started + number / rate_hz - time.perf_counter()))
             sent = time.perf_counter()
             problem = _problem(connection, path, token)
             latencies_ms.append(1000.0 * (time.perf_counter() - sent))

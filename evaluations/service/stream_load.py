@@ -14,11 +14,6 @@ from dataclasses import dataclass, field
 from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed
 
-AT_ONCE = 20
-"""Clients that knock at the same time."""
-CONNECT_TIMEOUT_S = 30.0
-LITTLE_BYTES = 4096
-"""Of a client that does not read, so that what is sent to it soon stays with the sender."""
 _HEAD = re.compile(r'\{"seq":(\d+),"type":"(\w+)"')
 
 
@@ -92,15 +87,15 @@ async def _listen(port: int, token: str, readers: int, mute: int, seconds: float
 
 
 async def _connected(
-    port: int, token: str, count: int, stack: contextlib.AsyncExitStack
+    port: int, token: str, count: int, stack: contextlib.AsyncExitStack, *, at_once: int = 20, timeout_s: float = 30.0
 ) -> list[tuple[ClientConnection, Reader]]:
-    """Clients that read from the moment at which they are let in, a few at a time."""
+    """Clients that read from the moment at which they are let in; ``at_once`` of them knock at the same time."""
     found: list[tuple[ClientConnection, Reader]] = []
     address, headers = f"ws://127.0.0.1:{port}/v1/stream", {"Authorization": f"Bearer {token}"}
     while len(found) < count:
         batch = [
-            connect(address, additional_headers=headers, max_size=None, open_timeout=CONNECT_TIMEOUT_S, proxy=None)
-            for _ in range(min(AT_ONCE, count - len(found)))
+            connect(address, additional_headers=headers, max_size=None, open_timeout=timeout_s, proxy=None)
+            for _ in range(min(at_once, count - len(found)))
         ]
         sockets = await asyncio.gather(*batch)
         for one in sockets:
@@ -122,10 +117,13 @@ async def _read(client: tuple[ClientConnection, Reader], until_s: float) -> Read
     return account
 
 
-def knock(port: int, token: str) -> socket.socket:
-    """A client that is let in and does not read: neither an event nor even the answer to its knocking."""
+def knock(port: int, token: str, *, buffer_bytes: int = 4096) -> socket.socket:
+    """A client that is let in and does not read: neither an event nor even the answer to its knocking.
+
+    ``buffer_bytes``: little, so that what is sent to it soon stays with the sender.
+    """
     client = socket.socket()
-    client.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, LITTLE_BYTES)
+    client.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, buffer_bytes)
     client.connect(("127.0.0.1", port))
     key = base64.b64encode(secrets.token_bytes(16)).decode()
     lines = (

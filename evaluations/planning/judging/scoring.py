@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 from evaluations.planning.judging.judge import Verdict
@@ -12,12 +13,36 @@ from evaluations.planning.request_file import OWN
 from evaluations.planning.runs import Record
 
 OUT_OF_SCOPE = "out of scope"
-BANDS = {200: (50.0, 1500), 5000: (250.0, 4000)}
-"""Most nodes of a building: aims of milliseconds at the 99th percentile, and of tokens of a prompt."""
-SLACK = 1.02
-"""Buildings count as of a size when they have a little more nodes."""
-CORRUPTED = {0.1: 0.98, 0.3: 0.95, 0.5: 0.85}
-"""Share that is right with a model that slips this often."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Band:
+    """Aims for buildings of at most ``nodes`` nodes: processor time at the 99th percentile, and length of a prompt."""
+
+    nodes: int
+    ms: float
+    tokens: int
+
+
+@dataclass(frozen=True, kw_only=True)
+class PlanningAims:
+    """What planning is to come to; chosen."""
+
+    right: float = 0.90
+    """Of requests that nothing was developed against."""
+    wrong_actions: float = 0.005
+    declined: float = 0.98
+    """Of what is out of scope, by name."""
+    executable: float = 1.0
+    bands: tuple[Band, ...] = (Band(nodes=200, ms=50.0, tokens=1500), Band(nodes=5000, ms=250.0, tokens=4000))
+    slack: float = 1.02
+    """Buildings count as of a size when they have a little more nodes."""
+    corrupted: tuple[tuple[float, float], ...] = ((0.1, 0.98), (0.3, 0.95), (0.5, 0.85))
+    """Share that is right with a model that slips so often."""
+
+    def band(self, nodes: int) -> Band | None:
+        """The smallest in which a building of so many nodes fits."""
+        return next((band for band in self.bands if nodes <= self.slack * band.nodes), None)
 
 
 def percentile(values: Sequence[float], share: float) -> float | None:
@@ -54,42 +79,47 @@ def by(records: Iterable[Record], key: Callable[[Record], str]) -> dict[str, dic
     return {name: summarize(group) for name, group in groups.items()}
 
 
-def band_of(record: Record) -> str:
+def band_of(record: Record, aims: PlanningAims = PlanningAims()) -> str:
     """The size of a record's building: ``at most 200 nodes``."""
-    fits = [most for most in BANDS if record.nodes <= SLACK * most]
-    return f"at most {fits[0]} nodes" if fits else "larger"
+    band = aims.band(record.nodes)
+    return f"at most {band.nodes} nodes" if band is not None else "larger"
 
 
-def figures(records: Sequence[Record], corrupted: Mapping[float, Sequence[Record]]) -> list[dict[str, Any]]:
+def figures(
+    records: Sequence[Record],
+    corrupted: Mapping[float, Sequence[Record]],
+    aims: PlanningAims = PlanningAims(),
+) -> list[dict[str, Any]]:
     """The figures that are aimed at: name, value, aim, and whether it is met. What was not measured has no row."""
     halves = {record.request.half for record in records}
     judged = [record for record in records if record.request.half != OWN[0] or OWN[1] not in halves]
     asked = [record for record in records if record.request.category == OUT_OF_SCOPE]
     rows = [
-        _at_least("right, not developed against", summarize(judged)["right"], 0.90),
-        _at_most("wrong actions", summarize(records)["wrong_actions"], 0.005),
-        _at_least("out of scope, declined by name", summarize(asked)["right"], 0.98),
-        _at_least("plans that can be carried out", summarize(records)["executable"], 1.0),
+        _at_least("right, not developed against", summarize(judged)["right"], aims.right),
+        _at_most("wrong actions", summarize(records)["wrong_actions"], aims.wrong_actions),
+        _at_least("out of scope, declined by name", summarize(asked)["right"], aims.declined),
+        _at_least("plans that can be carried out", summarize(records)["executable"], aims.executable),
     ]
-    for most, (_, tokens) in BANDS.items():
-        group = summarize([record for record in records if band_of(record) == f"at most {most} nodes"])
-        rows.append(_at_most(f"tokens of a prompt, at most {most} nodes", group["prompt_tokens"], tokens))
-    rows += _building_rows(records)
+    for band in aims.bands:
+        group = summarize([record for record in records if aims.band(record.nodes) is band])
+        rows.append(_at_most(f"tokens of a prompt, at most {band.nodes} nodes", group["prompt_tokens"], band.tokens))
+    rows += _building_rows(records, aims)
+    right = dict(aims.corrupted)
     for rate, these in corrupted.items():
         group = summarize(these)
-        rows.append(_at_least(f"right with a model that slips at {rate:g}", group["right"], CORRUPTED.get(rate, 0.0)))
-        rows.append(_at_least(f"plans that can be carried out at {rate:g}", group["executable"], 1.0))
+        rows.append(_at_least(f"right with a model that slips at {rate:g}", group["right"], right.get(rate, 0.0)))
+        rows.append(_at_least(f"plans that can be carried out at {rate:g}", group["executable"], aims.executable))
     return [row for row in rows if row["value"] is not None]
 
 
-def _building_rows(records: Sequence[Record]) -> list[dict[str, Any]]:
+def _building_rows(records: Sequence[Record], aims: PlanningAims) -> list[dict[str, Any]]:
     """Processor time of each building that is of a size with an aim."""
     rows = []
     nodes = {record.request.building: record.nodes for record in records}
     for name, group in by(records, lambda record: record.request.building).items():
-        aims = [ms for most, (ms, _) in BANDS.items() if nodes[name] <= SLACK * most]
-        if aims:
-            rows.append(_at_most(f"processor ms, 99 of 100, {name}", group["ms_p99"], aims[0]))
+        band = aims.band(nodes[name])
+        if band is not None:
+            rows.append(_at_most(f"processor ms, 99 of 100, {name}", group["ms_p99"], band.ms))
     return rows
 
 

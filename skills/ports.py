@@ -29,6 +29,7 @@ class BodyLimits:
     wrist_pitch_rad: tuple[float, float] = (-1.5708, 0.5)
     wrist_roll_rad: tuple[float, float] = (-1.5708, 1.5708)
     gripper_opening_m: tuple[float, float] = (0.0, 0.12)
+    gripper_effort_n: tuple[float, float] = (0.0, 40.0)
     pan_rad: tuple[float, float] = (-2.9, 2.9)
     tilt_rad: tuple[float, float] = (-1.4, 0.5)
     footprint_radius_m: float = 0.28

@@ -15,7 +15,7 @@ GRIPPER_COMMAND = "control_msgs/action/GripperCommand"
 GRIPPER_GOAL_1 = "control_msgs/GripperCommandActionGoal"
 """In ROS 1 an action's goal is a message on a topic of its own."""
 SHORTEST_S = 0.1
-EFFORTS_N = (0.0, 40.0)
+"""A trajectory takes no less: controllers refuse those that are over at once."""
 STOWED = ArmTarget(lift_m=0.75, extension_m=0.0, wrist_pitch_rad=-math.pi / 2)
 """What is said of an arm that is not there."""
 
@@ -98,7 +98,10 @@ class Actuators:
         gripper = self._profile.gripper
         if gripper is None:
             return
-        opening_m, effort_n = _clip(opening_m, self._limits.gripper_opening_m), _clip(effort_n, EFFORTS_N)
+        opening_m, effort_n = (
+            _clip(opening_m, self._limits.gripper_opening_m),
+            _clip(effort_n, self._limits.gripper_effort_n),
+        )
         if self._told.get(gripper.action) != (opening_m, effort_n):
             self._told[gripper.action] = (opening_m, effort_n)
             goal = {"command": {"position": opening_m, "max_effort": effort_n}}

@@ -7,6 +7,7 @@ import contextlib
 import json
 import logging
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from typing import Any
 
 from websockets.asyncio.client import ClientConnection, connect
@@ -16,12 +17,23 @@ from drivers.rosbridge.errors import RobotNotReached
 
 logger = logging.getLogger(__name__)
 
-PING_S, PONG_LIMIT_S, OPEN_LIMIT_S = 2.0, 5.0, 5.0
-PAUSES_S = (0.2, 0.5, 1.0, 2.0)
-"""Waits between attempts to come back; the last one goes on for ever."""
-MESSAGE_LIMIT_BYTES = 32_000_000
-
 Hear = Callable[[str, Mapping[str, Any]], None]
+
+
+@dataclass(frozen=True, kw_only=True)
+class ConnectionSettings:
+    """How a connection is watched, and taken up again; chosen, so that a robot is missed within seconds."""
+
+    ping_s: float = 2.0
+    """Between two signs of life that are asked for."""
+    pong_limit_s: float = 5.0
+    """So long each may take."""
+    open_limit_s: float = 5.0
+    close_limit_s: float = 1.0
+    pauses_s: tuple[float, ...] = (0.2, 0.5, 1.0, 2.0)
+    """Waits between attempts to come back; the last one goes on for ever."""
+    message_limit_bytes: int = 32_000_000
+    """Room for an uncompressed picture of several megapixels in base 64."""
 
 
 class Connection:
@@ -43,11 +55,12 @@ class Connection:
         advertised: Mapping[str, str],
         hear: Hear,
         on_change: Callable[[bool], None],
+        settings: ConnectionSettings = ConnectionSettings(),
     ) -> None:
         """``subscriptions``, ``advertised``: topic -> type. ``hear``: gets topic and message. ``on_change``: told
         whether the connection is up.
         """
-        self.up, self.problem = False, "not connected yet"
+        self.up, self.problem, self._settings = False, "not connected yet", settings
         self._url, self._subscriptions, self._advertised = url, subscriptions, advertised
         self._hear, self._on_change = hear, on_change
         self._outbox: dict[str, dict[str, Any]] = {}
@@ -74,16 +87,16 @@ class Connection:
 
     async def run(self) -> None:
         """Connect, and connect again, until cancelled."""
-        attempts = 0
+        attempts, settings = 0, self._settings
         while True:
             try:
                 async with connect(
                     self._url,
-                    ping_interval=PING_S,
-                    ping_timeout=PONG_LIMIT_S,
-                    open_timeout=OPEN_LIMIT_S,
-                    close_timeout=1.0,
-                    max_size=MESSAGE_LIMIT_BYTES,
+                    ping_interval=settings.ping_s,
+                    ping_timeout=settings.pong_limit_s,
+                    open_timeout=settings.open_limit_s,
+                    close_timeout=settings.close_limit_s,
+                    max_size=settings.message_limit_bytes,
                     compression=None,
                     proxy=None,
                 ) as socket:
@@ -96,7 +109,7 @@ class Connection:
                 raise
             finally:
                 self._go_down()
-            await asyncio.sleep(PAUSES_S[min(attempts, len(PAUSES_S) - 1)])
+            await asyncio.sleep(settings.pauses_s[min(attempts, len(settings.pauses_s) - 1)])
             attempts += 1
 
     async def _talk(self, socket: ClientConnection) -> None:

@@ -4,15 +4,25 @@ from __future__ import annotations
 
 from bisect import bisect_left
 from collections import deque
+from dataclasses import dataclass
 
 from drivers.rosbridge.errors import FrameStale, FrameUnknown
 from scene_graph.geometry.se3 import SE3
 
-HISTORY = 200
 FIXED_S = -1.0
-STALE_S = 0.5
-"""How far beside what was told a frame may still be taken to be where it was."""
+"""Stamp of what never changes."""
 _DEPTH_LIMIT = 32
+"""Frames on a way through the tree; more are a circle."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class FrameSettings:
+    """How long frames are remembered and believed."""
+
+    history: int = 200
+    """Transforms of each frame: two to four seconds at the rates at which they come."""
+    stale_s: float = 0.5
+    """How far beside what was told a frame may still be taken to be where it was: chosen."""
 
 
 class FrameTree:
@@ -21,20 +31,21 @@ class FrameTree:
     Stamps are the robot's own, seconds.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, settings: FrameSettings = FrameSettings()) -> None:
+        self._settings = settings
         self._parents: dict[str, str] = {}
         self._history: dict[str, deque[tuple[float, SE3]]] = {}
 
     def fix(self, parent: str, child: str, T_parent_child: SE3) -> None:
         """Take in a transform that never changes."""
         self._parents[_plain(child)] = _plain(parent)
-        self._history[_plain(child)] = deque([(FIXED_S, T_parent_child)], maxlen=HISTORY)
+        self._history[_plain(child)] = deque([(FIXED_S, T_parent_child)], maxlen=self._settings.history)
 
     def put(self, parent: str, child: str, T_parent_child: SE3, stamp_s: float) -> None:
         """Take in a transform of something that moves."""
         parent, child = _plain(parent), _plain(child)
         if self._parents.get(child) != parent or self._history[child][-1][0] == FIXED_S:
-            self._history[child] = deque(maxlen=HISTORY)
+            self._history[child] = deque(maxlen=self._settings.history)
         self._parents[child] = parent
         history = self._history[child]
         if history and stamp_s <= history[-1][0]:
@@ -55,8 +66,8 @@ class FrameTree:
                 return T_name_frame
             if name not in self._parents:
                 break
-            history = self._history[name]
-            if history[-1][0] != FIXED_S and not history[0][0] - STALE_S <= stamp_s <= history[-1][0] + STALE_S:
+            history, stale_s = self._history[name], self._settings.stale_s
+            if history[-1][0] != FIXED_S and not history[0][0] - stale_s <= stamp_s <= history[-1][0] + stale_s:
                 raise FrameStale(name)
             T_name_frame = _at(history, stamp_s) @ T_name_frame
             name = self._parents[name]

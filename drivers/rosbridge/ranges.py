@@ -15,6 +15,7 @@ from scene_graph.geometry.se3 import SE3
 _TYPES = {1: "i1", 2: "u1", 3: "i2", 4: "u2", 5: "i4", 6: "u4", 7: "f4", 8: "f8"}
 """Types of a point's values by their number in ``sensor_msgs/PointField``."""
 _DIGITS = 5
+"""Of angles in radians: the same direction in two scans is the same number."""
 """Angles are rounded to 10 µrad, so that those of successive scans are the same and what is computed of them lasts."""
 
 

@@ -7,26 +7,35 @@ import contextlib
 import math
 import time
 from collections.abc import Coroutine
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Self
 
 from drivers.rosbridge.actuators import Actuators
-from drivers.rosbridge.connection import Connection, not_reached
+from drivers.rosbridge.connection import Connection, ConnectionSettings, not_reached
 from drivers.rosbridge.governor import Governor
 from drivers.rosbridge.messages import time_message, twist
 from drivers.rosbridge.profile import Profile, read_profile
-from drivers.rosbridge.sensors import Sensors
+from drivers.rosbridge.sensors import Sensors, SensorSettings
 from perception.errors import SensorSilent
 from perception.ports import JointState, LidarScan, Odometry, RgbdFrame
 from skills.arm.kinematics import gripper_pose
 from skills.errors import BodySilent
 from skills.ports import ArmGeometry, ArmTarget, BodyLimits, BodyState
 
-PACE_S = 0.05
-"""How often the base is told its speed while it moves."""
-STANDING_S = 0.5
-"""How long it is told to stand after it has moved; then others may drive it."""
-START_LIMIT_S = 10.0
+
+@dataclass(frozen=True, kw_only=True)
+class DriverSettings:
+    """How the robot is told and heard."""
+
+    pace_s: float = 0.05
+    """How often the base is told its speed while it moves: well within the time-outs of common bases."""
+    standing_s: float = 0.5
+    """How long it is told to stand after it has moved; then others may drive it."""
+    start_limit_s: float = 10.0
+    """Within which every sensor must have been heard: chosen."""
+    connection: ConnectionSettings = field(default_factory=ConnectionSettings)
+    sensors: SensorSettings = field(default_factory=SensorSettings)
 
 
 async def connect(where: str) -> RosbridgeRobot:
@@ -47,9 +56,9 @@ class RosbridgeRobot:
     robot is first told to stand still, and does nothing until it is told anew.
     """
 
-    def __init__(self, profile: Profile) -> None:
-        self._profile, self._limits = profile, profile.body_limits
-        self._sensors = Sensors(profile)
+    def __init__(self, profile: Profile, settings: DriverSettings = DriverSettings()) -> None:
+        self._profile, self._limits, self._settings = profile, profile.body_limits, settings
+        self._sensors = Sensors(profile, settings=settings.sensors)
         self._governor = Governor(self._limits)
         self._connection = Connection(
             profile.url,
@@ -57,6 +66,7 @@ class RosbridgeRobot:
             advertised={profile.drive: profile.drive_type} | Actuators.topics(profile),
             hear=self._sensors.hear,
             on_change=self._on_change,
+            settings=settings.connection,
         )
         self._actuators = Actuators(profile, self._connection)
         self._stopped = False
@@ -66,15 +76,15 @@ class RosbridgeRobot:
         self._tasks: list[asyncio.Task[None]] = []
 
     @classmethod
-    async def reach(cls, profile: Profile, *, limit_s: float = START_LIMIT_S) -> Self:
+    async def reach(cls, profile: Profile, *, settings: DriverSettings = DriverSettings()) -> Self:
         """Connect, and wait until odometry, joints and LiDAR have been heard.
 
         Raises:
-            RobotNotReached: that took longer than ``limit_s``; says what is missing.
+            RobotNotReached: that took longer than ``start_limit_s``; says what is missing.
         """
-        robot = cls(profile)
+        robot = cls(profile, settings)
         robot._begin(robot._connection.run(), robot._pace())
-        deadline_s = time.monotonic() + limit_s
+        deadline_s = time.monotonic() + settings.start_limit_s
         while robot._sensors.waiting_for and time.monotonic() < deadline_s:  # noqa: ASYNC110 - once, at the start
             await asyncio.sleep(0.05)
         if missing := robot._sensors.waiting_for:
@@ -244,14 +254,14 @@ class RosbridgeRobot:
         """Command the base, twenty times a second while there is a reason to."""
         before_s = time.monotonic()
         while True:
-            await asyncio.sleep(PACE_S)
+            await asyncio.sleep(self._settings.pace_s)
             now_s = time.monotonic()
             dt_s, before_s = now_s - before_s, now_s
             self._hold_once_seen()
-            speed = (0.0, 0.0) if self._stopped else self._governor.step(min(dt_s, 2 * PACE_S))
+            speed = (0.0, 0.0) if self._stopped else self._governor.step(min(dt_s, 2 * self._settings.pace_s))
             if speed != (0.0, 0.0):
                 self._moved_s = now_s
-            if self._stopped or now_s - self._moved_s <= STANDING_S:
+            if self._stopped or now_s - self._moved_s <= self._settings.standing_s:
                 self._drive_at(*speed)
 
     def _hold_once_seen(self) -> None:

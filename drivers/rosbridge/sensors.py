@@ -8,11 +8,12 @@ import math
 import time
 from collections import deque
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
-from drivers.rosbridge.clock import RobotClock
+from drivers.rosbridge.clock import ClockSettings, RobotClock
 from drivers.rosbridge.errors import BadMessage, FrameStale, FrameUnknown
-from drivers.rosbridge.frames import FrameTree
+from drivers.rosbridge.frames import FrameSettings, FrameTree
 from drivers.rosbridge.messages import (  # fmt: skip
     BoolMessage,
     CameraInfoMessage,
@@ -37,22 +38,37 @@ logger = logging.getLogger(__name__)
 Raw = Mapping[str, Any]
 T = TypeVar("T")
 TF, TF_STATIC = "/tf", "/tf_static"
-PAIR_S = 0.02
-"""How far apart color and depth of one frame may be stamped."""
-AHEAD_S = 0.2
-"""How far a sensor's clock may be ahead of the odometry's."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class SensorSettings:
+    """How stamps of different sensors go together, with the clock and the frames that they are told by."""
+
+    pair_s: float = 0.02
+    """How far apart color and depth of one frame may be stamped: less than the time between two frames."""
+    ahead_s: float = 0.2
+    """How far a sensor's clock may be ahead of the odometry's: chosen."""
+    clock: ClockSettings = field(default_factory=ClockSettings)
+    frames: FrameSettings = field(default_factory=FrameSettings)
 
 
 class Sensors:
     """Newest messages of all sensors. ``hear`` takes them in; the rest are the calls of the sensor port."""
 
-    def __init__(self, profile: Profile, monotonic: Callable[[], float] = time.monotonic) -> None:
+    def __init__(
+        self,
+        profile: Profile,
+        monotonic: Callable[[], float] = time.monotonic,
+        *,
+        settings: SensorSettings = SensorSettings(),
+    ) -> None:
         """``monotonic``: our own clock, seconds since whenever."""
+        self._settings = settings
         self.joints = Joints()
         self.bumped = False
         self.newest_odometry: Odometry | None = None
         self._profile, self._monotonic = profile, monotonic
-        self._clock, self._frames = RobotClock(monotonic), FrameTree()
+        self._clock, self._frames = RobotClock(monotonic, settings=settings.clock), FrameTree(settings.frames)
         self._scan: Raw | None = None
         self._camera: dict[str, deque[Raw]] = {}
         self._info: Raw | None = None
@@ -206,7 +222,7 @@ class Sensors:
         for color in reversed(self._camera[camera.color]):
             stamp_s = _stamp_of(color)
             for depth in reversed(self._camera[camera.depth]):
-                if abs(_stamp_of(depth) - stamp_s) <= PAIR_S:
+                if abs(_stamp_of(depth) - stamp_s) <= self._settings.pair_s:
                     return color, depth
         raise SensorSilent("frame", math.inf)
 
@@ -236,7 +252,7 @@ class Sensors:
         if quiet_s > self._profile.silent_after_s:
             raise SensorSilent(sensor, quiet_s)
         age_s = self.now_s - stamp_s
-        if not -AHEAD_S <= age_s <= self._profile.silent_after_s:
+        if not -self._settings.ahead_s <= age_s <= self._profile.silent_after_s:
             behind = "behind" if age_s > 0 else "ahead of"
             self._complain(
                 f"{topic} comes, but is stamped by a clock that is {behind} that of {self._profile.odometry}; are the "

@@ -112,8 +112,6 @@ class RobotDescription:
     """Chosen: over ten times what the limits' acceleration needs, so that the base follows them whatever it carries."""
     finger_speed_mps: float = 0.08
     """Chosen: open or closed in under a second."""
-    finger_effort_n: tuple[float, float] = (0.0, 40.0)
-    """Force of each finger that a command may ask for."""
     usual_effort_n: float = 15.0
     """Force of each finger before anything is commanded."""
     base_radius_m: float = 0.25

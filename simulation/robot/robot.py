@@ -111,7 +111,7 @@ class RobotBody:
     def command_grip(self, opening_m: float, effort_n: float) -> None:
         """Set the fingers' target opening and the force of each."""
         self._opening_m = _clip(opening_m, self.limits.gripper_opening_m)
-        self._effort_n = _clip(effort_n, self.description.finger_effort_n)
+        self._effort_n = _clip(effort_n, self.limits.gripper_effort_n)
 
     def advance(self, dt_s: float, *, stopped: bool) -> None:
         """Set all motors for the next physics step of ``dt_s``. ``stopped``: everything holds its place at once."""

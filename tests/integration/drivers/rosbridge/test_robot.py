@@ -14,7 +14,7 @@ from app.settings import ClockMode, Settings
 from app.stacks.robot_registry import RobotMisfit, start_robot
 from drivers.rosbridge.errors import RobotNotReached
 from drivers.rosbridge.profile import read_profile
-from drivers.rosbridge.robot import RosbridgeRobot
+from drivers.rosbridge.robot import DriverSettings, RosbridgeRobot
 from examples.rosbridge.simulated_robot import Rosbridge
 from guide import ROOT, free_ports
 from perception.errors import SensorSilent
@@ -267,13 +267,13 @@ async def sees(robot):
 async def test_where_no_robot_is_or_not_all_of_one_that_is_said(bridge):
     [port] = free_ports(1)
     with pytest.raises(RobotNotReached, match=rf"127\.0\.0\.1:{port}: no rosbridge answers there: ConnectionRefused"):
-        await RosbridgeRobot.reach(profile_at(f"ws://127.0.0.1:{port}"), limit_s=1.0)
+        await RosbridgeRobot.reach(profile_at(f"ws://127.0.0.1:{port}"), settings=DriverSettings(start_limit_s=1.0))
     elsewhere = profile_at(bridge.url, odometry="/wheel_odometry")
     with pytest.raises(RobotNotReached, match="nothing came on /wheel_odometry"):
-        await RosbridgeRobot.reach(elsewhere, limit_s=1.5)
+        await RosbridgeRobot.reach(elsewhere, settings=DriverSettings(start_limit_s=1.5))
     wrong = profile_at(bridge.url, base_frame="base_footprint")
     with pytest.raises(RobotNotReached, match="/odom"):
-        await RosbridgeRobot.reach(wrong, limit_s=1.5)
+        await RosbridgeRobot.reach(wrong, settings=DriverSettings(start_limit_s=1.5))
 
 
 async def test_what_only_a_simulator_has_is_refused_for_a_real_robot():

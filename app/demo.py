@@ -13,8 +13,8 @@ from scene_graph.nodes import DoorNode, ObjectNode, RoomNode
 from simulation.process.client import SimulatedRobot
 
 REQUEST = "bring the blue bottle from the kitchen to the desk in the office"
-EXPLORATION_LIMIT_S = 1500.0
-TASK_LIMIT_S = 1200.0
+EXPLORATION_LIMIT_S, TASK_LIMIT_S = 1500.0, 1200.0
+"""Robot time after which the demonstration gives up: several times as long as it takes."""
 
 
 class DemoImpossible(RuntimeError):

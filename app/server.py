@@ -18,6 +18,7 @@ from app.runtime import Runtime
 from app.settings import Settings
 
 SHUTDOWN_TIMEOUT_S = 5
+"""So long connections may take to end; chosen."""
 SWITCH_INTERVAL_S = 0.001
 """How long perception's threads may hold the interpreter while a request waits."""
 

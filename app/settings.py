@@ -12,6 +12,8 @@ from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 from perception.network.shipped import SHIPPED
 
 DEFAULT_DATA = Path("~/.local/share/majordomo")
+JOURNAL_BYTES = 64_000_000
+"""Of all traces of tasks together, where nothing else is said: weeks of many tasks a day."""
 
 
 def origin(text: str) -> str:
@@ -80,7 +82,7 @@ class Settings(BaseModel):
     allow_origins: tuple[Origin, ...] = ()
     requests_per_s: float = Field(default=200.0, gt=0)
     streams: int = Field(default=256, ge=1)
-    journal_bytes: int = Field(default=64_000_000, ge=100_000)
+    journal_bytes: int = Field(default=JOURNAL_BYTES, ge=100_000)
 
     @property
     def data_folder(self) -> Path:

@@ -17,7 +17,7 @@ import typer
 from app.commands.log_redaction import RedactingFormatter
 from app.commands.options import Data, House, Network, Seed
 from app.commands.terminal import console
-from app.settings import DEFAULT_DATA, ClockMode, Settings, origin
+from app.settings import DEFAULT_DATA, JOURNAL_BYTES, ClockMode, Settings, origin
 from perception.network.shipped import SHIPPED
 
 
@@ -56,7 +56,7 @@ def serve(
     ] = 200.0,
     journal_mb: Annotated[
         float, typer.Option(min=0.1, help="Megabytes that the traces of all tasks may take; the oldest go first.")
-    ] = 64.0,
+    ] = JOURNAL_BYTES / 1e6,
     record: Annotated[
         Path | None, typer.Option(help="Record sensors and graph to this new MCAP file, for replay and Foxglove.")
     ] = None,

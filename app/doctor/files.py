@@ -14,9 +14,6 @@ from app.journal.file import check, read_only
 from perception.network.shipped import SHA256, SHIPPED
 from scene_graph.long_term.room_files import unreadable_rooms
 
-LITTLE_BYTES = 500_000_000
-TOO_LITTLE_BYTES = 50_000_000
-
 
 def houses() -> Finding:
     """Whether the built-in houses load."""
@@ -51,14 +48,14 @@ def network(path: Path) -> Finding:
     return Finding(name="network", text=f"{path}: {known}, and it runs")
 
 
-def disk(data: Path) -> Finding:
-    """Room on the disk of the data folder."""
+def disk(data: Path, *, little_bytes: int = 500_000_000, too_little_bytes: int = 50_000_000) -> Finding:
+    """Room on the disk of the data folder: a recording takes a gigabyte in minutes, the journal up to 64 MB."""
     place = _existing(data)
     free = shutil.disk_usage(place).free
     text = f"{free / 1e9:.1f} GB free at {place}"
-    if free >= LITTLE_BYTES:
+    if free >= little_bytes:
         return Finding(name="disk", text=text)
-    health = Health.ODD if free >= TOO_LITTLE_BYTES else Health.BAD
+    health = Health.ODD if free >= too_little_bytes else Health.BAD
     return Finding(name="disk", health=health, text=text, advice="make room, or choose another folder with --data")
 
 

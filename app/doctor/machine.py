@@ -26,7 +26,6 @@ PYTHONS = ("3.11", "3.12", "3.13")
 IMPORTED = ("numpy", "scipy", "gtsam", "cv2", "onnxruntime", "filterpy", "igraph", "pybullet", "py_trees", "lark")
 """Libraries with compiled parts, or the first to break: being installed does not mean that they load."""
 REINSTALL = "run make install, or pip install --upgrade majordomo"
-MODEL_TIMEOUT_S = 5.0
 UNUSED = "none is configured: the command grammar answers alone"
 
 
@@ -117,9 +116,9 @@ def language_model(llm: str | None, url: str | None, key: str | None, http: http
     return _asked(spec, (key or "").strip(), http)
 
 
-def _asked(spec: ModelSpec, key: str, http: httpx.Client) -> Finding:
+def _asked(spec: ModelSpec, key: str, http: httpx.Client, *, timeout_s: float = 5.0) -> Finding:
     try:
-        response = http.get(_listing(spec), headers=_headers(spec.provider, key), timeout=MODEL_TIMEOUT_S)
+        response = http.get(_listing(spec), headers=_headers(spec.provider, key), timeout=timeout_s)
     except (httpx.HTTPError, httpx.InvalidURL, UnicodeEncodeError, ValueError) as error:
         text = f"{spec.host} does not answer ({type(error).__name__})"
         advice = "start its server, or correct MAJORDOMO_LLM_URL; until then the grammar answers alone"

@@ -11,8 +11,15 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-HISTORY = 2048
-QUEUE = 512
+
+@dataclass(frozen=True, kw_only=True)
+class StreamSettings:
+    """What is kept for clients."""
+
+    history: int = 2048
+    """Events for who comes back: some minutes."""
+    queue: int = 512
+    """Events that wait for one client; who is so far behind gets a snapshot instead."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -37,8 +44,9 @@ class Event:
 class Listener:
     """One client's bounded queue. When it overflows it is emptied and the client gets a new snapshot instead."""
 
-    def __init__(self, make_snapshot: Callable[[], Event]) -> None:
-        self._make_snapshot = make_snapshot
+    def __init__(self, make_snapshot: Callable[[], Event], most: int) -> None:
+        """``most``: events that may wait."""
+        self._make_snapshot, self._most = make_snapshot, most
         self._queue: deque[Event] = deque()
         self._ready = asyncio.Event()
         self._behind = False
@@ -47,7 +55,7 @@ class Listener:
         """Queue an event; drops everything and marks the client as behind when full."""
         if self._behind:
             return
-        if len(self._queue) >= QUEUE:
+        if len(self._queue) >= self._most:
             self._queue.clear()
             self._behind = True
         else:
@@ -81,9 +89,11 @@ class EventStream:
             client that comes back with a number of that life be told from one that missed a few events of this one.
     """
 
-    def __init__(self, snapshot: Callable[[], Any], *, first_seq: int = 0) -> None:
-        self._snapshot = snapshot
-        self._history: deque[Event] = deque(maxlen=HISTORY)
+    def __init__(
+        self, snapshot: Callable[[], Any], *, first_seq: int = 0, settings: StreamSettings = StreamSettings()
+    ) -> None:
+        self._snapshot, self._settings = snapshot, settings
+        self._history: deque[Event] = deque(maxlen=settings.history)
         self._listeners: list[Listener] = []
         self._seq = first_seq
         self._stamp_s = 0.0
@@ -118,7 +128,7 @@ class EventStream:
     @contextmanager
     def listen(self, since: int | None = None) -> Any:
         """A listener that starts after event ``since`` if history reaches back so far, else with a snapshot."""
-        listener = Listener(self._snapshot_event)
+        listener = Listener(self._snapshot_event, self._settings.queue)
         first = self._history[0].seq if self._history else self._seq + 1
         if since is None or since > self._seq or since < first - 1:
             listener.require_snapshot()

@@ -10,6 +10,7 @@ import sqlite3
 import weakref
 from collections.abc import Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
 from typing import Self
@@ -28,10 +29,16 @@ MIGRATIONS: Mapping[int, tuple[str, ...]] = MappingProxyType(
     {1: (_TASKS,), 2: (_DECISIONS, "CREATE INDEX decisions_of_task ON decisions (task, seq)", _DROPPED)}
 )
 """What leads from the schema before to this one."""
-CHECKPOINT_EVERY = 100
-"""Commits after which the log is brought into the file; that waits for the disk, and so is done beside."""
-LONGEST_LOG_BYTES = 32_000_000
-"""Of the log. It starts anew only when a checkpoint has caught up; where writing never pauses, it is made to."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class JournalSettings:
+    """When the write-ahead log is brought into the file; chosen."""
+
+    checkpoint_every: int = 100
+    """Commits after which it is; that waits for the disk, and so is done beside."""
+    longest_log_bytes: int = 32_000_000
+    """It starts anew only when a checkpoint has caught up; where writing never pauses, it is made to."""
 
 
 class JournalFile:
@@ -40,9 +47,16 @@ class JournalFile:
     What was committed survives the end of the process at any instant; only a loss of power may cost the newest.
     """
 
-    def __init__(self, connection: sqlite3.Connection, file: Path | None = None, lock: int | None = None) -> None:
+    def __init__(
+        self,
+        connection: sqlite3.Connection,
+        file: Path | None = None,
+        lock: int | None = None,
+        *,
+        settings: JournalSettings = JournalSettings(),
+    ) -> None:
         """``file`` and ``lock`` (a descriptor) are ``None`` for a journal in the memory of the process alone."""
-        self.connection = connection
+        self.connection, self._settings = connection, settings
         self._file = file
         self._unlock = weakref.finalize(self, os.close, lock) if lock is not None else None
         self._commits = 0
@@ -56,7 +70,7 @@ class JournalFile:
         return cls(connection)
 
     @classmethod
-    def open(cls, file: Path) -> Self:
+    def open(cls, file: Path, settings: JournalSettings = JournalSettings()) -> Self:
         """Open or begin a journal; no other service can until it is closed.
 
         A file that is damaged, or of a later version, is set aside under a name of its own and reported.
@@ -67,7 +81,7 @@ class JournalFile:
         file.parent.mkdir(parents=True, exist_ok=True)
         lock = _locked(file)
         try:
-            return cls(_opened(file), file, lock)
+            return cls(_opened(file), file, lock, settings=settings)
         except BaseException:
             os.close(lock)
             raise
@@ -78,12 +92,12 @@ class JournalFile:
         with self.connection:
             yield self.connection
         self._commits += 1
-        if self._file is not None and self._commits % CHECKPOINT_EVERY == 0:
+        if self._file is not None and self._commits % self._settings.checkpoint_every == 0:
             self._shorten_log(self._file)
 
     def _shorten_log(self, file: Path) -> None:
         log = file.with_name(f"{file.name}-wal")
-        if log.exists() and log.stat().st_size > LONGEST_LOG_BYTES:
+        if log.exists() and log.stat().st_size > self._settings.longest_log_bytes:
             self.connection.execute("PRAGMA wal_checkpoint(TRUNCATE)")
         else:
             self._beside.submit(_checkpoint, file)

@@ -19,7 +19,7 @@ from app.journal.decisions import Decision, DecisionKind, decisions_between
 from app.journal.file import JournalFile
 from app.journal.trace import read_trace
 from app.persistence.building import building_folder
-from app.settings import Settings
+from app.settings import JOURNAL_BYTES, Settings
 from client.documents import Trace
 from planner.tasks.queue import KEEP
 from planner.tasks.tasks import FailureReport, PlanReport, StepStatus, Task, TaskStatus, TaskTimes
@@ -29,9 +29,8 @@ logger = logging.getLogger(__name__)
 INTERRUPTED = "interrupted"
 """Code of the failure of what was under way; no skill fails so."""
 JOURNAL_FILE = "tasks.sqlite3"
-MAX_BYTES = 64_000_000
-"""Of all traces together; beyond, the oldest entries go, and the trace says how many."""
 _DROPPED_AT_ONCE = 100
+"""So many entries go together, so that not every new one has to look for an old one."""
 _ROW_BYTES = 100
 """What an entry takes beside its texts, about."""
 _TASK = TypeAdapter(Task)
@@ -42,11 +41,12 @@ class TaskJournal:
     """Every task in its newest state and every decision about it, written before anybody is told.
 
     A process that is killed loses nothing that was written: a task and the decisions that led to its state are
-    kept together or not at all. Of ended tasks the newest ``KEEP`` stay; traces stay up to ``max_bytes`` in all.
+    kept together or not at all. Of ended tasks the newest ``KEEP`` stay; traces stay up to ``max_bytes`` in all:
+    beyond, the oldest entries go, and the trace says how many.
     """
 
     def __init__(
-        self, file: JournalFile, *, max_bytes: int = MAX_BYTES, wall_time: Callable[[], float] = time.time
+        self, file: JournalFile, *, max_bytes: int = JOURNAL_BYTES, wall_time: Callable[[], float] = time.time
     ) -> None:
         """``wall_time``: seconds since 1970."""
         self._file, self._max_bytes, self._wall_time = file, max_bytes, wall_time
@@ -61,12 +61,12 @@ class TaskJournal:
             OSError: another service uses it, or it cannot be written.
         """
         if not settings.remember or settings.graph is not None:
-            return cls(JournalFile.in_memory(), max_bytes=min(settings.journal_bytes, MAX_BYTES // 4))
+            return cls(JournalFile.in_memory(), max_bytes=min(settings.journal_bytes, JOURNAL_BYTES // 4))
         folder = building_folder(settings.data_folder, settings.house, settings.robot)
         return cls.open(folder / JOURNAL_FILE, max_bytes=settings.journal_bytes)
 
     @classmethod
-    def open(cls, file: Path, *, max_bytes: int = MAX_BYTES) -> Self:
+    def open(cls, file: Path, *, max_bytes: int = JOURNAL_BYTES) -> Self:
         """Open or begin a journal; no other process can use it until it is closed.
 
         Raises:

@@ -25,8 +25,6 @@ logger = logging.getLogger(__name__)
 AGENT = "remembering"
 PERSON = "person"
 """Who teaches, as the graph's edits name their authors."""
-LOOKING_PERIOD_S = 1.0
-"""Robot time between two looks whether something has happened that must not wait for the next writing."""
 
 
 def building_folder(data: Path, house: str, robot: str | None = None) -> Path:
@@ -58,7 +56,13 @@ class Remembering:
     name = AGENT
 
     def __init__(
-        self, folder: Path, *, wall_time: Callable[[], float], anew: bool = False, period_s: float = 20.0
+        self,
+        folder: Path,
+        *,
+        wall_time: Callable[[], float],
+        anew: bool = False,
+        period_s: float = 20.0,
+        look_s: float = 1.0,
     ) -> None:
         """Reads the folder.
 
@@ -67,8 +71,9 @@ class Remembering:
             wall_time: seconds since 1970. A constant makes a run with a given folder repeatable.
             anew: begin with nothing; what the folder holds is replaced once a room stands.
             period_s: robot time between two writings.
+            look_s: and between two looks whether something has happened that must not wait for the next one.
         """
-        self.period_s = min(period_s, LOOKING_PERIOD_S)
+        self.period_s = min(period_s, look_s)
         self._between_s, self._due_s = period_s, 0.0
         self._files = RoomFiles(folder, begun_s=wall_time())
         self._history_file = HistoryFile(folder)

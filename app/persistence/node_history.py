@@ -16,11 +16,8 @@ Value = str | list[float] | None
 
 WATCHED = frozenset({"room", "door", "object", "person", "region"})
 """Types whose history is kept; walls, corners and affordances come and go with their rooms."""
-ENTRIES, NODES = 64, 2000
-STEP_M = {"object": 0.1, "person": 0.5}
-"""From where it was noted last, a thing must be so far away to count as moved: less is better knowledge, not motion."""
-UNSEEN_S = 60.0
-"""After so long without a sight, the next one is noted."""
+ENTRIES = 64
+"""Of one node: so many are kept."""
 CARRYING = frozenset({"on", "in"})
 
 
@@ -78,16 +75,30 @@ class Pasts:
         return Pasts(since_s=since_s, nodes={name: past.copied(shift_s) for name, past in self.nodes.items()})
 
 
+@dataclass(frozen=True, kw_only=True)
+class HistorySettings:
+    """What is worth a note."""
+
+    nodes: int = 2000
+    """So many nodes have a history; chosen."""
+    step_m: Mapping[str, float] = field(default_factory=lambda: {"object": 0.1, "person": 0.5})
+    """From where it was noted last, a thing of a type must be so far away to count as moved: less is better knowledge,
+    not motion.
+    """
+    unseen_s: float = 60.0
+    """After so long without a sight, the next one is noted."""
+
+
 class NodeHistory:
-    """Histories of at most ``nodes`` nodes, of each the newest entries.
+    """Histories of at most so many nodes, of each the newest entries.
 
     When full, those of nodes that are gone are forgotten first. Notes of one thread may be copied by another.
     """
 
-    def __init__(self, before: Pasts | None = None, *, nodes: int = NODES) -> None:
+    def __init__(self, before: Pasts | None = None, *, settings: HistorySettings = HistorySettings()) -> None:
         """``before``: what is known from earlier, by the clock that goes on now; without, it begins here."""
         before = (before or Pasts()).copied()
-        self._limit = nodes
+        self._settings = settings
         self._pasts: dict[str, Past] = dict(before.nodes)
         self._since_s = before.since_s
         self._begun = False
@@ -138,19 +149,19 @@ class NodeHistory:
             past.add(Entry(stamp_s=stamp_s, kind="known" if first else "found", after=node["position_m"]))
             past.told, past.is_gone = {"moved": node["position_m"], **_facts(node, place)}, False
         else:
-            for kind, before, after in _changes(node, place, past.told):
+            for kind, before, after in _changes(node, place, past.told, self._settings.step_m):
                 past.add(Entry(stamp_s=stamp_s, kind=kind, before=before, after=after))
                 past.told[kind] = after
         seen_s = node.get("last_seen_s")
-        if seen_s is not None and past.last_seen_s is not None and seen_s - past.last_seen_s > UNSEEN_S:
+        if seen_s is not None and past.last_seen_s is not None and seen_s - past.last_seen_s > self._settings.unseen_s:
             past.add(Entry(stamp_s=seen_s, kind="seen_again"))
         past.last_seen_s = seen_s
 
     def _forget(self) -> None:
-        if len(self._pasts) <= self._limit:
+        if len(self._pasts) <= self._settings.nodes:
             return
         order = sorted(self._pasts, key=lambda node_id: not self._pasts[node_id].is_gone)
-        for node_id in order[: len(self._pasts) - self._limit]:
+        for node_id in order[: len(self._pasts) - self._settings.nodes]:
             del self._pasts[node_id]
 
 
@@ -173,12 +184,14 @@ def _facts(node: Record, place: str | None) -> dict[str, Value]:
     return {"room": room, "place": place, "state": state, "label": node["label"] or None, "name": name}
 
 
-def _changes(node: Record, place: str | None, told: Mapping[str, Value]) -> Iterator[tuple[Any, Value, Value]]:
+def _changes(
+    node: Record, place: str | None, told: Mapping[str, Value], steps_m: Mapping[str, float]
+) -> Iterator[tuple[Any, Value, Value]]:
     """What is no longer as it was noted last; what the robot carries moves with it."""
     for kind, value in _facts(node, place).items():
         if value != told.get(kind):
             yield kind, told.get(kind), value
-    step_m, before, now = STEP_M.get(node["type"]), told["moved"], node["position_m"]
+    step_m, before, now = steps_m.get(node["type"]), told["moved"], node["position_m"]
     if (
         step_m is not None
         and node.get("state") != "held"

@@ -7,6 +7,7 @@ import logging
 import queue
 import threading
 from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -21,11 +22,17 @@ from app.version import __version__
 
 logger = logging.getLogger(__name__)
 
-CHUNK_BYTES = 1 << 20
-"""What is not yet in a whole chunk is lost when the process is killed."""
-WAITING_MOMENTS = 64
-POINTS_PERIOD_S = 0.5
-"""How often a scan is also told as a point cloud, which only people look at."""
+
+@dataclass(frozen=True, kw_only=True)
+class RecordingSettings:
+    """How a recording is written; chosen."""
+
+    chunk_bytes: int = 1 << 20
+    """What is not yet in a whole chunk is lost when the process is killed."""
+    waiting_moments: int = 64
+    """So many may wait for the disk: some seconds."""
+    points_period_s: float = 0.5
+    """How often a scan is also told as a point cloud, which only people look at."""
 
 
 def free_path(path: Path) -> Path:
@@ -49,7 +56,12 @@ class McapWriter:
     """
 
     def __init__(
-        self, path: Path, profile: Mapping[str, str], *, limit_bytes: int, chunk_bytes: int = CHUNK_BYTES
+        self,
+        path: Path,
+        profile: Mapping[str, str],
+        *,
+        limit_bytes: int,
+        settings: RecordingSettings = RecordingSettings(),
     ) -> None:
         """Begin the file.
 
@@ -61,11 +73,11 @@ class McapWriter:
             self._file = path.open("xb")
         except FileExistsError:
             raise RecordingExists(path) from None
-        self._path, self._limit_bytes = path, limit_bytes
+        self._path, self._limit_bytes, self._settings = path, limit_bytes, settings
         self.dropped = self.written = 0
-        self._waiting: queue.Queue[Moment | None] = queue.Queue(maxsize=WAITING_MOMENTS)
+        self._waiting: queue.Queue[Moment | None] = queue.Queue(maxsize=settings.waiting_moments)
         self._points_due_s = float("-inf")
-        self._writer = Writer(self._file, chunk_size=chunk_bytes)
+        self._writer = Writer(self._file, chunk_size=settings.chunk_bytes)
         self._writer.start(profile="", library=f"majordomo {__version__}")
         self._writer.add_metadata(PROFILE, dict(profile))
         self._channels = {topic: self._channel(topic) for topic in SCHEMAS}
@@ -139,7 +151,7 @@ class McapWriter:
     def _write(self, moment: Moment) -> None:
         with_points = moment.now_s >= self._points_due_s
         if with_points and moment.scan is not None:
-            self._points_due_s = moment.now_s + POINTS_PERIOD_S
+            self._points_due_s = moment.now_s + self._settings.points_period_s
         log_time = nanoseconds(moment.now_s)
         for topic, message in messages_of(moment, with_points=with_points):
             data = json.dumps(message, separators=(",", ":"), default=_plain).encode()

@@ -11,8 +11,6 @@ from perception.sensing import SensorBuffer
 from scene_graph.memory import WorkingMemory
 from scene_graph.nodes import ROBOT_ID, ROOT_ID
 
-GRAPH_PERIOD_S = 1.0
-
 
 class Recorder:
     """Agent that records what perception was given, how the body was, and what the graph holds.
@@ -31,8 +29,13 @@ class Recorder:
         *,
         patient: bool,
         period_s: float,
+        graph_period_s: float = 1.0,
     ) -> None:
-        """``patient``: let the robot's time wait for the disk, as in lockstep; otherwise moments may be left out."""
+        """``patient``: let the robot's time wait for the disk, as in lockstep; otherwise moments may be left out.
+
+        ``graph_period_s``: between two moments that hold the graph.
+        """
+        self._graph_period_s = graph_period_s
         self.period_s = period_s
         self._writer, self._memory, self._buffer, self._robot = writer, memory, buffer, robot
         self._patient = patient
@@ -80,4 +83,4 @@ class Recorder:
             if measurement is not None:
                 self._told_s[sensor] = measurement.stamp_s
         if moment.building is not None:
-            self._graph_due_s = moment.now_s + GRAPH_PERIOD_S
+            self._graph_due_s = moment.now_s + self._graph_period_s

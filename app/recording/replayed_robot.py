@@ -17,6 +17,7 @@ from skills.ports import BodyState
 
 Measurement = TypeVar("Measurement")
 _IDLE_S = 0.05
+"""Wall time of a step once there is nothing more to play."""
 
 
 class ReplayedRobot(UnmovedBody):

@@ -7,7 +7,9 @@ import json
 
 import pytest
 
-from app.events.stream import HISTORY, QUEUE, EventStream
+from app.events.stream import EventStream, StreamSettings
+
+STREAM = StreamSettings()
 
 pytestmark = pytest.mark.anyio
 
@@ -48,7 +50,7 @@ async def test_a_client_that_returns_soon_gets_exactly_what_it_missed():
 @pytest.mark.parametrize("since", [-1, 0, 10_000_000])
 async def test_a_client_that_returns_too_late_or_from_another_life_gets_a_snapshot(since):
     stream = EventStream(dict)
-    for index in range(HISTORY + 10):
+    for index in range(STREAM.history + 10):
         stream.publish("log", index, 0.0)
     with stream.listen(since=since) as listener:
         [event] = await take(listener, 1)
@@ -58,13 +60,13 @@ async def test_a_client_that_returns_too_late_or_from_another_life_gets_a_snapsh
 async def test_a_client_that_does_not_read_costs_bounded_memory_and_gets_a_snapshot_in_the_end():
     stream = EventStream(dict)
     with stream.listen(since=0) as slow:
-        for index in range(QUEUE * 3):
+        for index in range(STREAM.queue * 3):
             stream.publish("log", index, 0.0)
         [event] = await take(slow, 1)
-        assert (event.type, event.seq) == ("snapshot", QUEUE * 3)
+        assert (event.type, event.seq) == ("snapshot", STREAM.queue * 3)
         stream.publish("log", "next", 0.0)
         [event] = await take(slow, 1)
-        assert event.seq == QUEUE * 3 + 1
+        assert event.seq == STREAM.queue * 3 + 1
 
 
 async def test_a_client_that_left_is_forgotten():

@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from app.journal import file as journal_file
 from app.journal.audit import Audit, NotKept
 from app.journal.decisions import Decision, DecisionKind, decisions_between, outline
+from app.journal.file import JournalFile, JournalSettings
 from app.journal.redaction import LONGEST, Redactor
 from app.journal.tasks import TaskJournal
 from app.journal.trace import stored_traces
@@ -221,9 +222,11 @@ def test_a_full_journal_drops_the_oldest_entries_and_says_so(file):
     again.close()
 
 
-def test_the_log_beside_the_journal_stays_short_also_when_writing_never_pauses(queue, journal, file, monkeypatch):
-    monkeypatch.setattr(journal_file, "LONGEST_LOG_BYTES", 1_000_000)
+def test_the_log_beside_the_journal_stays_short_also_when_writing_never_pauses(file, monkeypatch):
     monkeypatch.setattr(journal_file, "_checkpoint", lambda _: None)  # as if it never caught up
+    journal = TaskJournal(JournalFile.open(file, JournalSettings(longest_log_bytes=1_000_000)))
+    audit, queue = Audit(journal, redactor=Redactor(())), TaskQueue()
+    queue.listen(lambda task: audit.hear_task(task, 1.5))
     task_id, said = queue.submit("bring the cup", stamp_s=0.0).id, "word " * 4000
     longest = 0
     for _ in range(350):
@@ -231,6 +234,7 @@ def test_the_log_beside_the_journal_stays_short_also_when_writing_never_pauses(q
         longest = max(longest, file.with_name(f"{file.name}-wal").stat().st_size)
     assert 1_000_000 < longest < 6_000_000
     assert len(journal.trace(task_id).entries) == 351
+    journal.close()
 
 
 def test_pages_of_a_trace_make_the_whole(queue, audit, journal):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from app.persistence.node_history import ENTRIES, NodeHistory
+from app.persistence.node_history import ENTRIES, HistorySettings, NodeHistory
 
 
 def thing(at=(1.0, 2.0, 0.8), *, state="present", seen_s=0.0, room="room_1", name="", label="cup"):
@@ -107,7 +107,7 @@ def test_of_one_node_the_newest_entries_stay_and_the_rest_is_counted(history):
 
 
 def test_of_all_nodes_those_that_are_gone_are_forgotten_first():
-    history = NodeHistory(nodes=3)
+    history = NodeHistory(settings=HistorySettings(nodes=3))
     for number in range(10):
         history.note({"cup_1": thing(), f"cup_{number + 2}": thing()}, {}, number)
     assert history.document("cup_1") is not None

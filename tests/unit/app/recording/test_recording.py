@@ -16,7 +16,7 @@ from mcap.reader import make_reader
 from mcap.writer import Writer
 
 from app.recording.errors import NoRecording, RecordingDamaged, RecordingExists
-from app.recording.mcap_writer import WAITING_MOMENTS, McapWriter, free_path
+from app.recording.mcap_writer import McapWriter, RecordingSettings, free_path
 from app.recording.messages import messages_of
 from app.recording.moment import Moment
 from app.recording.playback import Playback
@@ -36,6 +36,7 @@ from unit.perception.lidar_house import cast
 PROFILE = {"seed": "3", "explore": "False", "camera": "True", "camera_hz": "5.0", "house": "flat"}
 GIGABYTE = 1_000_000_000
 CHUNK_BYTES = 1 << 17
+SMALL = RecordingSettings(chunk_bytes=CHUNK_BYTES)
 HEIGHT, WIDTH = 48, 64
 
 
@@ -89,7 +90,7 @@ def same(one, other):
 
 
 def recorded(path, moments):
-    writer = McapWriter(path, PROFILE, limit_bytes=GIGABYTE, chunk_bytes=CHUNK_BYTES)
+    writer = McapWriter(path, PROFILE, limit_bytes=GIGABYTE, settings=SMALL)
     for one in moments:
         assert writer.put_patiently(one)
     writer.close()
@@ -142,7 +143,7 @@ def test_a_recording_that_was_cut_off_is_played_up_to_there(tape_file, tmp_path)
 
 def test_what_was_written_when_the_process_is_killed_is_whole_chunks(tmp_path):
     path = tmp_path / "killed.mcap"
-    writer = McapWriter(path, PROFILE, limit_bytes=GIGABYTE, chunk_bytes=CHUNK_BYTES)
+    writer = McapWriter(path, PROFILE, limit_bytes=GIGABYTE, settings=SMALL)
     for index in range(24):
         writer.put_patiently(moment(index, True))
     while writer.written < 24:
@@ -213,14 +214,14 @@ def test_a_wrong_message_is_named(tmp_path):
 def test_no_file_is_written_over(tape_file):
     before = tape_file.read_bytes()
     with pytest.raises(RecordingExists, match="exists already"):
-        McapWriter(tape_file, PROFILE, limit_bytes=GIGABYTE, chunk_bytes=CHUNK_BYTES)
+        McapWriter(tape_file, PROFILE, limit_bytes=GIGABYTE, settings=SMALL)
     assert tape_file.read_bytes() == before
     assert free_path(tape_file).name == "drive.2.mcap"
 
 
 def test_a_recording_ends_soundly_at_its_limit(tmp_path, caplog):
     path = tmp_path / "small.mcap"
-    writer = McapWriter(path, PROFILE, limit_bytes=2 * CHUNK_BYTES, chunk_bytes=CHUNK_BYTES)
+    writer = McapWriter(path, PROFILE, limit_bytes=2 * CHUNK_BYTES, settings=SMALL)
     index = 0
     while writer.put_patiently(moment(index % 8, True)):
         index += 1
@@ -272,12 +273,12 @@ async def test_what_found_no_room_is_told_with_the_next_moment(patient):
 
 
 def test_who_comes_too_fast_is_counted_and_never_waits(tmp_path, caplog):
-    writer = McapWriter(tmp_path / "fast.mcap", PROFILE, limit_bytes=GIGABYTE, chunk_bytes=CHUNK_BYTES)
+    writer = McapWriter(tmp_path / "fast.mcap", PROFILE, limit_bytes=GIGABYTE, settings=SMALL)
     one = moment(0, True)
-    taken = sum(writer.put(one) for _ in range(6 * WAITING_MOMENTS))
+    taken = sum(writer.put(one) for _ in range(6 * SMALL.waiting_moments))
     writer.close()
     assert taken == writer.written
-    assert taken + writer.dropped == 6 * WAITING_MOMENTS
+    assert taken + writer.dropped == 6 * SMALL.waiting_moments
     assert writer.dropped > 0
     assert "falls behind" in caplog.text
 

@@ -11,14 +11,6 @@ import numpy as np
 from simulation.generation.layouts import Plot, Site
 from simulation.generation.tiles import Corner, Outline, Tile, inset, outline_of, sides
 
-FRAME_MM = 100
-"""Between a door and the corners of both rooms, at least."""
-NARROWEST_MM, WIDEST_MM, WIDEST_OPENING_MM = 800, 1200, 1800
-
-_BETWEEN_DOORS_MM = 400
-_PORCH_MM = 1500
-_TRIES = 20
-
 
 @dataclass(frozen=True, kw_only=True)
 class Doorway:
@@ -55,17 +47,18 @@ class _Wall:
     at: int
     start: int
     end: int
+    frame: int
 
     @property
     def room_for(self) -> int:
-        """The widest door that fits."""
-        return self.end - self.start - 2 * FRAME_MM
+        """The widest door that fits between ``frame`` at either end."""
+        return self.end - self.start - 2 * self.frame
 
 
 def choose_doorways(site: Site, plots: Sequence[Plot], *, loops: bool) -> list[Doorway] | None:
     """Doors that join all rooms, in a tree or with loops, and now and then one to the outside; None if they cannot."""
     outlines = inner_outlines(plots, site.wall_mm)
-    walls = list(_shared_walls(outlines, site.wall_mm))
+    walls = list(_shared_walls(site, outlines))
     joined = _tree(site, plots, walls)
     if joined is None:
         return None
@@ -93,21 +86,22 @@ def strangeness(plots: Sequence[Plot], doors: Iterable[Doorway]) -> int:
     return sum(plot.use.privacy * max(0, ends.count(index) - 1) for index, plot in enumerate(plots))
 
 
-def _shared_walls(outlines: Sequence[Outline], wall_mm: int) -> Iterable[_Wall]:
+def _shared_walls(site: Site, outlines: Sequence[Outline]) -> Iterable[_Wall]:
     """All stretches of wall between two rooms that take a door."""
     faces = [list(_faces(outline)) for outline in outlines]
     for i, j in combinations(range(len(outlines)), 2):
         for along_x, outward, level, start, end in faces[i]:
             for other_along_x, _, other_level, other_start, other_end in faces[j]:
-                if along_x == other_along_x and other_level - level == outward * wall_mm:
+                if along_x == other_along_x and other_level - level == outward * site.wall_mm:
                     wall = _Wall(
                         rooms=(i, j),
                         along_x=along_x,
                         at=(level + other_level) // 2,
                         start=max(start, other_start),
                         end=min(end, other_end),
+                        frame=site.settings.doorways.frame_mm,
                     )
-                    if wall.room_for >= NARROWEST_MM:
+                    if wall.room_for >= site.settings.doorways.narrowest_mm:
                         yield wall
 
 
@@ -143,7 +137,8 @@ def _extra(site: Site, plots: Sequence[Plot], walls: Sequence[_Wall], joined: Se
     for wall in _by_privacy(site, plots, walls):
         if wall.rooms not in pairs:
             fresh.setdefault(wall.rooms, wall)
-    twice = [wall for wall in joined if wall.room_for >= 2 * NARROWEST_MM + _BETWEEN_DOORS_MM]
+    for_two = 2 * site.settings.doorways.narrowest_mm + site.settings.doorways.between_doors_mm
+    twice = [wall for wall in joined if wall.room_for >= for_two]
     twice.sort(key=lambda wall: -wall.room_for)
     if fresh and not site.chance(0.1):
         return list(fresh.values())[:count]
@@ -164,46 +159,50 @@ def _placed(site: Site, plots: Sequence[Plot], wall: _Wall, doors: Sequence[Door
     """A door in that wall, beside those that are there; None when there is no place left."""
     public = len(wall.rooms) == 2 and all(plots[room].use.privacy <= 3 for room in wall.rooms)
     taken = [door for door in doors if door.rooms == wall.rooms]
-    for trial in range(_TRIES):
+    settings = site.settings.doorways
+    for trial in range(settings.tries):
         width = _width(site, wall.room_for, wide=public and not taken and trial == 0)
         spare = wall.room_for - width
         share = site.generator.uniform()
         if site.chance(0.6):  # as architects do: just beside a corner, so that the wall stays free
             share = (0.0 if share < 0.5 else 1.0) + (0.5 - share) * min(1.0, 300 / max(spare, 1))
-        start = wall.start + FRAME_MM + round(float(np.clip(share, 0.0, 1.0)) * spare)
+        start = wall.start + settings.frame_mm + round(float(np.clip(share, 0.0, 1.0)) * spare)
         middle = start + width // 2
         door = Doorway(rooms=wall.rooms, along_x=wall.along_x, at=wall.at, middle=middle, width=width)
-        if not any(door.at == other.at and _near(door, other) for other in taken):
+        if not any(door.at == other.at and _near(door, other, settings.between_doors_mm) for other in taken):
             return door
     return None
 
 
 def _width(site: Site, most: int, *, wide: bool) -> int:
     """A usual width in steps of a centimeter, now and then a wide opening."""
-    low, high = (WIDEST_MM, WIDEST_OPENING_MM) if wide and most > WIDEST_MM and site.chance(0.3) else (800, WIDEST_MM)
-    if high == WIDEST_MM and site.chance(0.5):
+    usual = site.settings.doorways.narrowest_mm, site.settings.doorways.widest_mm
+    opening = site.settings.doorways.widest_mm, site.settings.doorways.widest_opening_mm
+    low, high = opening if wide and most > usual[1] and site.chance(0.3) else usual
+    if high == usual[1] and site.chance(0.5):
         return min(900, most // 10 * 10)
     return int(site.generator.integers(low // 10, min(high, most) // 10 + 1)) * 10
 
 
-def _near(door: Doorway, other: Doorway) -> bool:
-    return abs(door.middle - other.middle) < (door.width + other.width) / 2 + _BETWEEN_DOORS_MM
+def _near(door: Doorway, other: Doorway, between_mm: int) -> bool:
+    return abs(door.middle - other.middle) < (door.width + other.width) / 2 + between_mm
 
 
 def _front_door(site: Site, plots: Sequence[Plot], outlines: Sequence[Outline]) -> list[Doorway]:
     """One door from a passage or a public room into the open air, where there is a wall for it."""
+    settings = site.settings.doorways
     rooms = sorted(range(len(plots)), key=lambda index: (plots[index].use.privacy, site.generator.random()))
     for index in rooms[:4]:
         for along_x, outward, level, start, end in _faces(outlines[index]):
             at = level + outward * (site.wall_mm // 2)
-            wall = _Wall(rooms=(index,), along_x=along_x, at=at, start=start, end=end)
-            door = _placed(site, plots, wall, []) if wall.room_for >= NARROWEST_MM else None
-            if door is not None and _leads_out(door, outward, plots):
+            wall = _Wall(rooms=(index,), along_x=along_x, at=at, start=start, end=end, frame=settings.frame_mm)
+            door = _placed(site, plots, wall, []) if wall.room_for >= settings.narrowest_mm else None
+            if door is not None and _leads_out(door, outward, plots, settings.porch_mm):
                 return [door]
     return []
 
 
-def _leads_out(door: Doorway, outward: int, plots: Sequence[Plot]) -> bool:
+def _leads_out(door: Doorway, outward: int, plots: Sequence[Plot], porch_mm: int) -> bool:
     """Whether nothing is built before the door."""
-    porch = replace(door, at=door.at + outward * (_PORCH_MM // 2 + 1)).gap(_PORCH_MM)
+    porch = replace(door, at=door.at + outward * (porch_mm // 2 + 1)).gap(porch_mm)
     return not any(porch.overlaps(tile) for plot in plots for tile in plot.tiles)

@@ -12,12 +12,8 @@ import numpy as np
 from simulation.furnishing.catalog import category_named
 from simulation.generation.floor import Floor, floor_of
 from simulation.generation.plans import Plan
+from simulation.generation.settings import FurnishingSettings
 from simulation.generation.tiles import Outline, sides
-
-_GAPS_M = (0.02, 0.06)
-_TRIES = 12
-_AREA_OF_A_THING_M2 = 0.1
-_MOST_THINGS = 2
 
 _FURNITURE: Mapping[str, Sequence[str]] = MappingProxyType(
     {
@@ -73,31 +69,42 @@ class Furnishing:
     start: tuple[float, float]
 
 
-def furnish(generator: np.random.Generator, plan: Plan, *, furnished: bool) -> Furnishing:
+def furnish(
+    generator: np.random.Generator,
+    plan: Plan,
+    *,
+    furnished: bool,
+    settings: FurnishingSettings = FurnishingSettings(),
+) -> Furnishing:
     """Fill the rooms of a plan, and set the robot down in one of them."""
-    floors = [floor_of(plan, room) for room in range(len(plan.outlines))]
+    floors = [floor_of(plan, room, settings.floor) for room in range(len(plan.outlines))]
     pieces: list[Piece] = []
     if furnished:
         for room, floor in enumerate(floors):
-            pieces += _fill(generator, plan, room, floor)
-    return Furnishing(pieces=tuple(pieces), things=tuple(_things(generator, pieces)), start=_start(generator, floors))
+            pieces += _fill(generator, plan, room, floor, settings)
+    things = tuple(_things(generator, pieces, settings))
+    return Furnishing(pieces=tuple(pieces), things=things, start=_start(generator, floors))
 
 
-def _fill(generator: np.random.Generator, plan: Plan, room: int, floor: Floor) -> list[Piece]:
+def _fill(
+    generator: np.random.Generator, plan: Plan, room: int, floor: Floor, settings: FurnishingSettings
+) -> list[Piece]:
     """Furniture for one room, as much as its taste and its size allow."""
     wanted = _FURNITURE.get(plan.uses[room].label, ("cabinet",))
     count = 1 + int(generator.integers(len(wanted)))
     placed: list[Piece] = []
     for category in wanted[:count]:
-        for _ in range(_TRIES):
-            piece = _try(generator, plan.outlines[room], room, category)
+        for _ in range(settings.tries):
+            piece = _try(generator, plan.outlines[room], room, category, settings.gaps_m)
             if floor.take(piece.x_m, piece.y_m, piece.yaw_rad, piece.size_m[:2]):
                 placed.append(piece)
                 break
     return placed
 
 
-def _try(generator: np.random.Generator, outline: Outline, room: int, category: str) -> Piece:
+def _try(
+    generator: np.random.Generator, outline: Outline, room: int, category: str, gaps_m: tuple[float, float]
+) -> Piece:
     """A place against a wall, more often so for longer walls; some things now and then stand free."""
     usual = category_named(category, None, static=True).size_m
     size = tuple(round(side * float(generator.uniform(0.9, 1.1)), 2) for side in usual)
@@ -108,9 +115,9 @@ def _try(generator: np.random.Generator, outline: Outline, room: int, category: 
     length = float(np.linalg.norm(end - start))
     along = (end - start) / length
     inward = np.array([-along[1], along[0]])
-    room_for = max(length - width_m - 2 * _GAPS_M[1], 0.0)
-    station = width_m / 2 + _GAPS_M[1] + room_for * _snap(float(generator.random()))
-    away = depth_m / 2 + float(generator.uniform(*_GAPS_M))
+    room_for = max(length - width_m - 2 * gaps_m[1], 0.0)
+    station = width_m / 2 + gaps_m[1] + room_for * _snap(float(generator.random()))
+    away = depth_m / 2 + float(generator.uniform(*gaps_m))
     if category in _IN_THE_MIDDLE and generator.random() < 0.5:
         away += float(generator.uniform(0.8, 1.6))
     x_m, y_m = start + station * along + away * inward
@@ -129,7 +136,7 @@ def _snap(share: float) -> float:
     return float(np.clip(1.5 * share - 0.25, 0.0, 1.0))
 
 
-def _things(generator: np.random.Generator, pieces: Sequence[Piece]) -> list[SmallThing]:
+def _things(generator: np.random.Generator, pieces: Sequence[Piece], settings: FurnishingSettings) -> list[SmallThing]:
     things: list[SmallThing] = []
     for index, piece in enumerate(pieces):
         category = category_named(piece.category, piece.size_m, static=True)
@@ -137,9 +144,9 @@ def _things(generator: np.random.Generator, pieces: Sequence[Piece]) -> list[Sma
             continue
         wanted = [
             SmallThing(category=str(generator.choice(_THINGS)), color=str(generator.choice(_COLORS)), on=index)
-            for _ in range(int(generator.integers(_MOST_THINGS + 1)))
+            for _ in range(int(generator.integers(settings.most_things + 1)))
         ]
-        things += wanted[: int(piece.size_m[0] * piece.size_m[1] / _AREA_OF_A_THING_M2)]
+        things += wanted[: int(piece.size_m[0] * piece.size_m[1] / settings.area_of_a_thing_m2)]
     return things
 
 

@@ -12,12 +12,12 @@ import numpy as np
 from simulation.errors import HouseError
 from simulation.generation.furnishing import Furnishing, furnish
 from simulation.generation.plans import Plan, draw_plan
+from simulation.generation.settings import GenerationSettings
 from simulation.houses.house import OUTSIDE, Door, Furniture, House, Object, Robot, Room
 from simulation.houses.house_checks import check_house
 
 MOST_ROOMS = 30
-
-_FARTHEST_M = 20.0
+"""As many as the layouts are good for."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -38,7 +38,13 @@ class Turn:
 
 
 def generate_house(
-    *, rooms: int, seed: int, loops: bool = False, rectilinear: bool = False, furnished: bool = True
+    *,
+    rooms: int,
+    seed: int,
+    loops: bool = False,
+    rectilinear: bool = False,
+    furnished: bool = True,
+    settings: GenerationSettings = GenerationSettings(),
 ) -> House:
     """A house that a robot of 0.3 m radius can explore; the same arguments give the same house.
 
@@ -48,6 +54,7 @@ def generate_house(
         loops: whether some room can be left by one door and come back to by another; else its doors form a tree.
         rectilinear: whether some rooms, about a third, are L-, T- or U-shaped; else all are rectangles.
         furnished: whether there are furniture and objects.
+        settings: what such houses are like.
 
     Raises:
         HouseError: such a house cannot be.
@@ -57,16 +64,14 @@ def generate_house(
     if loops and rooms == 1:
         raise HouseError("rooms", "one room alone has no loop; ask for two or more")
     for_plan, for_turn, for_furniture, for_robot = np.random.default_rng(seed).spawn(4)
-    plan = draw_plan(for_plan, rooms, loops=loops, rectilinear=rectilinear)
+    plan = draw_plan(for_plan, rooms, loops=loops, rectilinear=rectilinear, settings=settings.plan)
+    far_m = settings.farthest_m
     turn = Turn(
         yaw_rad=float(for_turn.uniform(-math.pi, math.pi)),
-        shift_m=(
-            float(for_turn.uniform(-_FARTHEST_M, _FARTHEST_M)),
-            float(for_turn.uniform(-_FARTHEST_M, _FARTHEST_M)),
-        ),
+        shift_m=(float(for_turn.uniform(-far_m, far_m)), float(for_turn.uniform(-far_m, far_m))),
     )
     names = _names(plan)
-    furnishing = furnish(for_furniture, plan, furnished=furnished)
+    furnishing = furnish(for_furniture, plan, furnished=furnished, settings=settings.furnishing)
     furniture = _furniture(furnishing, turn)
     house = House(
         name=f"generated_{rooms}_{seed}",

@@ -6,20 +6,14 @@ A layout is drawn by dice and may not come out: then it is None, and another one
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import accumulate, pairwise
 
 import numpy as np
 
 from simulation.generation.programs import CORRIDOR, HALL, Use, Wish, draw_program
+from simulation.generation.settings import PlanSettings
 from simulation.generation.tiles import Tile, area, narrowest
-
-LONGEST_M = 9.0
-"""No room but a corridor is longer, between inner faces."""
-
-_LONGEST_CORRIDOR_M = 30.0
-_SLIMMEST = 3.2
-_TRIES = 4
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -37,6 +31,7 @@ class Site:
     generator: np.random.Generator
     wall_mm: int
     office: bool
+    settings: PlanSettings = field(default_factory=PlanSettings)
 
     def between(self, low_m: float, high_m: float) -> int:
         """A random clear width, with half a wall on either side, in millimeters."""
@@ -59,14 +54,15 @@ Layout = Callable[[Site, int], list[Plot] | None]
 """Draws that many rooms, those between rooms included."""
 
 
-def fits(plot: Plot, wall_mm: int) -> bool:
+def fits(plot: Plot, site: Site) -> bool:
     """Whether the ground suits the use: wide enough, not too long, slim or large."""
+    wall_mm, settings = site.wall_mm, site.settings.layout
     left, low = min(t.left for t in plot.tiles), min(t.low for t in plot.tiles)
     right, high = max(t.right for t in plot.tiles), max(t.high for t in plot.tiles)
     short_m, long_m = (extent / 1000 for extent in sorted((right - left - wall_mm, high - low - wall_mm)))
     if plot.use is CORRIDOR:
-        return (narrowest(plot.tiles) - wall_mm) / 1000 >= CORRIDOR.width_m and long_m <= _LONGEST_CORRIDOR_M
-    fair = short_m >= plot.use.width_m and long_m <= min(LONGEST_M, _SLIMMEST * short_m)
+        return (narrowest(plot.tiles) - wall_mm) / 1000 >= CORRIDOR.width_m and long_m <= settings.longest_corridor_m
+    fair = short_m >= plot.use.width_m and long_m <= min(settings.longest_m, settings.slimmest * short_m)
     return fair and area(plot.tiles) / 1e6 <= 1.7 * plot.use.area_m2[1]
 
 
@@ -157,8 +153,8 @@ def _split(site: Site, ground: Tile, wishes: Sequence[Wish]) -> list[Plot] | Non
     """Shares of the ground in proportion to the areas, cut across its longer side more often than not."""
     if len(wishes) == 1:
         plot = Plot(use=wishes[0].use, tiles=(ground,))
-        return [plot] if fits(plot, site.wall_mm) else None
-    for _ in range(_TRIES):
+        return [plot] if fits(plot, site) else None
+    for _ in range(site.settings.layout.tries):
         parted = int(site.generator.integers(1, len(wishes)))
         share = _area_m2(wishes[:parted]) / _area_m2(wishes)
         if (ground.width > ground.height) == site.chance(0.85):

@@ -21,6 +21,7 @@ from simulation.generation.layouts import (
     wings_layout,
 )
 from simulation.generation.programs import Use
+from simulation.generation.settings import PlanSettings
 from simulation.generation.tiles import Outline
 
 _LAYOUTS: Sequence[tuple[Layout, int, int]] = (
@@ -31,9 +32,6 @@ _LAYOUTS: Sequence[tuple[Layout, int, int]] = (
     (ring_layout, 10, 30),
 )
 """Each with the fewest and the most rooms that it is good for."""
-
-_CANDIDATES = 8
-_TRIES = 80
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -46,12 +44,20 @@ class Plan:
     wall_mm: int
 
 
-def draw_plan(generator: np.random.Generator, rooms: int, *, loops: bool, rectilinear: bool) -> Plan:
+def draw_plan(
+    generator: np.random.Generator,
+    rooms: int,
+    *,
+    loops: bool,
+    rectilinear: bool,
+    settings: PlanSettings = PlanSettings(),
+) -> Plan:
     """The best of several plans by the same dice, all of one kind of layout, or two where one does not come out."""
     site = Site(
         generator=generator,
         wall_mm=2 * int(generator.integers(40, 176)),
         office=bool(rooms > 12 or generator.random() < 0.4),
+        settings=settings,
     )
     suited = [layout for layout, fewest, most in _LAYOUTS if fewest <= rooms <= most]
     if not loops and ring_layout in suited:
@@ -59,12 +65,12 @@ def draw_plan(generator: np.random.Generator, rooms: int, *, loops: bool, rectil
     candidates: list[tuple[int, list[Plot], list[Doorway]]] = []
     while not candidates:
         layout = suited[generator.integers(len(suited))]
-        for _ in range(_TRIES):
+        for _ in range(settings.layout.most_draws):
             plots = _plots(site, layout, rooms, rectilinear=rectilinear)
             doors = choose_doorways(site, plots, loops=loops) if plots else None
             if plots and doors is not None:
                 candidates.append((strangeness(plots, doors), plots, doors))
-            if len(candidates) == _CANDIDATES or (candidates and candidates[-1][0] == 0):
+            if len(candidates) == settings.layout.candidates or (candidates and candidates[-1][0] == 0):
                 break
     _, plots, doors = min(candidates, key=lambda candidate: candidate[0])
     return Plan(
@@ -79,7 +85,7 @@ def _plots(site: Site, layout: Layout, rooms: int, *, rectilinear: bool) -> list
     """One try: a layout, and, where asked for, rooms cut out of it and shapes cut into it."""
     cut_out = int(site.generator.integers(0, 1 + rooms // 4)) if rectilinear and layout is not ring_layout else 0
     plots = layout(site, rooms - cut_out)
-    if plots is None or not all(fits(plot, site.wall_mm) for plot in plots):
+    if plots is None or not all(fits(plot, site) for plot in plots):
         return None
     if not rectilinear:
         return plots

@@ -9,6 +9,7 @@ import numpy as np
 
 from simulation.furnishing.catalog import CATEGORIES, category_named
 from simulation.generation.generator import generate_house
+from simulation.generation.settings import StockingSettings
 from simulation.houses.colors import COLORS
 from simulation.houses.house import Furniture, House, Object, Person, Room
 from simulation.houses.placement import to_house
@@ -16,28 +17,20 @@ from simulation.houses.polygons import contains, distance_to_boundary
 
 _FURNITURE = tuple(name for name, category in CATEGORIES.items() if category.static)
 _SMALL = tuple(name for name, category in CATEGORIES.items() if not category.static)
-_OTHER_FURNITURE = 0.25
-_MOST_ON_ONE = 7
-_MOST_ON_FLOOR = 3
-_USUAL_COLOR = 0.5
 _KEPT_COLOR = ("apple", "orange", "banana", "plant")
-_MARGIN_M = 0.02
-_FREE_M = 0.35
-_ROBOT_M, _PERSON_M = 0.4, 0.6
-"""So far around the middle of the robot, as it starts, nothing lies, and nobody stands."""
 
 
-def stocked_house(*, seed: int) -> House:
+def stocked_house(*, seed: int, settings: StockingSettings = StockingSettings()) -> House:
     """A generated house of two to six rooms whose furniture carries things of all kinds; the same for the same seed."""
     rng = np.random.default_rng((seed, 0x57))
     rooms = int(rng.integers(2, 7))
     house = generate_house(rooms=rooms, seed=seed, rectilinear=bool(rng.random() < 0.3))
-    furniture = tuple(_another(piece, rng) for piece in house.furniture)
-    things = [thing for piece in furniture for thing in _load(piece, rng)]
-    strewn = [thing for room in house.rooms for thing in _strewn(room, furniture, rng)]
-    things += [thing for thing in strewn if not _is_at_robot(house, thing.pose, _ROBOT_M)]
-    visitors = [person for room in house.rooms for person in _visitor(room, furniture, rng)]
-    people = [person for person in visitors if not _is_at_robot(house, person.pose, _PERSON_M)]
+    furniture = tuple(_another(piece, rng, settings) for piece in house.furniture)
+    things = [thing for piece in furniture for thing in _load(piece, rng, settings)]
+    strewn = [thing for room in house.rooms for thing in _strewn(room, furniture, rng, settings)]
+    things += [thing for thing in strewn if not _is_at_robot(house, thing.pose, settings.robot_free_m)]
+    visitors = [person for room in house.rooms for person in _visitor(room, furniture, rng, settings.visitor_free_m)]
+    people = [person for person in visitors if not _is_at_robot(house, person.pose, settings.person_free_m)]
     doors = tuple(door.model_copy(update={"state": "closed"}) if rng.random() < 0.2 else door for door in house.doors)
     objects = tuple(thing.model_copy(update={"id": f"thing_{number}"}) for number, thing in enumerate(things))
     return house.model_copy(
@@ -45,60 +38,64 @@ def stocked_house(*, seed: int) -> House:
     )
 
 
-def _another(piece: Furniture, rng: np.random.Generator) -> Furniture:
+def _another(piece: Furniture, rng: np.random.Generator, settings: StockingSettings) -> Furniture:
     """Now and then something of another kind that fits in its place, and of another color."""
     size = piece.size or CATEGORIES[piece.category].size_m
-    if rng.random() < _OTHER_FURNITURE:
+    if rng.random() < settings.other_furniture:
         fitting = [name for name in _FURNITURE if all(CATEGORIES[name].size_m[k] <= 1.1 * size[k] for k in (0, 1))]
         if fitting:
             category = str(rng.choice(fitting))
             piece = piece.model_copy(update={"category": category, "size": CATEGORIES[category].size_m})
-    color = None if piece.category in _KEPT_COLOR or rng.random() < _USUAL_COLOR else _color(rng)
+    color = None if piece.category in _KEPT_COLOR or rng.random() < settings.usual_color else _color(rng)
     return piece.model_copy(update={"color": color})
 
 
-def _load(piece: Furniture, rng: np.random.Generator) -> Iterator[Object]:
+def _load(piece: Furniture, rng: np.random.Generator, settings: StockingSettings) -> Iterator[Object]:
     """Things on it or in it, apart from each other."""
     kind = category_named(piece.category, piece.size, static=True)
     if not (kind.support or kind.container):
         return
     size = piece.size or kind.size_m
     placed: list[tuple[float, float, float]] = []
-    for _ in range(int(rng.integers(0, _MOST_ON_ONE + 1))):
-        thing = _small(rng)
+    for _ in range(int(rng.integers(0, settings.most_on_one + 1))):
+        thing = _small(rng, settings.usual_color)
         extent = thing.size or CATEGORIES[thing.category].size_m
         radius = math.hypot(*extent[:2]) / 2
-        play = [max(0.0, side / 2 - radius - _MARGIN_M - (0.1 if kind.container else 0.0)) for side in size[:2]]
+        play = [max(0.0, side / 2 - radius - settings.margin_m - (0.1 if kind.container else 0.0)) for side in size[:2]]
         x, y = (float(rng.uniform(-1.0, 1.0)) * most for most in play)
-        if all(math.dist((x, y), other[:2]) > radius + other[2] + _MARGIN_M for other in placed):
+        if all(math.dist((x, y), other[:2]) > radius + other[2] + settings.margin_m for other in placed):
             placed.append((x, y, radius))
             place = {"in_": piece.id} if kind.container else {"on": piece.id}
             yield thing.model_copy(update={"offset": (x, y), "pose": None, **place})
 
 
-def _strewn(room: Room, furniture: tuple[Furniture, ...], rng: np.random.Generator) -> Iterator[Object]:
-    for _ in range(int(rng.integers(0, _MOST_ON_FLOOR + 1))):
+def _strewn(
+    room: Room, furniture: tuple[Furniture, ...], rng: np.random.Generator, settings: StockingSettings
+) -> Iterator[Object]:
+    for _ in range(int(rng.integers(0, settings.most_on_floor + 1))):
         spot = _free_spot(room, furniture, 0.2, rng)
         if spot is not None:
-            yield _small(rng).model_copy(update={"pose": (*spot, 0.0, float(rng.uniform(-math.pi, math.pi)))})
+            yield _small(rng, settings.usual_color).model_copy(
+                update={"pose": (*spot, 0.0, float(rng.uniform(-math.pi, math.pi)))}
+            )
 
 
 def _is_at_robot(house: House, pose: Sequence[float] | None, away_m: float) -> bool:
     return pose is not None and math.dist(pose[:2], house.robot.pose[:2]) < away_m
 
 
-def _visitor(room: Room, furniture: tuple[Furniture, ...], rng: np.random.Generator) -> Iterator[Person]:
-    spot = _free_spot(room, furniture, _FREE_M, rng) if rng.random() < 0.25 else None
+def _visitor(room: Room, furniture: tuple[Furniture, ...], rng: np.random.Generator, free_m: float) -> Iterator[Person]:
+    spot = _free_spot(room, furniture, free_m, rng) if rng.random() < 0.25 else None
     if spot is not None:
         yield Person(id=f"person_in_{room.id}", pose=(*spot, float(rng.uniform(-math.pi, math.pi))))
 
 
-def _small(rng: np.random.Generator) -> Object:
+def _small(rng: np.random.Generator, usual_color: float) -> Object:
     """A thing of any kind that is nowhere yet."""
     category = str(rng.choice(_SMALL))
     scale = float(rng.uniform(0.88, 1.15)) if rng.random() < 0.4 else 1.0
     x, y, z = (round(scale * side, 4) for side in CATEGORIES[category].size_m)
-    color = None if category in _KEPT_COLOR or rng.random() < _USUAL_COLOR else _color(rng)
+    color = None if category in _KEPT_COLOR or rng.random() < usual_color else _color(rng)
     return Object(id="new", category=category, color=color, size=(x, y, z), pose=(0.0, 0.0, 0.0, 0.0))
 
 

@@ -14,8 +14,6 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus, WebSocketExce
 from client.documents import Event
 from client.errors import Forbidden, Refused, Unauthorized, closing, silent
 
-FIRST_WAIT_S = 0.2
-LONGEST_WAIT_S = 5.0
 LOST = (OSError, EOFError, TimeoutError, WebSocketException)
 """What the loss of a connection, or its failing to open, is raised as."""
 
@@ -25,14 +23,19 @@ class Cursor:
     """A reader's place in the stream.
 
     ``since``: number of the last event that was read, ``None`` before the first. ``patience_s``: how long a service
-    may be away before the reader gives up, ``None`` for ever.
+    may be away before the reader gives up, ``None`` for ever. ``waits_s``: the first and the longest wait before trying
+    again; each is twice the one before.
     """
 
     since: int | None = None
     patience_s: float | None = 60.0
     clock: Callable[[], float] = time.monotonic
+    waits_s: tuple[float, float] = (0.2, 5.0)
     _lost_at_s: float | None = field(default=None, repr=False)
-    _wait_s: float = field(default=FIRST_WAIT_S, repr=False)
+    _wait_s: float = field(init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        self._wait_s = self.waits_s[0]
 
     @property
     def query(self) -> str:
@@ -44,7 +47,7 @@ class Cursor:
         document = json.loads(message)
         if not isinstance(document, dict) or "seq" not in document:
             return None
-        self._lost_at_s, self._wait_s = None, FIRST_WAIT_S
+        self._lost_at_s, self._wait_s = None, self.waits_s[0]
         event = Event.model_validate(document)
         if event.type == "snapshot":
             gap = self.since is not None and event.seq != self.since
@@ -69,7 +72,7 @@ class Cursor:
         self._lost_at_s = now_s if self._lost_at_s is None else self._lost_at_s
         if self.patience_s is not None and now_s - self._lost_at_s >= self.patience_s:
             raise silent(address, error) from error
-        wait_s, self._wait_s = self._wait_s, min(2 * self._wait_s, LONGEST_WAIT_S)
+        wait_s, self._wait_s = self._wait_s, min(2 * self._wait_s, self.waits_s[1])
         return Event(seq=self.since or 0, type="disconnected", data={"reason": str(error)}), wait_s
 
 

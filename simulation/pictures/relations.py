@@ -16,15 +16,26 @@ from numpy.typing import NDArray
 
 PREDICATES = ("on", "in", "beside", "in front of", "over", "under", "attached to", "holding")
 
-BESIDE_M = 0.3
-"""Between things that stand beside each other; furniture may be ``BESIDE_FURNITURE_M`` apart."""
-BESIDE_FURNITURE_M = 0.5
-LEVEL_M = 0.12
-BEFORE_M = (0.15, 1.2)
-"""How much nearer to the viewer something is that stands in front of something else."""
-_COVERED = 0.5
-_HANGS_AT_MOST_M = 1.5
-_CLEAR_M = 0.02
+
+@dataclass(frozen=True, kw_only=True)
+class RelationSettings:
+    """What is called how; chosen, as people label pictures."""
+
+    beside_m: float = 0.3
+    """Between things that stand beside each other."""
+    beside_furniture_m: float = 0.5
+    level_m: float = 0.12
+    """And their bottoms are no farther apart."""
+    before_m: tuple[float, float] = (0.15, 1.2)
+    """How much nearer to the viewer something is that stands in front of something else."""
+    before_share: float = 0.5
+    """And it hides so much of the width of the narrower of both."""
+    covered: float = 0.5
+    """Share of a footprint that lies over or under something."""
+    hangs_at_most_m: float = 1.5
+    """So far above something what hangs is still over it."""
+    clear_m: float = 0.02
+    """What is closer touches."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -64,15 +75,18 @@ class Seen:
 Relation = tuple[int, str, int]
 
 
-def true_relations(solids: Sequence[Solid], seen: Sequence[Seen | None]) -> tuple[Relation, ...]:
+def true_relations(
+    solids: Sequence[Solid], seen: Sequence[Seen | None], settings: RelationSettings = RelationSettings()
+) -> tuple[Relation, ...]:
     """(subject, predicate, object) by index, for what is seen; ``beside`` is given once, its left thing first."""
     found = list(_contacts(solids, seen))
     related = {frozenset((subject, other)) for subject, _, other in found}
+    geometry = _Geometry(solids, seen, settings)
     visible = [index for index, place in enumerate(seen) if place is not None]
     for number, a in enumerate(visible):
         for b in visible[number + 1 :]:
             if frozenset((a, b)) not in related:
-                relation = _between(solids, seen, a, b) or _between(solids, seen, b, a) or _beside(solids, seen, a, b)
+                relation = geometry.between(a, b) or geometry.between(b, a) or geometry.beside(a, b)
                 found += [relation] if relation else []
     return tuple(found)
 
@@ -91,21 +105,55 @@ def _contacts(solids: Sequence[Solid], seen: Sequence[Seen | None]) -> Iterator[
                 break
 
 
-def _between(solids: Sequence[Solid], seen: Sequence[Seen | None], a: int, b: int) -> Relation | None:
-    """How ``a`` lies to ``b``, where that is not the same seen from ``b``."""
-    one, two = solids[a], solids[b]
-    if _share_below(one, two) >= _COVERED:
-        hangs = one.attached_to is not None or one.held_by is not None
-        if hangs and 0.0 < one.bottom_m - two.top_m + _CLEAR_M <= _HANGS_AT_MOST_M:
-            return (a, "over", b)
-        if two.furniture and one.bottom_m < _CLEAR_M and one.center_m[2] < two.top_m - _CLEAR_M:
-            return (a, "under", b)
-    return (a, "in front of", b) if _hides(seen[a], seen[b]) and not _stacked(one, two) else None
+class _Geometry:
+    """How things lie to each other, where nothing carries them."""
 
+    def __init__(self, solids: Sequence[Solid], seen: Sequence[Seen | None], settings: RelationSettings) -> None:
+        self._solids, self._seen, self._settings = solids, seen, settings
 
-def _stacked(one: Solid, two: Solid) -> bool:
-    """Whether the two are on different levels, so that neither stands before the other."""
-    return one.bottom_m > two.top_m - _CLEAR_M or two.bottom_m > one.top_m - _CLEAR_M
+    def between(self, a: int, b: int) -> Relation | None:
+        """How ``a`` lies to ``b``, where that is not the same seen from ``b``."""
+        one, two, settings = self._solids[a], self._solids[b], self._settings
+        if _share_below(one, two) >= settings.covered:
+            hangs = one.attached_to is not None or one.held_by is not None
+            if hangs and 0.0 < one.bottom_m - two.top_m + settings.clear_m <= settings.hangs_at_most_m:
+                return (a, "over", b)
+            low = one.bottom_m < settings.clear_m and one.center_m[2] < two.top_m - settings.clear_m
+            if two.furniture and low:
+                return (a, "under", b)
+        hides = self._hides(self._seen[a], self._seen[b])
+        return (a, "in front of", b) if hides and not self._stacked(one, two) else None
+
+    def beside(self, a: int, b: int) -> Relation | None:
+        """The left one beside the other, on the same level."""
+        one, two, settings = self._solids[a], self._solids[b], self._settings
+        if (one.on, one.inside, one.held_by) != (two.on, two.inside, two.held_by) or one.furniture != two.furniture:
+            return None
+        if one.held_by is not None or one.attached_to is not None or two.attached_to is not None:
+            return None
+        limit_m = settings.beside_furniture_m if one.furniture else settings.beside_m
+        if abs(one.bottom_m - two.bottom_m) > settings.level_m or _gap_m(one, two) > limit_m:
+            return None
+        left_a, left_b = self._seen[a], self._seen[b]
+        assert left_a is not None
+        assert left_b is not None
+        first_a = left_a.box_px[0] + left_a.box_px[2] <= left_b.box_px[0] + left_b.box_px[2]
+        return (a, "beside", b) if first_a else (b, "beside", a)
+
+    def _stacked(self, one: Solid, two: Solid) -> bool:
+        """Whether the two are on different levels, so that neither stands before the other."""
+        clear_m = self._settings.clear_m
+        return one.bottom_m > two.top_m - clear_m or two.bottom_m > one.top_m - clear_m
+
+    def _hides(self, near: Seen | None, far: Seen | None) -> bool:
+        """Whether the picture shows ``near`` before ``far``: boxes touch, much of the narrower before the other."""
+        low_m, high_m = self._settings.before_m
+        if near is None or far is None or not low_m <= far.distance_m - near.distance_m <= high_m:
+            return False
+        (left, top, right, bottom), (left_2, top_2, right_2, bottom_2) = near.box_px, far.box_px
+        shared = min(right, right_2) - max(left, left_2)
+        least = self._settings.before_share * min(right - left, right_2 - left_2)
+        return shared >= least and min(bottom, bottom_2) >= max(top, top_2)
 
 
 def _share_below(one: Solid, two: Solid) -> float:
@@ -116,31 +164,6 @@ def _share_below(one: Solid, two: Solid) -> float:
     points += np.subtract(one.center_m[:2], two.center_m[:2])
     inside = np.abs(_turned(points, -two.yaw_rad)) <= np.asarray(two.size_m[:2]) / 2
     return float(inside.all(axis=1).mean())
-
-
-def _hides(near: Seen | None, far: Seen | None) -> bool:
-    """Whether the picture shows ``near`` before ``far``: their boxes touch, half of the narrower before the other."""
-    if near is None or far is None or not BEFORE_M[0] <= far.distance_m - near.distance_m <= BEFORE_M[1]:
-        return False
-    (left, top, right, bottom), (left_2, top_2, right_2, bottom_2) = near.box_px, far.box_px
-    shared = min(right, right_2) - max(left, left_2)
-    return shared >= 0.5 * min(right - left, right_2 - left_2) and min(bottom, bottom_2) >= max(top, top_2)
-
-
-def _beside(solids: Sequence[Solid], seen: Sequence[Seen | None], a: int, b: int) -> Relation | None:
-    one, two = solids[a], solids[b]
-    if (one.on, one.inside, one.held_by) != (two.on, two.inside, two.held_by) or one.furniture != two.furniture:
-        return None
-    if one.held_by is not None or one.attached_to is not None or two.attached_to is not None:
-        return None
-    limit_m = BESIDE_FURNITURE_M if one.furniture else BESIDE_M
-    if abs(one.bottom_m - two.bottom_m) > LEVEL_M or _gap_m(one, two) > limit_m:
-        return None
-    left_a, left_b = seen[a], seen[b]
-    assert left_a is not None
-    assert left_b is not None
-    first_a = left_a.box_px[0] + left_a.box_px[2] <= left_b.box_px[0] + left_b.box_px[2]
-    return (a, "beside", b) if first_a else (b, "beside", a)
 
 
 def _gap_m(one: Solid, two: Solid) -> float:

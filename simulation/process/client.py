@@ -19,9 +19,6 @@ from simulation.process.child import ADVANCE, CLOSE, run
 from simulation.process.messages import Mode, Readings, Reply, Request, Start
 from skills.ports import ArmGeometry, ArmTarget, BodyLimits, BodyState
 
-START_TIMEOUT_S = 60.0
-REPLY_TIMEOUT_S = 30.0
-
 
 class SimulatedRobot:
     """``SensorPort`` and ``BodyPort`` of the simulated robot. Make one with ``await SimulatedRobot.start(...)``.
@@ -31,8 +28,12 @@ class SimulatedRobot:
     nothing moves until time does: commands travel with the next call, and what the body measured comes with the time.
     """
 
-    def __init__(self, start: Start) -> None:
-        self._start = start
+    def __init__(self, start: Start, *, start_timeout_s: float = 60.0, reply_timeout_s: float = 30.0) -> None:
+        """``start_timeout_s``: to load the libraries and settle the house. ``reply_timeout_s``: of every other call.
+
+        Many times what they take: a machine may be busy.
+        """
+        self._start, self._start_timeout_s, self._reply_timeout_s = start, start_timeout_s, reply_timeout_s
         self._context = multiprocessing.get_context("spawn")
         self._stop_latch = self._context.Value("i", 0)
         self._thread = ThreadPoolExecutor(max_workers=1, thread_name_prefix="simulator")
@@ -187,7 +188,7 @@ class SimulatedRobot:
         process.start()
         theirs.close()
         self._process, self._connection = process, ours
-        return self._receive(START_TIMEOUT_S)
+        return self._receive(self._start_timeout_s)
 
     async def _command(self, method: str, *args: Any) -> None:
         if self._start.mode is not Mode.LOCKSTEP:
@@ -215,7 +216,7 @@ class SimulatedRobot:
             self._connection.send(request)
         except OSError as error:
             raise SimulatorDied(self._obituary()) from error
-        return self._receive(REPLY_TIMEOUT_S)
+        return self._receive(self._reply_timeout_s)
 
     def _receive(self, timeout_s: float) -> Reply:
         connection = self._connection

@@ -250,7 +250,7 @@ async def test_every_code_that_is_raised_is_documented():
     source = Path(service_module.__file__).parent
     raised = {
         code
-        for file in source.glob("*.py")
+        for file in source.rglob("*.py")
         for code in re.findall(r'Problem\(\s*\d+,\s*"(\w+)"', file.read_text("utf-8"))
     }
     assert len(raised) > 10

@@ -1,4 +1,4 @@
-"""The service around a recorded robot, and the client that asks it how fast it answers."""
+"""The service around a recorded robot."""
 
 from __future__ import annotations
 
@@ -6,7 +6,6 @@ import pytest
 
 from app.runtime import Runtime
 from app.settings import ClockMode, Settings
-from evaluations.service.latency import PATHS, api_probe
 from evaluations.service.rates import FROM_MEMORY, SPEED, Player, measured
 from evaluations.service.replay import CAMERA_HZ
 from paths import DATA
@@ -14,18 +13,6 @@ from recorded_drive import recording
 
 pytestmark = pytest.mark.anyio
 NETWORK = DATA / "network" / "instances.onnx"
-
-
-async def test_the_probe_asks_for_everything_in_turn_and_says_what_failed(served, token):
-    port = int(served.address.rpartition(":")[2])
-    async with api_probe() as probe:
-        well = await probe.ask(port, token, 0.8)
-        foreign = await probe.ask(port, "another-token-for-tests", 0.4)
-    assert len(well.latencies_ms) == 8
-    assert well.failures == ()
-    assert min(well.latencies_ms) > 0.0
-    assert {failure.partition(":")[0] for failure in foreign.failures} == set(PATHS) - {"/healthz"}
-    assert all(failure.endswith("401 Unauthorized") for failure in foreign.failures)
 
 
 @pytest.mark.slow

@@ -16,6 +16,7 @@ from planner.surfaces import surfaces_near
 from scene_graph.errors import FramesNotConnected
 from scene_graph.nodes import ObjectNode, ObjectState, PersonNode
 from scene_graph.snapshot import Snapshot
+from skills.facts import read_state
 from skills.state.state import PlaceRelation, PlanState
 
 
@@ -149,14 +150,14 @@ def holds_in(
             limit_m = settings.given_m if goal.predicate is Predicate.GIVEN else settings.near_m
             same_room = snapshot.room_of(first) == snapshot.room_of(second)
             return same_room and not _held(snapshot, first) and gap_m(snapshot, first, second) <= limit_m
-        case Predicate.ROBOT_AT if holds(goal, PlanState.from_snapshot(snapshot), settings):
+        case Predicate.ROBOT_AT if holds(goal, read_state(snapshot), settings):
             return True
         case Predicate.ROBOT_AT:
             here = snapshot.robot
             near = here is not None and gap_m(snapshot, here.id, second) <= settings.near_m
             return near and second not in _rooms(snapshot)
         case _:
-            return holds(goal, PlanState.from_snapshot(snapshot), settings)
+            return holds(goal, read_state(snapshot), settings)
 
 
 def _is_room(state: PlanState, node_id: str) -> bool:

@@ -10,7 +10,7 @@ from planner.goals import Goal, Predicate
 from planner.plan import Step
 from scene_graph.nodes import UNKNOWN_LABEL, DoorNode, ObjectNode, PersonNode, RoomNode
 from scene_graph.snapshot import Snapshot
-from skills.furniture.containers import is_container
+from skills.furniture.kinds import is_container
 
 _NUMBERED = frozenset({"room", "region", "door", "wall", "corner"})
 """What has no name but its number."""

@@ -18,9 +18,11 @@ from scene_graph.edits import PutNode
 from scene_graph.geometry.se3 import SE3
 from scene_graph.memory import WorkingMemory
 from scene_graph.snapshot import Snapshot
+from skills.arm.hand import Hand
 from skills.failures import Evidence, Failure, FailureCode
 from skills.navigation.surroundings import Surroundings
 from skills.ports import NO_FLOOR, ArmGeometry, ArmTarget, BodyLimits, BodyPort, BodyState, FloorReturns
+from skills.settings import SkillSettings
 
 CARRY_SHARE = 0.6
 """Share of the body's speed limits that is used with something in the hand."""
@@ -69,19 +71,20 @@ def _nothing_seen() -> NDArray[np.float64]:
 class RobotContext:
     """What actions share: the graph, the body as measured at this tick, raw obstacle points, and the commands to send.
 
-    ``obstacles_base``: (N, 3), base frame; ``floor_base``: what may rise a little from the floor.
-    ``seen_base``: gives the points (N, 3), base frame, that the depth camera saw last. ``path_room``: the
-    path being followed, for display, current room's frame. ``surroundings`` remembers obstacle points, ``grip`` what
-    the fingers hold, ``blocked_doors`` in which doors something stood, and when, ``blocked_spots`` over which
-    points of which node the arm was stopped as it put something down, and when, ``blocked_reaches`` from which side
-    of which node (the base's bearing from it, in its room) it was stopped as it reached for it, or did not see it, and
-    when; they outlive a single action.
+    ``settings``: what the skills go by where they were tuned. ``obstacles_base``: (N, 3), base frame; ``floor_base``:
+    what may rise a little from the floor. ``seen_base``: gives the points (N, 3), base frame, that the depth camera saw
+    last. ``path_room``: the path being followed, for display, current room's frame. ``surroundings`` remembers obstacle
+    points, ``grip`` what the fingers hold, ``blocked_doors`` in which doors something stood, and when,
+    ``blocked_spots`` over which points of which node the arm was stopped as it put something down, and when,
+    ``blocked_reaches`` from which side of which node (the base's bearing from it, in its room) it was stopped as it
+    reached for it, or did not see it, and when; they outlive a single action.
     """
 
     memory: WorkingMemory
     limits: BodyLimits
     geometry: ArmGeometry
     body: BodyState
+    settings: SkillSettings = field(default_factory=SkillSettings)
     stamp_s: float = 0.0
     obstacles_base: NDArray[np.float64] = field(default_factory=lambda: np.zeros((0, 3)))
     floor_base: FloorReturns = NO_FLOOR
@@ -93,6 +96,11 @@ class RobotContext:
     blocked_doors: dict[str, float] = field(default_factory=dict)
     blocked_spots: dict[tuple[str, tuple[float, float, float]], float] = field(default_factory=dict)
     blocked_reaches: dict[tuple[str, float], float] = field(default_factory=dict)
+
+    @property
+    def hand(self) -> Hand:
+        """The hand as the robot's description has it, with the margins that are kept to it."""
+        return Hand(geometry=self.geometry, limits=self.limits, settings=self.settings.hand)
 
     @property
     def snapshot(self) -> Snapshot:

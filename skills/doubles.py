@@ -20,8 +20,8 @@ from scene_graph.geometry.se3 import SE3
 from scene_graph.memory import WorkingMemory
 from scene_graph.nodes import ROBOT_ID
 from skills.action import Action, RobotContext
-from skills.arm.arm import STOWED
 from skills.arm.kinematics import gripper_pose
+from skills.arm.settings import ArmSettings
 from skills.failures import Failure
 from skills.geometry import Box2, Points, Pose2
 from skills.ports import ArmGeometry, ArmTarget, BodyLimits, BodyState
@@ -43,7 +43,7 @@ class FakeBody:
     grasped_width_m: Callable[[FakeBody], float | None] = lambda _: None
     stamp_s: float = 0.0
     velocity: tuple[float, float] = (0.0, 0.0)
-    arm: ArmTarget = STOWED
+    arm: ArmTarget = field(default_factory=lambda: ArmSettings().stowed)
     opening_m: float = 0.0
     camera: tuple[float, float] = (0.0, 0.0)
     stopped: bool = False

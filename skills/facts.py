@@ -22,7 +22,7 @@ from scene_graph.queries.doors import physical_doors
 from scene_graph.queries.poses import MapPoses
 from scene_graph.snapshot import Snapshot
 from skills.arm.barring import barring
-from skills.furniture.containers import is_container
+from skills.furniture.kinds import is_container
 from skills.goto.nearness import is_at
 from skills.navigation.walls import robot_beyond_m
 from skills.place.capacity import Capacity

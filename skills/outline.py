@@ -10,11 +10,6 @@ import numpy as np
 
 from skills.geometry import Points
 
-ROUND_M = 0.02
-"""What is hardly longer than wide is taken for round."""
-FINGER_ROOM_M = 0.012
-"""The fingers that let go stand across the narrow side."""
-
 
 @dataclass(frozen=True, kw_only=True)
 class Outline:
@@ -54,18 +49,20 @@ class Outline:
         return self.gap_to_box_m(points, at, np.array(other.half_m), 0.0)
 
 
-def disc(size_m: tuple[float, float, float]) -> Outline:
-    """The disc that holds a thing however it is turned; round things are as wide as they are deep."""
+def disc(size_m: tuple[float, float, float], round_m: float = 0.02) -> Outline:
+    """The disc that holds a thing however it is turned; what is longer than wide by less than ``round_m`` is round."""
     narrow, wide = sorted(size_m[:2])
-    radius_m = wide / 2 if wide - narrow < ROUND_M else hypot(narrow, wide) / 2
+    radius_m = wide / 2 if wide - narrow < round_m else hypot(narrow, wide) / 2
     return Outline(half_m=(radius_m, radius_m))
 
 
-def turned(size_m: tuple[float, float, float]) -> Iterator[Outline]:
-    """The rectangles of an oblong thing, lengthwise and crosswise; none of a round one."""
+def turned(size_m: tuple[float, float, float], finger_m: float, round_m: float = 0.02) -> Iterator[Outline]:
+    """The rectangles of an oblong thing, lengthwise and crosswise, with the fingers that let go of it, which stand
+    across its narrow side; none of a round one.
+    """
     narrow, wide = sorted(size_m[:2])
-    if wide - narrow < ROUND_M:
+    if wide - narrow < round_m:
         return
-    along, across = wide / 2, narrow / 2 + FINGER_ROOM_M
+    along, across = wide / 2, narrow / 2 + finger_m
     yield Outline(half_m=(along, across), turn_rad=0.0)
     yield Outline(half_m=(across, along), turn_rad=pi / 2)

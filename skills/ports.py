@@ -39,13 +39,28 @@ class BodyLimits:
 @dataclass(frozen=True, kw_only=True)
 class ArmGeometry:
     """Where the hand is: wrist pivot at (``wrist_x_m`` + extension, 0, lift) in the base frame, finger pads at
-    ``hand_length_m`` from it along the hand. Camera and LiDAR heights are where the mast carries them.
+    ``hand_length_m`` from it along the hand. Camera and LiDAR heights are where the mast carries them;
+    ``camera_x_m`` is how far before the axis the camera is, ``height_m`` the height of the whole robot.
+
+    The hand: ``hand_half_width_m`` is half the width of palm and open fingers, ``palm_half_m`` half of the palm's sides
+    along the direction in which the fingers close and across; ``palm_to_pads_m`` from its face to the pads' center,
+    ``pads_to_tips_m`` from there to the finger tips. ``finger_m`` is how thick a finger is, ``finger_half_height_m``
+    half of how high it is when the hand is level. ``arm_half_m``: half of how high the arm behind the hand is.
     """
 
     wrist_x_m: float = 0.10
     hand_length_m: float = 0.18
     camera_height_m: float = 1.40
+    camera_x_m: float = 0.05
     lidar_height_m: float = 1.60
+    height_m: float = 1.75
+    hand_half_width_m: float = 0.09
+    palm_half_m: tuple[float, float] = (0.08, 0.02)
+    palm_to_pads_m: float = 0.07
+    pads_to_tips_m: float = 0.02
+    finger_m: float = 0.012
+    finger_half_height_m: float = 0.015
+    arm_half_m: float = 0.03
 
 
 @dataclass(frozen=True, kw_only=True)

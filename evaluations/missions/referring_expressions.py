@@ -11,8 +11,7 @@ from simulation.furnishing.catalog import category_named
 from simulation.furnishing.shapes import BUILDERS, plain_box
 from simulation.houses.house import Furniture, House, Object, Room, room_at
 from simulation.robot.description import RobotDescription
-from skills.arm.grasping import HOVER_M
-from skills.ports import ArmGeometry, BodyLimits
+from skills.arm.hand import Hand
 
 PLAIN_COLORS = ("red", "orange", "yellow", "green", "blue", "purple", "pink", "brown", "black", "gray", "white")
 """Colors that people and the robot call by the same word."""
@@ -99,7 +98,7 @@ def _top_m(item: Furniture) -> float:
 
 def _can_be_taken(size_m: tuple[float, float, float], bottom_m: float) -> bool:
     """Whether it fits between the fingers: its narrow side where the hand gets over it, both where it comes level."""
-    over_m = BodyLimits().lift_m[1] - ArmGeometry().hand_length_m - HOVER_M
+    over_m = Hand().highest_pads_m - Hand().settings.hover_m
     narrow_m, wide_m = sorted(size_m[:2])
     return (narrow_m if bottom_m + size_m[2] <= over_m else wide_m) <= RobotDescription().graspable_m
 

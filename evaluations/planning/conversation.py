@@ -15,6 +15,7 @@ from planner.tasks.queue import TaskQueue
 from planner.tasks.tasks import PlanReport, StepReport, Task, TaskStatus
 from scene_graph.memory import WorkingMemory
 from scene_graph.snapshot import Snapshot
+from skills.facts import read_state
 from skills.registry import load_registry
 from skills.state.state import PlanState
 
@@ -111,7 +112,7 @@ class Conversation:
         trail: tuple[PlanState, ...] = ()
         obstacle = ""
         if kind in (PLAN, ANSWER):
-            trail, obstacle = perform(steps, PlanState.from_snapshot(self.snapshot), self._skills)
+            trail, obstacle = perform(steps, read_state(self.snapshot), self._skills)
         if steps:
             write(trail[0], trail[-1], self._memory, self._stamp_s)
         return Outcome(

@@ -28,7 +28,7 @@ from planner.models.scripted import Line
 from planner.plan import Kind
 from scene_graph.nodes import ObjectNode, PersonNode, RoomNode
 from scene_graph.snapshot import Snapshot
-from skills.furniture.containers import is_container
+from skills.furniture.kinds import is_container
 
 Proposal = dict[str, Any]
 

@@ -23,7 +23,7 @@ from typing import Any
 
 from app.errors import LineError
 from evaluations.planning.catalog import SORTS, Nature
-from skills.furniture.containers import is_container
+from skills.furniture.kinds import is_container
 
 STAMP_S = 1000.0
 DEPTH_M, CORRIDOR_M, WALL_M = 4.0, 2.0, 0.2

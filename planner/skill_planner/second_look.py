@@ -14,7 +14,7 @@ from scene_graph.memory import WorkingMemory
 from scene_graph.nodes import ObjectNode, ObjectState
 from scene_graph.snapshot import Snapshot
 from skills.failures import FailureCode
-from skills.place.place_spot import stands_on
+from skills.furniture.standing import stands_on
 
 
 class LookOnce(ObjectSearch):

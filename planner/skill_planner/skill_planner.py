@@ -11,9 +11,9 @@ from planner.skill_planner.settings import SkillPlanningSettings
 from scene_graph.snapshot import Snapshot
 from skills.action import Action, RobotContext
 from skills.errors import SkillNotFound
+from skills.facts import read_state
 from skills.failures import Failure
 from skills.skill import Skill
-from skills.state.state import PlanState
 
 
 class SkillPlanner:
@@ -43,7 +43,7 @@ class SkillPlanner:
 
     def timeout_s(self, step: Step, snapshot: Snapshot) -> float:
         """How long a step may act before it counts as stuck."""
-        expected_s = self.skill(step.skill).cost_s(PlanState.from_snapshot(snapshot), step.args)
+        expected_s = self.skill(step.skill).cost_s(read_state(snapshot), step.args)
         return max(self._settings.least_timeout_s, self._settings.timeout_factor * expected_s)
 
     def describe(self) -> list[dict[str, Any]]:

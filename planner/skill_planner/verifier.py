@@ -20,6 +20,7 @@ from planner.skill_planner.operators import GOTO
 from planner.skill_planner.search import Exhausted, Found, Search, one_by_one
 from planner.skill_planner.settings import SkillPlanningSettings
 from scene_graph.snapshot import Snapshot
+from skills.facts import read_state
 from skills.skill import Skill
 from skills.state.state import PlanState
 
@@ -163,7 +164,7 @@ class Verifier:
     def state(self, snapshot: Snapshot) -> PlanState:
         """The facts of ``snapshot``; those of the last one asked for are kept."""
         if self._read is None or self._read[0] is not snapshot:
-            self._read = (snapshot, PlanState.from_snapshot(snapshot))
+            self._read = (snapshot, read_state(snapshot))
         return self._read[1]
 
     def _carried_out(self, steps: Sequence[Step], state: PlanState) -> tuple[float, PlanState]:

@@ -10,27 +10,14 @@ from math import cos, hypot, sin
 from py_trees.common import Status
 
 from skills.action import Action, RobotContext
-from skills.arm.arm_way import DRIFT_M, PERSON_CLEARANCE_M, clear_over_m, people_here
-from skills.arm.grasping import DOWN_RAD
-from skills.arm.spot_reach import above_bottom_m, held_radius_m
+from skills.arm.arm_way import clear_over_m, people_here
+from skills.arm.hand import DOWN_RAD
+from skills.arm.held import above_bottom_m, held_radius_m, is_holding
+from skills.arm.settings import ArmSettings
+from skills.arm.way_in import is_among_boards
 from skills.failures import FailureCode
-from skills.furniture.boards import is_among_boards
 from skills.navigation.pose import base_pose, bearing_rad, in_base, robot_frame
-from skills.ports import ArmTarget, BodyState
-
-STOWED = ArmTarget(lift_m=0.75, extension_m=0.0, wrist_pitch_rad=DOWN_RAD, wrist_roll_rad=0.0)
-CARRY_LIFT_M = 0.95
-CARRY_EXTENSION_M = 0.05
-LIFT_M = 0.12
-OFF_BOARD_M = 0.02
-"""What is taken from below a board is raised by this before it is drawn out."""
-LENGTH_TOLERANCE_M = 0.008
-ANGLE_TOLERANCE_RAD = 0.05
-STALL_S = 0.8
-EMPTY_OPENING_M = 0.004
-SLIP_S = 0.3
-PERSON_AWAY_S = 20.0
-"""Who was not seen for so long where the robot looks to reach is there no more."""
+from skills.ports import ArmTarget
 
 
 class ArmProgress(Enum):
@@ -49,6 +36,7 @@ class ArmAction(Action):
 
     def __init__(self, name: str, context: RobotContext) -> None:
         super().__init__(name, context)
+        self.settings = context.settings.arm
         self._targets: list[ArmTarget] = []
         self._last: ArmTarget | None = None
         self._moved_s = 0.0
@@ -71,27 +59,32 @@ class ArmAction(Action):
             return ArmProgress.THERE
         self.context.commands.arm = self._targets[0]
         arm = self.context.body.arm
-        if _reached(arm, self._targets[0]):
+        if _reached(arm, self._targets[0], self.settings):
             self._targets.pop(0)
             self._moved_s, self._moves = self.context.stamp_s, True
             return ArmProgress.MOVING if self._targets else ArmProgress.THERE
-        if self._last is None or _moved(arm, self._last):
+        if self._last is None or _moved(arm, self._last, self.settings):
             self._moves = self._last is not None
             self._last, self._moved_s = arm, self.context.stamp_s
-        stalled = self.context.stamp_s - self._moved_s > STALL_S
+        stalled = self.context.stamp_s - self._moved_s > self.settings.stall_s
         return ArmProgress.STALLED if stalled else ArmProgress.MOVING
 
     def meets_person(self) -> str | None:
         """A person, seen a while ago at most, whom the arm would come too near to on its way out."""
         context, arm = self.context, self.context.body.arm
-        out = [target for target in self._targets if target.extension_m > arm.extension_m + LENGTH_TOLERANCE_M]
+        out = [
+            target
+            for target in self._targets
+            if target.extension_m > arm.extension_m + self.settings.length_tolerance_m
+        ]
         if not out:
             return None
         farthest_m = max(_hand_x_m(context, target) for target in out)
-        for person in people_here(context, PERSON_AWAY_S):
+        clear_m = context.settings.reach.person_clearance_m - context.settings.reach.drift_m
+        for person in people_here(context, self.settings.person_away_s):
             T_base_person = in_base(context, person)
             beyond_m = max(T_base_person.x_m - farthest_m, 0.0)
-            if T_base_person.x_m > 0.0 and hypot(beyond_m, T_base_person.y_m) < PERSON_CLEARANCE_M - DRIFT_M:
+            if T_base_person.x_m > 0.0 and hypot(beyond_m, T_base_person.y_m) < clear_m:
                 return person
         return None
 
@@ -104,11 +97,11 @@ class ArmAction(Action):
 
     def slipped(self) -> bool:
         """Whether the fingers have been without contact for a moment."""
-        if is_firm(self.context.body):
+        if is_firm(self.context):
             self._lost_s = None
         elif self._lost_s is None:
             self._lost_s = self.context.stamp_s
-        return self._lost_s is not None and self.context.stamp_s - self._lost_s > SLIP_S
+        return self._lost_s is not None and self.context.stamp_s - self._lost_s > self.settings.slip_s
 
     def stalled(self, what: str) -> Status:
         """Fail because the arm stopped short; with TIMEOUT when it has not moved at all."""
@@ -132,14 +125,19 @@ class Stow(ArmAction):
 
     def begin(self) -> None:
         """Off the table first, so that nothing is swept over it, then back, then to height."""
-        arm = self.context.body.arm
-        self.follow(way_back(self.context, carry_pose(arm) if is_holding(self.context) else STOWED))
+        self.follow(
+            way_back(self.context, carry_pose(self.context) if is_holding(self.context) else self.settings.stowed)
+        )
 
     def step(self) -> Status:
         """Move on; a stall is no reason not to drive when the arm is within the base's outline."""
         progress = self.move_arm()
         if progress is ArmProgress.STALLED:
-            return Status.SUCCESS if self.context.body.arm.extension_m < 0.1 else self.stalled("its travel pose")
+            return (
+                Status.SUCCESS
+                if self.context.body.arm.extension_m < self.settings.driveable_m
+                else self.stalled("its travel pose")
+            )
         return Status.SUCCESS if progress is ArmProgress.THERE else Status.RUNNING
 
 
@@ -156,12 +154,12 @@ class Lift(ArmAction):
         """
         context, arm, (_, top_m) = self.context, self.context.body.arm, self.context.limits.lift_m
         if is_below_board(context):
-            self.follow([replace(arm, lift_m=arm.lift_m + OFF_BOARD_M)])
+            self.follow([replace(arm, lift_m=arm.lift_m + self.settings.off_board_m)])
             return
         hand_x_m, radius_m = float(context.body.T_base_gripper.x_m), held_radius_m(context)
         over_m = clear_over_m(context, hand_x_m, self.object_id, held_radius_m=radius_m)
         clear_m = over_m + above_bottom_m(context) - context.geometry.hand_length_m * sin(arm.wrist_pitch_rad)
-        highest_m = max(arm.lift_m + LIFT_M, CARRY_LIFT_M, clear_m if over_m > 0.0 else 0.0)
+        highest_m = max(arm.lift_m + self.settings.lift_m, self.settings.carry_lift_m, clear_m if over_m > 0.0 else 0.0)
         self.follow([replace(arm, lift_m=min(highest_m, top_m))])
 
     def step(self) -> Status:
@@ -184,9 +182,9 @@ class Retract(ArmAction):
         """What is held was lifted already; an empty hand first leaves what it let go."""
         arm = self.context.body.arm
         if self._watch is None:
-            self.follow(way_back(self.context, STOWED))
+            self.follow(way_back(self.context, self.settings.stowed))
         else:
-            travel = carry_pose(arm)
+            travel = carry_pose(self.context)
             self.follow([replace(arm, extension_m=travel.extension_m), travel])
 
     def step(self) -> Status:
@@ -204,33 +202,30 @@ def way_back(context: RobotContext, travel: ArmTarget) -> list[ArmTarget]:
     """Targets from wherever the arm is to a travel pose: a hand that points down rises first, as high as it came, so
     that it clears the arm of a sofa; a level one, or one below a board, just draws back.
     """
-    arm, (_, top_m) = context.body.arm, context.limits.lift_m
+    arm, (_, top_m), settings = context.body.arm, context.limits.lift_m, context.settings.arm
     back = replace(arm, extension_m=travel.extension_m)
-    if arm.extension_m < CARRY_EXTENSION_M + LENGTH_TOLERANCE_M or arm.wrist_pitch_rad > DOWN_RAD / 2:
+    drawn_in = arm.extension_m < settings.carry_extension_m + settings.length_tolerance_m
+    if drawn_in or arm.wrist_pitch_rad > DOWN_RAD / 2:
         return [back, travel]
     if is_below_board(context):
-        off = replace(arm, lift_m=arm.lift_m + OFF_BOARD_M / 2)
+        off = replace(arm, lift_m=arm.lift_m + settings.off_board_m / 2)
         return [off, replace(back, lift_m=off.lift_m), travel]
-    up_m = min(max(arm.lift_m + LIFT_M, CARRY_LIFT_M), top_m)
+    up_m = min(max(arm.lift_m + settings.lift_m, settings.carry_lift_m), top_m)
     return [replace(arm, lift_m=up_m), replace(back, lift_m=up_m), travel]
 
 
-def carry_pose(arm: ArmTarget) -> ArmTarget:
+def carry_pose(context: RobotContext) -> ArmTarget:
     """The travel pose for something held: retracted, high, the wrist as it is."""
-    extension_m = CARRY_EXTENSION_M if arm.wrist_pitch_rad < DOWN_RAD / 2 else 0.0
-    return replace(arm, extension_m=extension_m, lift_m=max(CARRY_LIFT_M, min(arm.lift_m, 1.1)))
+    arm, settings = context.body.arm, context.settings.arm
+    extension_m = settings.carry_extension_m if arm.wrist_pitch_rad < DOWN_RAD / 2 else 0.0
+    lift_m = max(settings.carry_lift_m, min(arm.lift_m, settings.highest_carry_m))
+    return replace(arm, extension_m=extension_m, lift_m=lift_m)
 
 
 def is_below_board(context: RobotContext) -> bool:
     """Whether the hand is between the boards of a shelf: it must leave as it came, level-wise."""
     hand = base_pose(context, robot_frame(context.snapshot)) @ context.body.T_base_gripper
-    return is_among_boards(context.snapshot, robot_frame(context.snapshot), hand.translation_m)
-
-
-def is_holding(context: RobotContext) -> bool:
-    """Whether the hand holds something, by the grip just made or by the graph."""
-    robot = context.snapshot.robot
-    return context.grip is not None or (robot is not None and robot.holding is not None)
+    return is_among_boards(context.snapshot, robot_frame(context.snapshot), hand.translation_m, context.hand)
 
 
 def avoid_side(context: RobotContext, node_id: str) -> None:
@@ -238,26 +233,29 @@ def avoid_side(context: RobotContext, node_id: str) -> None:
     context.blocked_reaches[node_id, bearing_rad(context, node_id)] = context.stamp_s
 
 
-def is_firm(body: BodyState) -> bool:
+def is_firm(context: RobotContext) -> bool:
     """Whether both fingers touch something that keeps them apart."""
-    return all(body.finger_contacts) and body.gripper_opening_m > EMPTY_OPENING_M
+    body = context.body
+    return all(body.finger_contacts) and body.gripper_opening_m > context.settings.arm.empty_opening_m
 
 
-def _reached(arm: ArmTarget, target: ArmTarget) -> bool:
-    return (
-        abs(arm.lift_m - target.lift_m) < LENGTH_TOLERANCE_M
-        and abs(arm.extension_m - target.extension_m) < LENGTH_TOLERANCE_M
-        and abs(arm.wrist_pitch_rad - target.wrist_pitch_rad) < ANGLE_TOLERANCE_RAD
-        and abs(arm.wrist_roll_rad - target.wrist_roll_rad) < ANGLE_TOLERANCE_RAD
-    )
+def _reached(arm: ArmTarget, target: ArmTarget, settings: ArmSettings) -> bool:
+    lengths_m, angles_rad = _off(arm, target)
+    return max(lengths_m) < settings.length_tolerance_m and max(angles_rad) < settings.angle_tolerance_rad
+
+
+def _moved(arm: ArmTarget, last: ArmTarget, settings: ArmSettings) -> bool:
+    lengths_m, angles_rad = _off(arm, last)
+    return sum(lengths_m) > settings.moving_m or sum(angles_rad) > settings.turning_rad
+
+
+def _off(arm: ArmTarget, other: ArmTarget) -> tuple[tuple[float, float], tuple[float, float]]:
+    """How far lift and extension, and both angles of the wrist, are from those of another."""
+    lengths_m = abs(arm.lift_m - other.lift_m), abs(arm.extension_m - other.extension_m)
+    pitch_rad, roll_rad = arm.wrist_pitch_rad - other.wrist_pitch_rad, arm.wrist_roll_rad - other.wrist_roll_rad
+    return lengths_m, (abs(pitch_rad), abs(roll_rad))
 
 
 def _hand_x_m(context: RobotContext, target: ArmTarget) -> float:
     geometry = context.geometry
     return geometry.wrist_x_m + target.extension_m + geometry.hand_length_m * cos(target.wrist_pitch_rad)
-
-
-def _moved(arm: ArmTarget, last: ArmTarget) -> bool:
-    lengths = abs(arm.lift_m - last.lift_m) + abs(arm.extension_m - last.extension_m)
-    angles = abs(arm.wrist_pitch_rad - last.wrist_pitch_rad) + abs(arm.wrist_roll_rad - last.wrist_roll_rad)
-    return lengths > 0.004 or angles > 0.02

@@ -11,41 +11,18 @@ from scene_graph.nodes import ObjectNode, ObjectState, PersonNode
 from scene_graph.snapshot import Snapshot
 from skills.action import RobotContext
 from skills.arm.barring import is_small_and_nameless
-from skills.arm.grasping import HOVER_M
-from skills.furniture.seats import rims
+from skills.arm.settings import ReachSettings
+from skills.furniture.furniture import Furniture
 from skills.geometry import Point2, Points, Pose2
 from skills.navigation.local_map import PERSON_FRESH_S, PERSON_RADIUS_M, draw_map, footprint
 from skills.navigation.pose import footprint_radius_m, in_base, robot_frame
 from skills.navigation.route import Routes, find_routes
 from skills.navigation.walls import Walls
 
-IN_THE_WAY_COST_M, MET_COST_M = 3.0, 12.0
-"""What it costs that the arm just touches a small thing, and that it goes straight through the middle of one."""
-BARRED_COST_M = 20.0
-"""More than any other: the arm would meet furniture that is higher than the hand, or the end of a shelf."""
-SAMPLE_M = 0.06
-"""How finely the arm's way is looked at."""
-ARM_HALF_WIDTH_M = 0.09
-SURELY_MET_M = 0.06
-"""So near to the middle of its way, the hand meets what is higher, however well that was measured."""
-AT_TARGET_M, ALONG_M = 0.12, 0.01
-AT_WALL_M = 0.04
-"""What comes so near to the line of a wall, between two samples, may be beyond it with the next."""
-HELD_MARGIN_M = 0.06
-PERSON_CLEARANCE_M, DRIFT_M = 0.32, 0.04
-"""So far from the middle of a person the middle of the arm keeps, from a place that is as far off as a drive may be."""
-BESIDE_HELD_M = 0.02
-LEAST_AIR_M = 0.01
-"""Without so much air above a small thing, what is carried over it meets it."""
-CLEARANCE_M = 0.04
-"""Air between the finger tips, or what they hold, and what the hand passes over."""
-AROUND_PERSON_M = PERSON_RADIUS_M + 0.1
-"""What is hit so near to where somebody stands is taken for them."""
 
-
-def underside_of_held_m(z_m: float) -> float:
+def underside_of_held_m(context: RobotContext, z_m: float) -> float:
     """Height over which the hand passes with what it holds on its way to a spot at ``z_m``."""
-    return z_m + HOVER_M - HELD_MARGIN_M
+    return z_m + context.settings.hand.hover_m - context.settings.reach.held_margin_m
 
 
 def clear_over_m(context: RobotContext, x_m: float, *targets: str, held_radius_m: float = 0.0) -> float:
@@ -54,7 +31,8 @@ def clear_over_m(context: RobotContext, x_m: float, *targets: str, held_radius_m
     where there are none. ``targets``: as ``spared_nodes`` takes them.
     """
     snapshot, spared, highest_m = context.snapshot, spared_nodes(context.snapshot, *targets), 0.0
-    wide_m = max(ARM_HALF_WIDTH_M, held_radius_m + BESIDE_HELD_M)
+    settings = context.settings.reach
+    wide_m = max(context.geometry.hand_half_width_m, held_radius_m + settings.beside_held_m)
     for node in snapshot.of_type(ObjectNode):
         here = node.state is ObjectState.PRESENT and snapshot.room_of(node.id) == robot_frame(snapshot)
         if not (here and node.graspable) or node.id in spared:
@@ -62,13 +40,12 @@ def clear_over_m(context: RobotContext, x_m: float, *targets: str, held_radius_m
         center_x_m, y_m, z_m = in_base(context, node.id).translation_m
         half_m = max(node.size_m[:2]) / 2
         if abs(y_m) < wide_m + half_m and 0.0 < center_x_m < x_m + wide_m + half_m:
-            highest_m = max(highest_m, z_m + node.size_m[2] / 2 + CLEARANCE_M)
+            highest_m = max(highest_m, z_m + node.size_m[2] / 2 + settings.clearance_m)
     return highest_m
 
 
 def pushes_aside(
-    snapshot: Snapshot,
-    frame: str,
+    context: RobotContext,
     target: Points,
     places: Points,
     spared: set[str],
@@ -80,18 +57,19 @@ def pushes_aside(
     """From which of (N, 2) places what reaches straight to ``short_m`` before ``target`` meets a small thing of known
     name on its way: its underside is ``low_m`` over the floor, and it reaches ``wide_m`` to the sides.
     """
+    snapshot, frame, settings = context.snapshot, robot_frame(context.snapshot), context.settings.reach
     met = np.zeros(len(places), np.bool_)
-    way, farthest_m = _ways_straight(target, places, short_m)
+    way, farthest_m = _ways_straight(target, places, settings, short_m)
     for node in snapshot.of_type(ObjectNode):
         here = node.state is ObjectState.PRESENT and snapshot.room_of(node.id) == frame
-        if not (here and node.graspable) or node.id in spared or is_small_and_nameless(node):
+        if not (here and node.graspable) or node.id in spared or is_small_and_nameless(node, context.hand):
             continue
         x_m, y_m, z_m = snapshot.position(node.id, frame)
-        low = z_m + node.size_m[2] / 2 + LEAST_AIR_M < low_m or z_m + node.size_m[2] / 2 < target[2]
+        low = z_m + node.size_m[2] / 2 + settings.least_air_m < low_m or z_m + node.size_m[2] / 2 < target[2]
         if low or float(np.hypot(x_m - target[0], y_m - target[1])) > farthest_m + max(node.size_m[:2]) + wide_m:
             continue
         away_m = footprint(snapshot, node, frame).distance_m(way.reshape(-1, 2)).reshape(way.shape[:2])
-        met |= away_m.min(axis=0) < wide_m + BESIDE_HELD_M
+        met |= away_m.min(axis=0) < wide_m + settings.beside_held_m
     return met
 
 
@@ -105,21 +83,21 @@ def spared_nodes(snapshot: Snapshot, *targets: str) -> set[str]:
     return {*things, *(node for node in (support, held) if node is not None)}
 
 
-def passing_over(
-    snapshot: Snapshot, frame: str, target: Points, low_m: float, points: Points, spared: set[str], *, stamp_s: float
-) -> Points:
+def passing_over(context: RobotContext, target: Points, low_m: float, points: Points, spared: set[str]) -> Points:
     """For each place, (N,), what it costs that things which reach up to ``low_m`` lie on the way of the hand from there
     straight to the target: small ones may be pushed, the less the better, furniture bars it, and so does a person who
     was there a while ago; no place will do from which the hand is sure to meet a wall or furniture, the back or the arm
     of the seat itself that it reaches for included, or comes near to a person who is there.
     """
-    way, farthest_m = _ways_straight(target, points)
-    costs = np.where(_meets_wall(snapshot, frame, target, way), np.inf, 0.0)
+    snapshot, frame, settings = context.snapshot, robot_frame(context.snapshot), context.settings.reach
+    half_m = context.geometry.hand_half_width_m
+    way, farthest_m = _ways_straight(target, points, settings)
+    costs = np.where(_meets_wall(context, target, way), np.inf, 0.0)
     for node in snapshot.of_type(ObjectNode):
         if node.state is not ObjectState.PRESENT or snapshot.room_of(node.id) != frame:
             continue
         if node.id in spared:
-            costs += _rim_costs(snapshot, frame, node, target, low_m, way)
+            costs += _rim_costs(context, node, target, low_m, way)
             continue
         x_m, y_m, z_m = snapshot.position(node.id, frame)
         reach_m = float(np.hypot(x_m - target[0], y_m - target[1]))
@@ -127,60 +105,60 @@ def passing_over(
             continue
         away_m = footprint(snapshot, node, frame).distance_m(way.reshape(-1, 2)).reshape(way.shape[:2])
         nearest_m = away_m.min(axis=0)
-        bars = not (node.graspable or is_small_and_nameless(node))
-        cost_m = (
-            BARRED_COST_M if bars else np.interp(nearest_m, (0.0, ARM_HALF_WIDTH_M), (MET_COST_M, IN_THE_WAY_COST_M))
-        )
-        costs += np.where(nearest_m < ARM_HALF_WIDTH_M, cost_m, 0.0)
+        bars = not (node.graspable or is_small_and_nameless(node, context.hand))
+        pushed_m = np.interp(nearest_m, (0.0, half_m), (settings.met_cost_m, settings.in_the_way_cost_m))
+        costs += np.where(nearest_m < half_m, settings.barred_cost_m if bars else pushed_m, 0.0)
         if bars:
-            costs += np.where(nearest_m < SURELY_MET_M, np.inf, 0.0)
+            costs += np.where(nearest_m < settings.surely_met_m, np.inf, 0.0)
     for person in snapshot.of_type(PersonNode):
         if person.id not in spared and snapshot.room_of(person.id) == frame:
             away_m = np.linalg.norm(way - snapshot.position(person.id, frame)[:2], axis=2)
-            cost_m = np.inf if stamp_s - person.last_seen_s < PERSON_FRESH_S else BARRED_COST_M
-            costs += np.where(away_m.min(axis=0) < PERSON_CLEARANCE_M, cost_m, 0.0)
+            cost_m = np.inf if context.stamp_s - person.last_seen_s < PERSON_FRESH_S else settings.barred_cost_m
+            costs += np.where(away_m.min(axis=0) < settings.person_clearance_m, cost_m, 0.0)
     return costs
 
 
-def _ways_straight(target: Points, places: Points, short_m: float = 0.0) -> tuple[Points, float]:
+def _ways_straight(
+    target: Points, places: Points, settings: ReachSettings, short_m: float = 0.0
+) -> tuple[Points, float]:
     """Points (S, N, 2) on the ways from ``short_m`` before the target straight to each of (N, 2) places, and how long
     the longest is.
     """
     away_m = np.hypot(*(places - target[:2]).T)
     farthest_m = float(away_m.max(initial=0.0))
-    along = np.linspace(np.minimum(short_m / np.maximum(away_m, 1e-6), 1.0), 1.0, max(int(farthest_m / SAMPLE_M), 2))
+    steps = max(int(farthest_m / settings.sample_m), 2)
+    along = np.linspace(np.minimum(short_m / np.maximum(away_m, 1e-6), 1.0), 1.0, steps)
     return target[:2] + along[:, :, None] * (places - target[:2]), farthest_m
 
 
-def _meets_wall(snapshot: Snapshot, frame: str, target: Points, way: Points) -> NDArray[np.bool_]:
+def _meets_wall(context: RobotContext, target: Points, way: Points) -> NDArray[np.bool_]:
     """On which of the ways (S, N, 2) to a target a wall stands before the target; (N,)."""
-    walls = Walls.of(snapshot, frame).tree
+    walls, settings = Walls.of(context.snapshot, robot_frame(context.snapshot)).tree, context.settings.reach
     if walls is None or not way.size:
         return np.zeros(way.shape[1], np.bool_)
-    near_m, _ = walls.query(way.reshape(-1, 2), distance_upper_bound=AT_WALL_M)
-    before = np.linalg.norm(way - target[:2], axis=2) > AT_TARGET_M
+    near_m, _ = walls.query(way.reshape(-1, 2), distance_upper_bound=settings.at_wall_m)
+    before = np.linalg.norm(way - target[:2], axis=2) > settings.at_target_m
     return np.asarray((np.isfinite(near_m.reshape(way.shape[:2])) & before).any(axis=0))
 
 
-def _rim_costs(snapshot: Snapshot, frame: str, seat: ObjectNode, target: Points, low_m: float, way: Points) -> Points:
-    """(N,) what it costs that the hand, on its ways (S, N, 2) at ``low_m`` to a target on a seat, meets the seat's back
-    or an arm of it. To what lies close to one of them it had better come from the open side; along that one only where
+def _rim_costs(context: RobotContext, node: ObjectNode, target: Points, low_m: float, way: Points) -> Points:
+    """(N,) what it costs that the hand, on its ways (S, N, 2) at ``low_m`` to a target on furniture, meets the back or
+    an arm of that. To what lies close to one of them it had better come from the open side; along that one only where
     nothing else is left, and never nearer than the thing itself is.
     """
-    costs = np.zeros(way.shape[1])
-    pose, z_m = Pose2.of(snapshot.transform(frame, seat.id)), float(snapshot.position(seat.id, frame)[2])
-    before = np.linalg.norm(way - target[:2], axis=2) > AT_TARGET_M
+    costs, furniture, settings = np.zeros(way.shape[1]), Furniture.of(node), context.settings.reach
+    T_frame_node = context.snapshot.transform(robot_frame(context.snapshot), node.id)
+    pose, clear_m = Pose2.of(T_frame_node), context.geometry.hand_half_width_m + settings.drift_m
+    before = np.linalg.norm(way - target[:2], axis=2) > settings.at_target_m
     (goal,) = pose.inverse_apply(target[None, :2])
-    for rim in rims(seat):
-        if z_m + rim.top_m > low_m:
-            outline = rim.beyond(goal).outline(seat, pose)
-            along_m = float(outline.distance_m(target[None, :2])[0]) - ALONG_M
+    for rim in furniture.obstacles:
+        if T_frame_node.z_m + rim.top_m > low_m:
+            outline = furniture.outline_of(furniture.beside(rim, goal), pose)
+            along_m = float(outline.distance_m(target[None, :2])[0]) - settings.along_m
             away_m = outline.distance_m(way.reshape(-1, 2)).reshape(way.shape[:2])
             nearest_m = np.where(before, away_m, np.inf).min(axis=0)
-            clear_m = ARM_HALF_WIDTH_M + DRIFT_M
-            costs += np.where(
-                nearest_m < min(clear_m, along_m), np.inf, np.where(nearest_m < clear_m, BARRED_COST_M, 0.0)
-            )
+            barred_m = np.where(nearest_m < clear_m, settings.barred_cost_m, 0.0)
+            costs += np.where(nearest_m < min(clear_m, along_m), np.inf, barred_m)
     return costs
 
 
@@ -204,9 +182,9 @@ def routes_around(
 ) -> Routes:
     """The ways from ``here`` on a map that shows all the spots; ``spared``: people who are thought away."""
     snapshot, frame = context.snapshot, robot_frame(context.snapshot)
-    hit = context.surroundings.points()
+    hit, around_m = context.surroundings.points(), PERSON_RADIUS_M + context.settings.reach.around_person_m
     for person in spared:
-        hit = hit[np.hypot(*(hit - snapshot.position(person, frame)[:2]).T) > AROUND_PERSON_M]
+        hit = hit[np.hypot(*(hit - snapshot.position(person, frame)[:2]).T) > around_m]
     walls = Walls.of(snapshot, frame)
     grid = draw_map(snapshot, frame, hit, [here, *spots], walls=walls, stamp_s=context.stamp_s, ignore=spared)
     return find_routes(grid, here, footprint_radius_m(context))

@@ -1,1 +1,1 @@
-"""Furniture as the hand meets it: boards, seats, containers."""
+"""Furniture as the hand meets it: surfaces, ways in, obstacles."""

@@ -120,7 +120,7 @@ class Confirm(Action):
         amiss = self._check(snapshot, self.started_s)
         if amiss is None:
             return Status.SUCCESS
-        if self._grip_needed and not is_firm(self.context.body) and self.elapsed_s > 0.5:
+        if self._grip_needed and not is_firm(self.context) and self.elapsed_s > 0.5:
             self.context.grip = None
             return self.fail(FailureCode.SLIPPED, "the fingers lost what they held.", amiss.evidence.nodes)
         if self._where.node_id in snapshot:

@@ -11,18 +11,16 @@ from skills.action import Action, Refusal, RobotContext
 from skills.anchor import Anchor
 from skills.arm.approach import ApproachForReach
 from skills.arm.arm import Lift, Retract, Stow
-from skills.arm.grasping import DOUBTFUL_WIDTH_M
+from skills.arm.gripper import CloseGripper
+from skills.arm.hand import HandSettings
+from skills.arm.way_in import off_end
 from skills.failures import Evidence, Failure, FailureCode
-from skills.furniture.boards import off_end
 from skills.goto.journeys import travel
 from skills.looking.watching import Check, Confirm, Refine
 from skills.navigation.driving import TurnTo
-from skills.pick.grasp import CloseGripper, Reach
+from skills.pick.reach import Reach
 from skills.skill import Parameter, Unmet, argument_schema, unknown_arguments
 from skills.state.state import PlanState
-
-AIM_RAD = 0.012
-"""Half a centimeter at arm's length; the fingers center what is between them."""
 
 
 class Pick:
@@ -38,6 +36,10 @@ class Pick:
         Parameter(name="object", kinds=frozenset({"object"}), description="identifier of the object to take"),
     )
 
+    def __init__(self, settings: HandSettings = HandSettings()) -> None:
+        """``settings``: what the hand can take hold of."""
+        self._settings = settings
+
     def schema(self) -> dict[str, Any]:
         """JSON schema of the arguments."""
         return argument_schema(self.parameters)
@@ -47,7 +49,7 @@ class Pick:
         if unmet := unknown_arguments(self.name, self.parameters, state, args):
             return unmet
         (target,) = args
-        return _not_graspable(state, target) or _not_free(state, target)
+        return _not_graspable(state, target, self._settings) or _not_free(state, target)
 
     def effects(self, state: PlanState, args: Sequence[str]) -> PlanState:
         """The robot holds the object; it still stands where the object was."""
@@ -75,10 +77,9 @@ class Pick:
             message = f"it is not known where {target} is."
             return [Refusal(context, Failure(code=FailureCode.OBJECT_GONE, message=message))]
         place, here = Anchor.fix(snapshot, target, holder), Anchor(target)
-        opening_m = context.limits.gripper_opening_m[1]
 
         def aim() -> Anchor:
-            return off_end(context.snapshot, target, opening_m)
+            return off_end(context.snapshot, target, context.hand)
 
         return [
             Stow(context),
@@ -86,7 +87,7 @@ class Pick:
             ApproachForReach(context, target, here),
             TurnTo(context, target, here),
             Refine(context, target, place),
-            TurnTo(context, target, aim, tolerance_rad=AIM_RAD),
+            TurnTo(context, target, aim, tolerance_rad=context.settings.approach.aim_rad),
             Reach(context, target),
             CloseGripper(context, target),
             Lift(context, target),
@@ -116,11 +117,11 @@ def held_check(object_id: str) -> Check:
     return check
 
 
-def _not_graspable(state: PlanState, target: str) -> list[Unmet]:
+def _not_graspable(state: PlanState, target: str, settings: HandSettings) -> list[Unmet]:
     thing = state.world.things[target]
     if not thing.graspable:
         return [Unmet(message=f"{target} cannot be grasped: choose something small.", nodes=(target,), final=True)]
-    if thing.width_m > DOUBTFUL_WIDTH_M:
+    if thing.width_m > settings.doubtful_width_m:
         message = f"{target} is {thing.width_m:.2f} m wide, too wide for the fingers: choose something narrower."
         return [Unmet(message=message, nodes=(target,), final=True)]
     return []

@@ -9,23 +9,25 @@ import numpy as np
 
 from scene_graph.nodes import ObjectNode
 from scene_graph.snapshot import Snapshot
-from skills.arm.grasping import DOWN_RAD, LEVEL_SHARE, PAD_DEPTH_M, TIP_M, Size3, is_tall
-from skills.furniture.boards import BOTH_SIDES, Board, boards_of, headroom_m, is_in_reach
+from skills.arm.hand import Hand, Size3
+from skills.arm.way_in import BOTH_SIDES
+from skills.furniture.furniture import Surface
+from skills.furniture.standing import stands_at, surfaces_of
 from skills.geometry import Points
 from skills.outline import Outline, disc
-from skills.place.place_spot import GAP_M, laid, lattice, room_m, stands_at, surface_m, ways_in
-from skills.ports import ArmGeometry
-from skills.state.state import Thing
+from skills.place.place_spot import FreeSpace
+from skills.place.settings import SpotSettings
+from skills.state.world import Thing
 
-WAYS = 4
-"""In which a thing is laid at most: turned anyhow or so that it fits, in coarse or fine steps."""
+Laid = tuple[Points, Outline]
+"""Where the middle of a thing is that was set there, and what it covers."""
 
 
 class Capacity:
     """Free space of one snapshot's supports; what was asked once is remembered."""
 
-    def __init__(self, snapshot: Snapshot) -> None:
-        self._snapshot = snapshot
+    def __init__(self, snapshot: Snapshot, hand: Hand = Hand(), settings: SpotSettings = SpotSettings()) -> None:
+        self._snapshot, self._hand, self._settings = snapshot, hand, settings
         self._known: dict[tuple[str, frozenset[str], tuple[str, ...]], bool] = {}
 
     def fits(self, place: Thing, staying: Collection[str], coming: Collection[str]) -> bool:
@@ -47,80 +49,62 @@ class Capacity:
         return sum(map(prod, sizes)) <= prod(place.size_m) and all(min(size_m[:2]) <= narrow for size_m in sizes)
 
     def _set(self, support: str, staying: frozenset[str], coming: tuple[str, ...]) -> bool:
-        sizes = sorted(
-            (self._size_m(thing) for thing in coming), key=lambda size_m: disc(size_m).radius_m, reverse=True
-        )
-        sides = range(len(BOTH_SIDES)) if len(self._boards(support)) > 1 else (0,)
-        return any(self._in_rows(support, staying, sizes, way, side) for way in range(WAYS) for side in sides)
+        sizes = sorted(map(self._size_m, coming), key=lambda size_m: disc(size_m).radius_m, reverse=True)
+        spaces = self._spaces(support, staying)
+        sides = range(len(BOTH_SIDES)) if len(spaces) > 1 else (0,)
+        return any(self._in_rows(spaces, sizes, way, side) for way in range(self._settings.ways) for side in sides)
 
-    def _in_rows(self, support: str, staying: frozenset[str], sizes: Sequence[Size3], way: int, side: int) -> bool:
+    def _in_rows(self, spaces: Sequence[FreeSpace], sizes: Sequence[Size3], way: int, side: int) -> bool:
         """Whether things of these sizes fit beside what stays, each laid in that way or an earlier one, if it has so
         many, at the first free point, on the lowest board that has one; below another board, all from one side.
         """
-        boards = self._boards(support)
-        heres = [
-            [node for node in stands_at(self._snapshot, support, board, None) if self._stays(node, support, staying)]
-            for board in boards
-        ]
-        done: list[list[tuple[Points, Outline]]] = [[] for _ in boards]
-        return all(
-            any(
-                self._set_down(support, board, here, taken, size_m, way, side)
-                for board, here, taken in zip(boards, heres, done, strict=True)
-            )
-            for size_m in sizes
-        )
+        taken: list[tuple[FreeSpace, list[Laid]]] = [(space, []) for space in spaces]
+        return all(any(self._set_down(space, done, size_m, way, side) for space, done in taken) for size_m in sizes)
 
-    def _set_down(
-        self,
-        support: str,
-        board: Board,
-        here: Sequence[ObjectNode],
-        done: list[tuple[Points, Outline]],
-        size_m: Size3,
-        way: int,
-        side: int,
-    ) -> bool:
-        """Whether one more fits on a board beside what is ``here`` and ``done``, to which it is added."""
-        if board.free_m < _headroom_m(size_m):
+    def _set_down(self, space: FreeSpace, done: list[Laid], size_m: Size3, way: int, side: int) -> bool:
+        """Whether one more fits on a surface beside what is there and ``done``, to which it is added."""
+        if space.surface.free_m < self._hand.usual_headroom_m(size_m):
             return False
-        ways = list(laid(size_m, board))
+        ways = list(space.laid(size_m))
         outlines, step_m = ways[min(way, len(ways) - 1)]
         for outline in outlines:
-            free = self._free(support, board, here, done, outline, step_m, side)
+            free = self._free(space, done, outline, step_m, side)
             if len(free):
                 done.append((free[0], outline))
                 return True
         return False
 
-    def _free(
-        self,
-        support: str,
-        board: Board,
-        here: Sequence[ObjectNode],
-        done: Sequence[tuple[Points, Outline]],
-        outline: Outline,
-        step_m: float,
-        side: int,
-    ) -> Points:
-        """Points (N, 2) of a board where a thing of that outline stands free."""
-        node = self._snapshot.object(support)
-        points = lattice(node, outline, step_m, covered=board.is_covered)
-        air_m = room_m(self._snapshot, support, points, outline, here)
+    def _free(self, space: FreeSpace, done: Sequence[Laid], outline: Outline, step_m: float, side: int) -> Points:
+        """Points (N, 2) of a surface where a thing of that outline stands free."""
+        points = space.lattice(outline, step_m)
+        air_m = space.room_m(points, outline)
         for point, other in done:
             air_m = np.minimum(air_m, outline.gap_to_m(points, point, other))
         before = [(point, np.array(other.half_m)) for point, other in done]
-        ways = ways_in(self._snapshot, node, board, points, outline, here, before)
-        return np.asarray(points[(air_m >= GAP_M) & ways[:, side]])
+        return np.asarray(points[(air_m >= self._settings.gap_m) & space.ways_in(points, outline, before)[:, side]])
 
-    def _boards(self, support: str) -> list[Board]:
-        """The surfaces that the arm reaches; of what has no boards that are known, the top, be it as it may."""
-        node, room = self._snapshot.object(support), self._snapshot.room_of(support)
-        boards = boards_of(node)
-        if not boards or room is None:
-            return [Board(height_m=surface_m(self._snapshot, support, None))]
-        center_m = float(self._snapshot.position(support, room)[2])
-        return [board for board in boards if is_in_reach(board, center_m)]
+    def _spaces(self, support: str, staying: frozenset[str]) -> list[FreeSpace]:
+        """What stays leaves free of the surfaces that the arm reaches; of a single one, be it where it may."""
+        surfaces, room = surfaces_of(self._snapshot, support, None), self._snapshot.room_of(support)
+        reached: Sequence[Surface] = surfaces
+        if len(surfaces) > 1 and room is not None:
+            center_m = float(self._snapshot.position(support, room)[2])
+            reached = [surface for surface in surfaces if self._hand.reaches(surface, center_m)]
+        return [
+            FreeSpace(
+                self._snapshot,
+                support,
+                surface,
+                [
+                    node
+                    for node in stands_at(self._snapshot, support, surfaces, surface, None)
+                    if self._stays(node, support, staying)
+                ],
+                self._hand,
+                self._settings,
+            )
+            for surface in reached
+        ]
 
     def _stays(self, node: ObjectNode, support: str, staying: frozenset[str]) -> bool:
         carried_off = node.graspable and self._snapshot.support_of(node.id) == support and node.id not in staying
@@ -129,10 +113,3 @@ class Capacity:
     def _size_m(self, object_id: str) -> tuple[float, float, float]:
         node = self._snapshot.get(object_id)
         return node.size_m if isinstance(node, ObjectNode) else (0.0, 0.0, 0.0)
-
-
-def _headroom_m(size_m: Size3) -> float:
-    """What must be free over a board for a thing that is held as such things are mostly."""
-    if is_tall(size_m):
-        return headroom_m(size_m[2], LEVEL_SHARE * size_m[2], 0.0, ArmGeometry())
-    return headroom_m(size_m[2], max(size_m[2] - PAD_DEPTH_M, size_m[2] / 2, TIP_M), DOWN_RAD, ArmGeometry())

@@ -13,21 +13,19 @@ from skills.action import Action, RobotContext
 from skills.anchor import Anchor
 from skills.arm.approach import ApproachForReach
 from skills.arm.arm import Retract, Stow
-from skills.arm.spot_reach import Placement
+from skills.arm.gripper import OpenGripper
 from skills.failures import Evidence, Failure, FailureCode
 from skills.goto.journeys import travel
 from skills.looking.looking import LookAt
 from skills.looking.watching import Check, Confirm
 from skills.navigation.driving import TurnTo
-from skills.pick.grasp import OpenGripper
-from skills.pick.pick import AIM_RAD
-from skills.place.place_search import HANDOVER_M, free_spots, ranked_spots
+from skills.place.place_search import free_spots, ranked_spots
 from skills.place.put_down import LowerToPlace
+from skills.place.settings import SpotSettings
 from skills.place.spot_choice import CheckSpot, ChooseSpot
+from skills.place.spot_reach import Placement
 from skills.skill import Parameter, Unmet, argument_schema, unknown_arguments
 from skills.state.state import PlaceRelation, PlanState, Thing
-
-INSPECT_S = 1.2
 
 
 class Place:
@@ -47,6 +45,10 @@ class Place:
             description="identifier of the furniture or container to put it on or in, or of the person or room",
         ),
     )
+
+    def __init__(self, settings: SpotSettings = SpotSettings()) -> None:
+        """``settings``: where things may stand."""
+        self._settings = settings
 
     def schema(self) -> dict[str, Any]:
         """JSON schema of the arguments."""
@@ -99,18 +101,19 @@ class Place:
             *travel(context, context.building.room_of(target)),
             ChooseSpot(context, placement),
             ApproachForReach(context, target, spot, price=lambda places: placement.price_m(context, places)),
-            LookAt(context, target, spot, dwell_s=INSPECT_S),
+            LookAt(context, target, spot, dwell_s=context.settings.place.put_down.inspect_s),
             CheckSpot(context, placement),
-            TurnTo(context, target, spot, tolerance_rad=AIM_RAD),
+            TurnTo(context, target, spot, tolerance_rad=context.settings.approach.aim_rad),
             LowerToPlace(context, placement),
             OpenGripper(context, held),
             Retract(context),
-            Confirm(context, f"{held} is placed", Anchor(held), placed_check(held, target)),
+            Confirm(context, f"{held} is placed", Anchor(held), placed_check(held, target, self._settings)),
         ]
 
     def confirmed(self, snapshot: Snapshot, args: Sequence[str], since_s: float) -> Failure | None:
         """The object has been seen since, standing on, in, or with the target."""
-        return placed_check(*args)(snapshot, since_s)
+        held, target = args
+        return placed_check(held, target, self._settings)(snapshot, since_s)
 
 
 def relation_to(target: Thing) -> PlaceRelation:
@@ -120,11 +123,11 @@ def relation_to(target: Thing) -> PlaceRelation:
     return PlaceRelation.IN if target.kind == "room" or target.container else PlaceRelation.ON
 
 
-def placed_check(object_id: str, target: str) -> Check:
+def placed_check(object_id: str, target: str, settings: SpotSettings = SpotSettings()) -> Check:
     """A check that ``object_id`` was seen since, out of the hand, at ``target``."""
 
     def check(snapshot: Snapshot, since_s: float) -> Failure | None:
-        amiss = _amiss(snapshot, object_id, target, since_s)
+        amiss = _amiss(snapshot, object_id, target, since_s, settings)
         if amiss is None:
             return None
         evidence = Evidence(nodes=(object_id, target), revision=snapshot.revision, observation=amiss)
@@ -134,7 +137,7 @@ def placed_check(object_id: str, target: str) -> Check:
     return check
 
 
-def _amiss(snapshot: Snapshot, object_id: str, target: str, since_s: float) -> str | None:
+def _amiss(snapshot: Snapshot, object_id: str, target: str, since_s: float, settings: SpotSettings) -> str | None:
     node, robot = snapshot.get(object_id), snapshot.robot
     if not isinstance(node, ObjectNode):
         return "not in the graph"
@@ -144,10 +147,10 @@ def _amiss(snapshot: Snapshot, object_id: str, target: str, since_s: float) -> s
         return f"last seen at {node.last_seen_s:.1f} s"
     if target not in snapshot:
         return f"{target} is not in the graph"
-    return None if _is_at(snapshot, object_id, target) else f"on {snapshot.support_of(object_id)}"
+    return None if _is_at(snapshot, object_id, target, settings.handover_m) else f"on {snapshot.support_of(object_id)}"
 
 
-def _is_at(snapshot: Snapshot, object_id: str, target: str) -> bool:
+def _is_at(snapshot: Snapshot, object_id: str, target: str, handover_m: float) -> bool:
     node = snapshot.node(target)
     if isinstance(node, ObjectNode):
         return snapshot.support_of(object_id) == target
@@ -155,7 +158,7 @@ def _is_at(snapshot: Snapshot, object_id: str, target: str) -> bool:
     if not isinstance(node, PersonNode):
         return same_room
     x_m, y_m, _ = snapshot.transform(target, object_id).translation_m
-    return same_room and hypot(x_m, y_m) <= HANDOVER_M
+    return same_room and hypot(x_m, y_m) <= handover_m
 
 
 def _is_there(state: PlanState, target: str) -> bool:

@@ -11,24 +11,12 @@ from scene_graph.nodes import ROBOT_ID, UNKNOWN_LABEL, ObjectNode, ObjectState, 
 from scene_graph.snapshot import Snapshot
 from skills.action import RobotContext
 from skills.anchor import Anchor
-from skills.furniture.boards import HIGHEST_M, Board, boards_of
-from skills.furniture.containers import is_open_container
+from skills.arm.held import held_size_m
+from skills.furniture.furniture import Furniture
 from skills.navigation.local_map import draw_map
 from skills.navigation.walls import Walls, door_gaps
 from skills.outline import disc
 from skills.place.place_spot import Spot, spots_on
-
-HANDOVER_M = 1.8
-"""Something is within a person's reach when it is at most this far from where they stand."""
-FLOOR_RADII_M = (0.55, 0.75, 0.95)
-FLOOR_ANGLES = 24
-FLOOR_GAP_M = 0.10
-DOORWAY_M = 0.6
-LOWEST_M = 0.15
-BLOCKED_M = 0.12
-"""What stopped the arm may be so large."""
-BLOCKED_S = 120.0
-"""So long it is expected to be there."""
 
 
 def free_spots(context: RobotContext, held: str, target: str, *, as_empty: bool = False) -> list[Spot]:
@@ -37,7 +25,7 @@ def free_spots(context: RobotContext, held: str, target: str, *, as_empty: bool 
     """
     node = context.snapshot.get(target)
     if as_empty and isinstance(node, ObjectNode):
-        return spots_on(context.snapshot, target, held_size_m(context, held), held, as_empty=True)
+        return _spots_on(context, target, held, as_empty=True)
     return next(ranked_spots(context, held, target), [])
 
 
@@ -45,61 +33,60 @@ def ranked_spots(context: RobotContext, held: str, target: str) -> Iterator[list
     """Free spots at ``target`` for ``held`` as the graph is now, the better ones first: with a person or in a room, on
     what is surely furniture, on what is not known by name, on the floor.
     """
-    snapshot = context.snapshot
-    size_m = held_size_m(context, held)
+    snapshot, settings = context.snapshot, context.settings.place.spots
     node = snapshot.get(target)
     if node is None:
         return
     if isinstance(node, ObjectNode):
-        if spots := _unblocked(context, spots_on(snapshot, target, size_m, held)):
+        if spots := _unblocked(context, _spots_on(context, target, held)):
             yield spots
         return
-    near_m = HANDOVER_M if isinstance(node, PersonNode) else np.inf
-    supports = _supports(snapshot, snapshot.room_of(target), held)
+    near_m = settings.handover_m - settings.handover_spare_m if isinstance(node, PersonNode) else np.inf
+    supports = _supports(context, snapshot.room_of(target), held)
     for nameless in (False, True):
         spots = [
             spot
             for support in supports
             if (snapshot.object(support).label == UNKNOWN_LABEL) == nameless
-            for spot in spots_on(snapshot, support, size_m, held)
-            if near_m == np.inf or _distance_m(snapshot, spot.anchor, target) < near_m - 0.3
+            for spot in _spots_on(context, support, held)
+            if near_m == np.inf or _distance_m(snapshot, spot.anchor, target) < near_m
         ]
         if spots := _unblocked(context, spots):
             yield spots
-    if spots := _unblocked(
-        context, _floor_spots(context, target if isinstance(node, PersonNode) else ROBOT_ID, size_m)
-    ):
+    center = target if isinstance(node, PersonNode) else ROBOT_ID
+    if spots := _unblocked(context, _floor_spots(context, center, held_size_m(context, held))):
         yield spots
+
+
+def _spots_on(context: RobotContext, support: str, held: str, *, as_empty: bool = False) -> list[Spot]:
+    size_m, settings = held_size_m(context, held), context.settings.place.spots
+    return spots_on(context.snapshot, support, size_m, held, hand=context.hand, settings=settings, as_empty=as_empty)
 
 
 def _unblocked(context: RobotContext, spots: Sequence[Spot]) -> list[Spot]:
     """Those not near a point over which the arm was stopped lately: something is there that is not in the graph."""
-    lately = [at for at, since_s in context.blocked_spots.items() if context.stamp_s - since_s < BLOCKED_S]
+    settings = context.settings.place.spots
+    blocked = context.blocked_spots.items()
+    lately = [at for at, since_s in blocked if context.stamp_s - since_s < settings.blocked_s]
     return [
         spot
         for spot in spots
-        if not any(spot.anchor.node_id == on and dist(spot.anchor.point_m, point) < BLOCKED_M for on, point in lately)
+        if not any(
+            spot.anchor.node_id == on and dist(spot.anchor.point_m, point) < settings.blocked_m for on, point in lately
+        )
     ]
 
 
-def held_size_m(context: RobotContext, held: str) -> tuple[float, float, float]:
-    """Extent of what the hand holds."""
-    if context.grip is not None and context.grip.object_id == held:
-        return context.grip.size_m
-    node = context.snapshot.get(held)
-    return node.size_m if isinstance(node, ObjectNode) else (0.1, 0.1, 0.2)
-
-
-def _supports(snapshot: Snapshot, room: str | None, held: str) -> list[str]:
-    """Supports of ``room`` whose top the arm can reach down to, nearest to the robot first."""
-    found = []
+def _supports(context: RobotContext, room: str | None, held: str) -> list[str]:
+    """Supports of ``room`` with a surface that the arm can reach down to, nearest to the robot first."""
+    snapshot, found = context.snapshot, []
     for node in snapshot.of_type(ObjectNode):
         usable = node.support and node.state is ObjectState.PRESENT and node.id != held and not node.graspable
-        if not usable or is_open_container(node.label) or snapshot.room_of(node.id) != room or room is None:
+        furniture = Furniture.of(node)
+        if not usable or furniture.is_dropped_into or snapshot.room_of(node.id) != room or room is None:
             continue
         center_m = float(snapshot.position(node.id, room)[2])
-        boards = boards_of(node) or (Board(height_m=node.size_m[2] / 2),)
-        if any(LOWEST_M <= center_m + board.height_m <= HIGHEST_M for board in boards):
+        if any(context.hand.reaches(surface, center_m) for surface in furniture.surfaces):
             x_m, y_m, _ = snapshot.position(node.id, ROBOT_ID)
             found.append((float(hypot(x_m, y_m)), node.id))
     return [node_id for _, node_id in sorted(found)]
@@ -107,14 +94,14 @@ def _supports(snapshot: Snapshot, room: str | None, held: str) -> list[str]:
 
 def _floor_spots(context: RobotContext, center: str, size_m: tuple[float, float, float]) -> list[Spot]:
     """Free floor around a person, or around the robot, out of doorways."""
-    snapshot = context.snapshot
+    snapshot, settings = context.snapshot, context.settings.place.spots
     room = snapshot.current_room
     if room is None:
         return []
     x_m, y_m, _ = snapshot.position(center, room)
-    angles = np.arange(FLOOR_ANGLES) * 2 * pi / FLOOR_ANGLES
+    angles = np.arange(settings.floor_angles) * 2 * pi / settings.floor_angles
     directions = np.stack([np.cos(angles), np.sin(angles)], axis=1)
-    points = np.concatenate([radius_m * directions for radius_m in FLOOR_RADII_M]) + np.array([x_m, y_m])
+    points = np.concatenate([radius_m * directions for radius_m in settings.floor_radii_m]) + np.array([x_m, y_m])
     spots = [(float(x), float(y)) for x, y in points]
     robot = snapshot.position(ROBOT_ID, room)
     around = context.surroundings.points()
@@ -127,12 +114,12 @@ def _floor_spots(context: RobotContext, center: str, size_m: tuple[float, float,
         stamp_s=context.stamp_s,
     )
     room_m = grid.clearance_at(points) - disc(size_m).radius_m
-    gaps = [gap.grown(DOORWAY_M) for gap in door_gaps(snapshot, room)]
+    gaps = [gap.grown(settings.doorway_m) for gap in door_gaps(snapshot, room)]
     clear = [not any(gap.contains(points[i : i + 1])[0] for gap in gaps) for i in range(len(points))]
     return [
         Spot(anchor=Anchor(room, (*spot, 0.0)), room_m=float(free_m))
         for spot, free_m, is_clear in zip(spots, room_m, clear, strict=True)
-        if free_m > FLOOR_GAP_M and is_clear
+        if free_m > settings.floor_gap_m and is_clear
     ]
 
 

@@ -8,24 +8,14 @@ from math import hypot, sin
 from py_trees.common import Status
 
 from skills.action import RobotContext
-from skills.arm.arm import STOWED, ArmAction, ArmProgress
+from skills.arm.arm import ArmAction, ArmProgress
 from skills.arm.arm_way import clear_over_m
-from skills.arm.grasping import TIP_M
+from skills.arm.held import above_bottom_m, held_radius_m
 from skills.arm.kinematics import arm_target
-from skills.arm.spot_reach import ABOVE_RIM_M, Placement, above_bottom_m, held_radius_m, roll_at
 from skills.errors import Unreachable
 from skills.failures import FailureCode
+from skills.place.spot_reach import Placement, roll_at
 from skills.ports import ArmTarget
-
-RELEASE_M = -0.004
-"""The arm goes this far below the height at which the object should stand, so that it does stand when let go."""
-HOVER_M = 0.10
-TOUCH_M, OUT_M = 0.04, 0.02
-"""What stops the arm so near above the spot, and so near to it, is the surface."""
-SLOW_M, STEP_M = 0.04, 0.01
-"""The last centimeters are lowered step by step, which is slow."""
-IN_M = 0.03
-"""So high over a board, at most, what is held comes in."""
 
 
 class LowerToPlace(ArmAction):
@@ -33,9 +23,9 @@ class LowerToPlace(ArmAction):
 
     def __init__(self, context: RobotContext, placement: Placement) -> None:
         super().__init__(f"lower {placement.object_id}", context)
-        self._placement = placement
+        self._placement, self._lowering = placement, context.settings.place.put_down
         self._why = ""
-        self._standing = STOWED
+        self._standing = self.settings.stowed
 
     def begin(self) -> None:
         """Work out the arm's targets."""
@@ -68,8 +58,8 @@ class LowerToPlace(ArmAction):
     def _stands(self) -> bool:
         """Whether what stopped the arm is the surface: it is out over the spot, and nearly down."""
         arm = self.context.body.arm
-        out = self._standing.extension_m - arm.extension_m < OUT_M
-        return out and arm.lift_m - self._standing.lift_m < TOUCH_M
+        out = self._standing.extension_m - arm.extension_m < self._lowering.out_m
+        return out and arm.lift_m - self._standing.lift_m < self._lowering.touch_m
 
     def _stopped(self) -> Status:
         """Fail, and remember where, so that another spot is tried next."""
@@ -82,12 +72,11 @@ class LowerToPlace(ArmAction):
         """Up, out, and down, with the wrist as it is unless what is held must be turned to fit, which is done out
         there; down only when it is out: drawn in, the hand is over the base.
         """
-        context, arm = self.context, self.context.body.arm
+        context, arm, settings = self.context, self.context.body.arm, self._lowering
         x_m, y_m, z_m = self._placement.anchor().in_base(context)
-        inside = self._placement.spot is not None and self._placement.spot.inside
-        pads_z_m = z_m + above_bottom_m(context) + (ABOVE_RIM_M if inside else RELEASE_M)
-        pads_z_m = max(pads_z_m, z_m + TIP_M)
         spot = self._placement.spot
+        over_m = settings.above_rim_m if spot is not None and spot.inside else settings.release_m
+        pads_z_m = max(z_m + above_bottom_m(context) + over_m, z_m + context.hand.tip_m)
         covered = spot is not None and spot.is_covered
         roll_rad = arm.wrist_roll_rad if spot is None else roll_at(context, spot)
         # to the sides, the fingers neither push what they leave nor touch the board above
@@ -96,8 +85,9 @@ class LowerToPlace(ArmAction):
         self._standing = final
         if covered:
             return self._level_way(final)
-        above_m = min(final.lift_m + HOVER_M, context.limits.lift_m[1])
-        steps = [replace(final, lift_m=final.lift_m + k * STEP_M) for k in range(int(SLOW_M / STEP_M), -1, -1)]
+        above_m = min(final.lift_m + settings.hover_m, context.limits.lift_m[1])
+        count = int(settings.slow_m / settings.step_m)
+        steps = [replace(final, lift_m=final.lift_m + k * settings.step_m) for k in range(count, -1, -1)]
         radius_m = held_radius_m(context)
         over_m = clear_over_m(context, hypot(x_m, y_m), self._placement.target, held_radius_m=radius_m)
         over_m += above_bottom_m(context)
@@ -109,6 +99,9 @@ class LowerToPlace(ArmAction):
 
     def _level_way(self, final: ArmTarget) -> tuple[ArmTarget, ...]:
         """To the height at which it comes in, with the arm drawn in, straight in, and down."""
-        over = replace(final, lift_m=final.lift_m + IN_M - RELEASE_M)
-        down = [replace(over, lift_m=over.lift_m - k * STEP_M) for k in range(1, int((IN_M - RELEASE_M) / STEP_M) + 1)]
+        settings = self._lowering
+        over_m = settings.in_m - settings.release_m
+        over = replace(final, lift_m=final.lift_m + over_m)
+        steps = range(1, int(over_m / settings.step_m) + 1)
+        down = [replace(over, lift_m=over.lift_m - k * settings.step_m) for k in steps]
         return replace(over, extension_m=self.context.body.arm.extension_m), over, *down, final

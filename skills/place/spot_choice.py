@@ -13,7 +13,6 @@ from scene_graph.nodes import ObjectNode
 from skills.action import Action, RobotContext
 from skills.arm.approach import reaches_m, ring
 from skills.arm.arm_way import (
-    BARRED_COST_M,
     nearest_to,
     passing_over,
     people_here,
@@ -21,23 +20,15 @@ from skills.arm.arm_way import (
     spared_nodes,
     underside_of_held_m,
 )
-from skills.arm.spot_reach import Placement, admitted, is_within_lift, pressing_m
 from skills.failures import FailureCode
-from skills.furniture.boards import TURN_RAD
+from skills.furniture.standing import stands_on
 from skills.geometry import Points
 from skills.navigation.pose import look_around, planar_pose, robot_frame
 from skills.navigation.route import Routes
-from skills.place.place_spot import GAP_M, Spot, stands_on
+from skills.place.place_spot import Spot
 from skills.place.seen_in_way import Seen
-
-SLACK_RAD = 0.15
-"""What the drive to a place may be off, seen from the spot."""
-MOST_SPOTS = 40
-TIGHT_M = 0.10
-TIGHT_WEIGHT = 3.0
-LOOKED_AT_M = 0.1
-BARRING_COST_M = 1.0
-"""For each thing that could no longer be taken from the board if something stood before it."""
+from skills.place.settings import PutDownSettings
+from skills.place.spot_reach import Placement, admitted, is_within_lift, pressing_m
 
 
 class ChooseSpot(Action):
@@ -49,7 +40,7 @@ class ChooseSpot(Action):
 
     def __init__(self, context: RobotContext, placement: Placement) -> None:
         super().__init__(f"choose a spot at {placement.target}", context)
-        self._placement = placement
+        self._placement, self._settings = placement, context.settings.place.put_down
 
     def step(self) -> Status:
         """Work it out at once."""
@@ -60,7 +51,7 @@ class ChooseSpot(Action):
         if not spots:
             return _full(self, self._placement)
         found = (self._cheapest(group) for group in chain([spots], self._placement.further()))
-        spot = _first_unbarred(best for best in found if best is not None)
+        spot = _first_unbarred((best for best in found if best is not None), self.context.settings.reach.barred_cost_m)
         if spot is None:
             return self._out_of_reach(spots)
         self._placement.spot = spot
@@ -90,8 +81,8 @@ class ChooseSpot(Action):
         ``None`` where none can be reached. ``people`` and ``things`` are thought away.
         """
         within = [spot for spot in spots if is_within_lift(self.context, spot)]
-        if len(within) > MOST_SPOTS:
-            within = [within[int(i)] for i in np.linspace(0, len(within) - 1, MOST_SPOTS)]
+        if len(within) > self._settings.most_spots:
+            within = [within[int(i)] for i in np.linspace(0, len(within) - 1, self._settings.most_spots)]
         if not within:
             return None
         routes = self._routes(within, people)
@@ -119,13 +110,14 @@ class ChooseSpot(Action):
         """What a spot costs wherever one stands: a tight or hidden one, or one before other things, is as good as one
         that is so much farther.
         """
-        return _crowding_m(spot) + self._hidden_m(spot)
+        return _crowding_m(spot, self._settings) + self._hidden_m(spot)
 
     def _ways_m(self, routes: Routes, spot: Spot, spared: Collection[str]) -> tuple[Points, Points]:
         """Places (N, 2) from which the hand gets to a spot, and the cost (N,) of the way to each."""
         snapshot = self.context.snapshot
         center = spot.anchor.position(snapshot, robot_frame(snapshot))[:2]
-        places = ring(center, reaches_m(self.context, self.context.body.arm.wrist_pitch_rad)[:-1])[0]
+        radii_m = reaches_m(self.context, self.context.body.arm.wrist_pitch_rad)[:-1]
+        places = ring(center, radii_m, self.context.settings.approach.angles)[0]
         free = admitted(self.context, spot, places, spared=spared)
         return places, np.where(free, routes.cost_at(places), np.inf)
 
@@ -154,7 +146,7 @@ class CheckSpot(Action):
 
     def __init__(self, context: RobotContext, placement: Placement) -> None:
         super().__init__(f"check the spot at {placement.target}", context)
-        self._placement = placement
+        self._placement, self._settings = placement, context.settings.place.put_down
 
     def step(self) -> Status:
         """Compare with the free spots of now."""
@@ -180,19 +172,20 @@ class CheckSpot(Action):
         self._placement.spot = here[best]
         return Status.SUCCESS
 
-    @staticmethod
-    def _is_looked_at(spot: Spot, chosen: Spot, seen: Seen) -> bool:
+    def _is_looked_at(self, spot: Spot, chosen: Spot, seen: Seen) -> bool:
         """What is not about where the robot looks must be seen to be there; what is may be behind its hand."""
-        return dist(spot.anchor.point_m, chosen.anchor.point_m) < LOOKED_AT_M or spot.is_covered or seen.shows(spot)
+        near = dist(spot.anchor.point_m, chosen.anchor.point_m) < self._settings.looked_at_m
+        return near or spot.is_covered or seen.shows(spot)
 
     def _within_reach(self, spot: Spot) -> bool:
         x_m, y_m, _ = spot.anchor.in_base(self.context)
         nearest_m, *_, farthest_m = reaches_m(self.context, self.context.body.arm.wrist_pitch_rad)
-        near = nearest_m - 0.06 < hypot(x_m, y_m) < farthest_m + 0.06 and spot.room_m >= GAP_M
+        slack_m, gap_m = self._settings.slack_m, self.context.settings.place.spots.gap_m
+        near = nearest_m - slack_m < hypot(x_m, y_m) < farthest_m + slack_m and spot.room_m >= gap_m
         return near and is_within_lift(self.context, spot) and self._is_before(spot)
 
     def _is_before(self, spot: Spot) -> bool:
-        return bool(admitted(self.context, spot, self._here(), turn_rad=TURN_RAD + SLACK_RAD)[0])
+        return bool(admitted(self.context, spot, self._here(), slack_rad=self._settings.slack_rad)[0])
 
     def _over_m(self, spot: Spot) -> float:
         """What it costs that the arm passes over things on its way from here."""
@@ -201,9 +194,8 @@ class CheckSpot(Action):
     def _here(self) -> Points:
         return np.array([planar_pose(self.context, robot_frame(self.context.snapshot)).point])
 
-    @staticmethod
-    def _offset_m(spot: Spot, chosen: Spot) -> float:
-        return dist(spot.anchor.point_m, chosen.anchor.point_m) + _crowding_m(spot)
+    def _offset_m(self, spot: Spot, chosen: Spot) -> float:
+        return dist(spot.anchor.point_m, chosen.anchor.point_m) + _crowding_m(spot, self._settings)
 
 
 def _reaching_m(
@@ -213,28 +205,26 @@ def _reaching_m(
     the hand comes down on some.
     """
     snapshot = context.snapshot
-    frame = robot_frame(snapshot)
-    target = spot.anchor.position(snapshot, frame)
+    target = spot.anchor.position(snapshot, robot_frame(snapshot))
     no_obstacle = spared_nodes(snapshot, placement.target, spot.anchor.node_id) | set(spared)
-    low_m = underside_of_held_m(float(target[2]))
-    over_m = passing_over(snapshot, frame, target, low_m, places, no_obstacle, stamp_s=context.stamp_s)
+    over_m = passing_over(context, target, underside_of_held_m(context, float(target[2])), places, no_obstacle)
     return over_m + pressing_m(context, spot, places, spared=spared)
 
 
-def _first_unbarred(choices: Iterable[tuple[float, Spot]]) -> Spot | None:
+def _first_unbarred(choices: Iterable[tuple[float, Spot]], barred_cost_m: float) -> Spot | None:
     """Of spots, each after what it costs, the first to which the arm gets without meeting anything, else the first."""
     first: Spot | None = None
     for cost_m, spot in choices:
-        if cost_m < BARRED_COST_M:
+        if cost_m < barred_cost_m:
             return spot
         first = first or spot
     return first
 
 
-def _crowding_m(spot: Spot) -> float:
+def _crowding_m(spot: Spot, settings: PutDownSettings) -> float:
     """What it costs, in meters of way, that there is little air around a spot, or that it is before other things."""
-    tight_m = 0.0 if spot.inside else max(TIGHT_M - spot.air_m, 0.0)
-    return TIGHT_WEIGHT * tight_m + BARRING_COST_M * spot.bars
+    tight_m = 0.0 if spot.inside else max(settings.tight_m - spot.air_m, 0.0)
+    return settings.tight_weight * tight_m + settings.barring_cost_m * spot.bars
 
 
 def _full(action: Action, placement: Placement, seen: str = "") -> Status:

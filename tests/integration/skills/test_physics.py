@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from simulation.furnishing.catalog import CATEGORIES
+from skills.arm.gripper import CloseGripper
 from skills.failures import FailureCode
-from skills.pick.grasp import CloseGripper
 from skills.registry import load_registry
 
 pytestmark = pytest.mark.anyio

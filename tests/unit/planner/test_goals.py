@@ -12,8 +12,8 @@ from planner.goals import ARITY, Goal, Predicate, goal, holds, holds_in, lasting
 from scene_graph.edges import EdgeKey, EdgeType, InEdge, RelationEdge, RtEdge
 from scene_graph.geometry.se3 import SE3
 from scene_graph.nodes import ObjectState
+from skills.facts import read_state
 from skills.registry import load_registry
-from skills.state.state import PlanState
 
 SKILLS = load_registry([])
 SNAPSHOT = flat().snapshot(robot_in="room_2", at=(4.2, 0.0))
@@ -24,7 +24,7 @@ any_goal = st.sampled_from(Predicate).flatmap(
 
 
 def after(*steps, state=None):
-    state = state or PlanState.from_snapshot(SNAPSHOT)
+    state = state or read_state(SNAPSHOT)
     for skill, *args in steps:
         assert SKILLS[skill].conditions(state, args) == []
         state = SKILLS[skill].effects(state, args)

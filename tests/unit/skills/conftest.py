@@ -22,7 +22,15 @@ from scene_graph.nodes import (
     RoomStatus,
     WallNode,
 )
+from skills.action import RobotContext
 from skills.arm.kinematics import gripper_pose
+from skills.doubles import BoxWorld, FakeBody, Rehearsal
+from skills.geometry import Box2, Pose2
+from skills.ports import BodyLimits, BodyState
+from skills.registry import load_registry
+
+SKILLS = load_registry([])
+TABLES = (Box2(Pose2(1.0, 1.2), 1.2, 0.8), Box2(Pose2(-1.5, -1.5), 1.2, 0.8))
 
 
 class Flat:
@@ -80,6 +88,16 @@ class Flat:
             tx.put(RtEdge(source=room, target="person_1", T_source_target=SE3.from_xyz_yaw(x, y, 0.0, 0.0)))
             tx.put(InEdge(source="person_1", target=room))
         return self
+
+    def context(self, stamp_s: float = 0.0) -> RobotContext:
+        """What actions share, with a robot at rest."""
+        body, limits = FakeBody(), BodyLimits()
+        state = BodyState(
+            stamp_s=stamp_s, linear_mps=0.0, angular_radps=0.0, arm=body.arm, gripper_opening_m=0.0,
+            finger_contacts=(False, False), pan_rad=0.0, tilt_rad=0.0, bumped=False, stopped=False,
+            T_base_gripper=gripper_pose(body.arm, body.geometry),
+        )  # fmt: skip
+        return RobotContext(memory=self.memory, limits=limits, geometry=body.geometry, body=state, stamp_s=stamp_s)
 
     @staticmethod
     def _room(tx, node_id, half, pose) -> None:
@@ -203,3 +221,33 @@ def width_at_hand(rehearsal_memory, width_m: float = 0.07):
 def fingers():
     """Makes functions that say what is between the fingers."""
     return width_at_hand
+
+
+@pytest.fixture
+def kitchen(flat, onlooker, fingers):
+    """A rehearsal at a bottle on a table, with a second table."""
+
+    def build(change=lambda built: built):
+        built = change(flat().table().bottle().table("table_2", -1.5, -1.5))
+        body = FakeBody(pose=Pose2(0.9, 0.35, 1.5), grasped_width_m=fingers(built.memory))
+        world = BoxWorld(boxes=TABLES, heights_m=(0.3, 0.6))
+        return Rehearsal(memory=built.memory, body=body, world=world, observe=onlooker)
+
+    return build
+
+
+@pytest.fixture
+def carry_out():
+    """Carries out skills one after the other in a rehearsal; the first failure, if any."""
+
+    async def run(rehearsal, *steps):
+        context = await rehearsal.prepare()
+        for skill, *args in steps:
+            began_s = rehearsal.body.stamp_s
+            failure = await rehearsal.run(SKILLS[skill].actions(context, args), 900.0)
+            failure = failure or SKILLS[skill].confirmed(rehearsal.memory.snapshot(), args, began_s)
+            if failure is not None:
+                return failure
+        return None
+
+    return run

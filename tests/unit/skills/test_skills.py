@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from scene_graph.nodes import DoorState, ObjectState
 from skills.errors import DuplicateSkill, NotASkill, SkillNotFound, WrongArguments
+from skills.facts import read_state
 from skills.failures import FailureCode
 from skills.goto.goto import Goto
 from skills.pick.pick import Pick
@@ -24,7 +25,7 @@ SKILLS = (Goto(), Pick(), Place())
 def state(flat):
     built = flat().table().bottle().bottle("bottle_2", 1.3, 1.2).table("table_2", 0.5, 0.0, room="room_2")
     built.person(-2.0, 1.0).thing("bowl_1", (0.7, 1.3, 0.8), (0.2, 0.2, 0.1), on="table_1", support=True)
-    return PlanState.from_snapshot(built.memory.snapshot())
+    return read_state(built.memory.snapshot())
 
 
 def message(skill, state, *args):
@@ -79,7 +80,7 @@ def test_a_thing_that_looks_a_little_too_wide_from_afar_is_not_refused(state):
 
 def test_a_closed_door_is_named(flat):
     built = flat(door_state=DoorState.CLOSED).table("table_2", 0.5, 0.0, room="room_2")
-    state = PlanState.from_snapshot(built.memory.snapshot())
+    state = read_state(built.memory.snapshot())
     (unmet,) = Goto().conditions(state, ("table_2",))
     assert "open door_1_1_0" in unmet.message
     assert unmet.nodes == ("door_1_1_0",)

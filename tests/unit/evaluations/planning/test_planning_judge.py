@@ -11,8 +11,8 @@ from evaluations.planning.judging.judge import Verdict, judge
 from evaluations.planning.symbolic_execution import perform, write
 from planner.tasks.tasks import StepReport
 from scene_graph.memory import WorkingMemory
+from skills.facts import read_state
 from skills.registry import load_registry
-from skills.state.state import PlanState
 
 STUDIO = building("studio")
 SKILLS = load_registry()
@@ -21,7 +21,7 @@ CUP_TO_SHELF = (("GOTO", "cup_1"), ("PICK", "cup_1"), ("GOTO", "shelf_1"), ("PLA
 
 def outcome(*steps, kind=PLAN, said="", candidates=(), after=STUDIO):
     reports = tuple(StepReport(skill=skill, args=tuple(args)) for skill, *args in steps)
-    trail, obstacle = perform(reports, PlanState.from_snapshot(STUDIO), SKILLS)
+    trail, obstacle = perform(reports, read_state(STUDIO), SKILLS)
     return Outcome(
         kind=kind,
         said=said,
@@ -123,7 +123,7 @@ def test_the_graph_believes_what_a_plan_led_to():
     memory = WorkingMemory(STUDIO)
     steps = outcome(*CUP_TO_SHELF, ("GOTO", "cup_2"), ("PICK", "cup_2"), ("GOTO", "room_3"))
     write(steps.trail[0], steps.trail[-1], memory, STUDIO.stamp_s + 1.0)
-    after = PlanState.from_snapshot(memory.building())
+    after = read_state(memory.building())
     assert after.places == steps.trail[-1].places
     assert (after.holding, after.robot_room) == ("cup_2", "room_3")
     assert memory.building().support_of("cup_1") == "shelf_1"

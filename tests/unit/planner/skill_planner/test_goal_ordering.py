@@ -18,8 +18,8 @@ from planner.skill_planner.search import Found, Search
 from planner.skill_planner.settings import OrderSettings
 from planner.skill_planner.verifier import Verifier
 from random_problems import random_problem
+from skills.facts import read_state
 from skills.registry import load_registry
-from skills.state.state import PlanState
 
 SKILLS = load_registry([])
 VERIFIER = Verifier(SKILLS)
@@ -44,7 +44,7 @@ def test_no_order_costs_less_than_the_one_chosen(seed):
     snapshot = row(places, holding="cup_3" if seed % 2 else None)
     goals = [goal("on", f"cup_{k}", f"table_{target + 1}") for k, target in enumerate(rng.permutation(4), start=1)]
     plan = VERIFIER.plan_for(free(*goals), snapshot)
-    start = PlanState.from_snapshot(snapshot)
+    start = read_state(snapshot)
     costs = [Search(order, SKILLS, start).run() for order in permutations(goals)]
     assert plan.expected_s == pytest.approx(min(found.cost_s for found in costs if isinstance(found, Found)))
 
@@ -63,7 +63,7 @@ def test_neither_rooms_nor_what_is_in_the_hand_make_a_few_goals_dearer_than_need
     snapshot, goals = free_goals_in_rooms(seed)
     if VERIFIER.verify_goals(goals, snapshot):
         return
-    plan, start = VERIFIER.plan_for(free(*goals), snapshot), PlanState.from_snapshot(snapshot)
+    plan, start = VERIFIER.plan_for(free(*goals), snapshot), read_state(snapshot)
     found = [Search(order, SKILLS, start).run() for order in permutations(goals)]
     assert plan.expected_s == pytest.approx(min(way.cost_s for way in found if isinstance(way, Found)))
 
@@ -127,7 +127,7 @@ def test_twelve_things_have_a_good_plan_at_once():
 
 def test_many_things_go_no_farther_than_by_the_exact_way():
     places = [(float(x), float(y)) for x in (-6, 0, 6) for y in (-6, 0, 6)]
-    state = PlanState.from_snapshot(row(places[: OrderSettings.exact + 1]))
+    state = read_state(row(places[: OrderSettings.exact + 1]))
     goals = free(*(goal("on", f"cup_{k}", f"table_{(k + 3) % 9 + 1}") for k in range(1, 10)))
 
     def leg(here, there):
@@ -171,7 +171,7 @@ def leg_m(state):
 
 def test_things_alike_are_taken_in_one_order_that_is_as_cheap_as_any():
     snapshot = table_of_cups([0.08] * 4)
-    start = PlanState.from_snapshot(snapshot)
+    start = read_state(snapshot)
     goals = free(*(goal("on", f"cup_{k}", "table_2") for k in range(1, 5)))
     (order,) = orders(goals, start, leg_m(start))
     costs = [Search(other, SKILLS, start).run().cost_s for other in permutations(goals)]
@@ -179,12 +179,12 @@ def test_things_alike_are_taken_in_one_order_that_is_as_cheap_as_any():
 
 
 def test_things_of_two_sizes_are_tried_in_every_order_of_the_sizes():
-    start = PlanState.from_snapshot(table_of_cups([0.08, 0.08, 0.06]))
+    start = read_state(table_of_cups([0.08, 0.08, 0.06]))
     goals = free(*(goal("on", f"cup_{k}", "table_2") for k in range(1, 4)))
     assert len(list(orders(goals, start, leg_m(start)))) == 3
 
 
 def test_a_thing_that_another_goal_speaks_of_is_like_no_other():
-    start = PlanState.from_snapshot(table_of_cups([0.08, 0.08]))
+    start = read_state(table_of_cups([0.08, 0.08]))
     goals = free(goal("on", "cup_1", "table_2"), goal("near", "cup_2", "cup_1"))
     assert len(list(orders(goals, start, leg_m(start)))) == 2

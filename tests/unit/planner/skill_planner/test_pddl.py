@@ -18,8 +18,8 @@ from planner.skill_planner.flaws import goal_flaws
 from planner.skill_planner.pddl import UNITS_PER_S, export
 from planner.skill_planner.search import Found, Search
 from random_problems import random_problem
+from skills.facts import read_state
 from skills.registry import load_registry
-from skills.state.state import PlanState
 
 SKILLS = load_registry([])
 
@@ -29,7 +29,7 @@ def sound_problems(count):
     seed = 0
     while count:
         snapshot, goals = random_problem(seed)
-        if not goal_flaws(goals, snapshot, PlanState.from_snapshot(snapshot)):
+        if not goal_flaws(goals, snapshot, read_state(snapshot)):
             count -= 1
             yield seed, snapshot, goals
         seed += 1
@@ -38,9 +38,9 @@ def sound_problems(count):
 def compared(snapshot, goals):
     """Seconds that the search and the independent planner took; both must find a plan of one cost, or neither."""
     started_s = time.process_time()
-    found = Search(goals, SKILLS, PlanState.from_snapshot(snapshot)).run()
+    found = Search(goals, SKILLS, read_state(snapshot)).run()
     searched_s = time.process_time() - started_s
-    text = export(goals, PlanState.from_snapshot(snapshot), SKILLS)
+    text = export(goals, read_state(snapshot), SKILLS)
     started_s = time.process_time()
     plan = cheapest(Task(text.domain, text.problem))
     planned_s = time.process_time() - started_s
@@ -76,7 +76,7 @@ def test_on_200_random_problems_the_search_is_optimal_and_20_times_faster(record
 
 
 def test_a_problem_reads_as_what_it_is_about():
-    state = PlanState.from_snapshot(flat().snapshot(robot_in="room_2", at=(4.2, 0.0)))
+    state = read_state(flat().snapshot(robot_in="room_2", at=(4.2, 0.0)))
     text = export([goal("on", "cup_1", "desk_1")], state, SKILLS)
     assert "(upon cup_1 table_1)" in text.problem
     assert "(precondition" not in text.problem
@@ -93,7 +93,7 @@ def test_a_problem_reads_as_what_it_is_about():
 def test_fast_downward_finds_the_same_costs(tmp_path):
     driver = find_spec("up_fast_downward").submodule_search_locations[0] + "/downward/fast-downward.py"
     for seed, snapshot, goals in sound_problems(20):
-        state = PlanState.from_snapshot(snapshot)
+        state = read_state(snapshot)
         text, found = export(goals, state, SKILLS), Search(goals, SKILLS, state).run()
         (tmp_path / "domain.pddl").write_text(text.domain)
         (tmp_path / "problem.pddl").write_text(text.problem)

@@ -16,8 +16,8 @@ from planner.plan import Step
 from planner.skill_planner.flaws import goal_flaws
 from planner.skill_planner.search import Exhausted, Found, Search
 from scene_graph.nodes import DoorState
+from skills.facts import read_state
 from skills.registry import load_registry
-from skills.state.state import PlanState
 
 SKILLS = load_registry([])
 
@@ -153,7 +153,7 @@ some_goal = st.one_of(pointed_goal, in_a_room, near)
 
 def least_that_search_and_brute_force_find(snapshot, goals):
     """Seconds of the search and of brute force; None where there is no plan."""
-    start = PlanState.from_snapshot(snapshot)
+    start = read_state(snapshot)
     assume(not goal_flaws(goals, snapshot, start))
     found = Search(goals, SKILLS, start).run()
     return (found.cost_s if isinstance(found, Found) else None), brute_force_s(goals, start)
@@ -193,19 +193,19 @@ def test_with_something_wanted_later_in_its_hand_the_robot_leaves_it_where_it_pa
     """Cheaper than to lay it down here and come back for it."""
     snapshot = small_world(cups_on=("table_2", "table_2"), holding="cup_2")
     goals = [goal("on", "cup_1", "table_1"), goal("given", "cup_2", "person_1")]
-    found = Search(goals, SKILLS, PlanState.from_snapshot(snapshot)).run()
+    found = Search(goals, SKILLS, read_state(snapshot)).run()
     assert [str(step) for step in found.steps[:3]] == ["GOTO(table_2)", "PLACE(cup_2, room_2)", "PICK(cup_1)"]
 
 
 def test_into_a_room_the_robot_goes_to_what_it_is_to_handle_there_next():
     goals = [goal("robot_at", "room_2"), goal("holding", "cup_1")]
     snapshot = small_world(cups_on=("table_2", "table_1"))
-    found = Search(goals, SKILLS, PlanState.from_snapshot(snapshot)).run()
+    found = Search(goals, SKILLS, read_state(snapshot)).run()
     assert [step.skill for step in found.steps] == ["GOTO", "PICK"]
 
 
 def test_what_is_to_be_found_later_is_approached_at_once_where_the_first_thing_is_in_reach_too():
-    start = PlanState.from_snapshot(small_world())
+    start = read_state(small_world())
     found = Search([goal("holding", "cup_1"), goal("found", "cup_2")], SKILLS, start).run()
     assert found.steps == (Step(skill="GOTO", args=("cup_2",)), Step(skill="PICK", args=("cup_1",)))
     assert abs(found.cost_s - (6.0 + 1.5 / 0.35 + 30.0)) < 1e-6
@@ -215,7 +215,7 @@ def test_what_is_found_within_reach_and_wanted_later_is_picked_up_without_anothe
     sketch = Sketch().room("room_1", at=(0.0, 0.0))
     sketch.furniture("table_1", "table", "room_1", at=(1.0, 0.0)).thing("cup_1", "cup", on="table_1")
     sketch.person("person_1", "Anna", "room_1", at=(-1.2, 0.0))
-    start = PlanState.from_snapshot(sketch.snapshot(robot_in="room_1", at=(0.0, 0.0)))
+    start = read_state(sketch.snapshot(robot_in="room_1", at=(0.0, 0.0)))
     near = SKILLS["GOTO"].effects(start, ("table_1",))
     found = Search([goal("found", "cup_1"), goal("given", "cup_1", "person_1")], SKILLS, near).run()
     assert [step.skill for step in found.steps] == ["PICK", "GOTO", "PLACE"]
@@ -225,7 +225,7 @@ def test_what_is_found_within_reach_and_wanted_later_is_picked_up_without_anothe
 @settings(max_examples=80, suppress_health_check=list(HealthCheck))
 @given(small_worlds(), st.lists(some_goal, min_size=1, max_size=4))
 def test_the_steps_found_can_be_carried_out_and_reach_every_goal_in_turn(snapshot, goals):
-    state = PlanState.from_snapshot(snapshot)
+    state = read_state(snapshot)
     search = Search(goals, SKILLS, state)
     found = search.run()
     if isinstance(found, Exhausted):
@@ -243,7 +243,7 @@ def test_the_steps_found_can_be_carried_out_and_reach_every_goal_in_turn(snapsho
 @example(small_world(cups_on=("table_2", "table_1")), [goal("holding", "cup_1"), goal("on", "cup_2", "table_1")])
 @example(small_world(cups_on=("table_1", "table_2")), [goal("on", "cup_2", "table_1"), goal("near", "cup_1", "cup_2")])
 def test_the_estimate_never_exceeds_the_true_cost(snapshot, goals):
-    state = PlanState.from_snapshot(snapshot)
+    state = read_state(snapshot)
     search = Search(goals, SKILLS, state)
     found = search.run()
     if not isinstance(found, Found):
@@ -263,7 +263,7 @@ def test_first_and_then_mean_what_they_say():
     sketch.thing("cup_1", "cup", on="table_1").thing("cup_2", "cup", on="table_1")
     snapshot = sketch.snapshot(robot_in="room_1", at=(0.0, 0.0))
     for order in (["cup_1", "cup_2"], ["cup_2", "cup_1"]):
-        found = Search([goal("on", cup, "table_2") for cup in order], SKILLS, PlanState.from_snapshot(snapshot)).run()
+        found = Search([goal("on", cup, "table_2") for cup in order], SKILLS, read_state(snapshot)).run()
         assert isinstance(found, Found)
         assert [step.args[0] for step in found.steps if step.skill == "PLACE"] == order
 
@@ -273,7 +273,7 @@ def test_a_goal_may_come_twice():
     sketch.furniture("table_2", "table", "room_1", at=(0.0, -1.0))
     sketch.thing("cup_1", "cup", on="table_1").thing("cup_2", "cup", on="table_1")
     goals = [goal("on", cup, "table_2") for cup in ("cup_1", "cup_2", "cup_1")] + [goal("holding", "cup_1")]
-    found = Search(goals, SKILLS, PlanState.from_snapshot(sketch.snapshot(robot_in="room_1", at=(0.0, 0.0)))).run()
+    found = Search(goals, SKILLS, read_state(sketch.snapshot(robot_in="room_1", at=(0.0, 0.0)))).run()
     assert isinstance(found, Found)
     assert [step.args[0] for step in found.steps if step.skill == "PICK"] == ["cup_1", "cup_2", "cup_1"]
 
@@ -281,7 +281,7 @@ def test_a_goal_may_come_twice():
 def test_out_of_budget_says_so():
     sketch = Sketch().room("room_1", at=(0.0, 0.0)).furniture("table_1", "table", "room_1", at=(0.0, 1.0))
     sketch.furniture("table_2", "table", "room_1", at=(0.0, -1.0)).thing("cup_1", "cup", on="table_1")
-    start = PlanState.from_snapshot(sketch.snapshot(robot_in="room_1", at=(0.0, 0.0)))
+    start = read_state(sketch.snapshot(robot_in="room_1", at=(0.0, 0.0)))
     result = Search([goal("on", "cup_1", "table_2")], SKILLS, start, budget=2).run()
     assert isinstance(result, Exhausted)
     assert result.out_of_budget

@@ -20,8 +20,8 @@ from planner.skill_planner.verifier import Verifier
 from planner.task_planner.task_planner import TaskPlanner
 from random_problems import random_problem
 from scene_graph.nodes import DoorState, ObjectState
+from skills.facts import read_state
 from skills.registry import load_registry
-from skills.state.state import PlanState
 
 SKILLS = load_registry([])
 REQUEST = "do the wibbly thing with the frumious doodah"
@@ -136,7 +136,7 @@ def outcome_of(seed):
 def proven(plan, goals, snapshot):
     """Carry a plan out on the facts alone; it touches nothing but what the goals speak of."""
     assert isinstance(plan, Plan)
-    state = start = PlanState.from_snapshot(snapshot)
+    state = start = read_state(snapshot)
     allowed = grounding(goals, start)
     for step in plan.steps:
         assert SKILLS[step.skill].conditions(state, step.args) == [], (str(plan), str(step))

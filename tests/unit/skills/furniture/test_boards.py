@@ -11,23 +11,18 @@ import pytest
 from scene_graph.geometry.se3 import SE3
 from scene_graph.nodes import ObjectNode
 from skills.anchor import Anchor
-from skills.arm.grasping import is_covered, prefers_level, roof_over_m
-from skills.furniture.boards import (
-    ASIDE_M,
-    THICKNESS_M,
-    board_under,
-    boards_of,
-    headroom_m,
-    is_among_boards,
-    is_before,
-    off_end,
-)
+from skills.arm.hand import Hand
+from skills.arm.level_hand import prefers_level
+from skills.arm.roof import is_covered, roof_over_m
+from skills.arm.way_in import is_among_boards, is_before, off_end
+from skills.furniture.furniture import Furniture
+from skills.furniture.standing import stand_of
 from skills.outline import disc
 from skills.place.capacity import Capacity
-from skills.place.place_spot import spots_on, surface_m
-from skills.ports import ArmGeometry
-from skills.state.state import Thing
+from skills.place.place_spot import spots_on
+from skills.state.world import Thing
 
+HAND = Hand()
 SHELF = ObjectNode(id="shelf_1", label="shelf", size_m=(0.9, 0.35, 1.6), surfaces_m=(0.4, 0.8, 1.2), support=True)
 BOTTLE_M = (0.07, 0.07, 0.24)
 CAN_M = (0.066, 0.066, 0.12)
@@ -48,27 +43,28 @@ def heights(spots):
 
 
 def test_the_boards_of_a_shelf_end_with_its_top_and_tell_how_much_is_free_above():
-    boards = boards_of(SHELF)
+    boards = Furniture.of(SHELF).surfaces
     assert [round(board.height_m + 0.8, 6) for board in boards] == [0.4, 0.8, 1.2, 1.6]
-    assert [round(board.free_m, 6) for board in boards[:-1]] == [round(0.4 - THICKNESS_M, 6)] * 3
+    assert [round(board.free_m, 6) for board in boards[:-1]] == [round(0.4 - Furniture.of(SHELF).kind.board_m, 6)] * 3
     assert boards[-1].free_m == inf
 
 
 def test_the_top_is_where_it_was_measured_if_it_was():
     low = replace(SHELF, size_m=(0.9, 0.35, 1.02), surfaces_m=(0.5, 1.0))
-    assert [round(board.height_m + 0.51, 6) for board in boards_of(low)] == [0.5, 1.0]
+    assert [round(board.height_m + 0.51, 6) for board in Furniture.of(low).surfaces] == [0.5, 1.0]
 
 
 @pytest.mark.parametrize("changes", [{"surfaces_m": ()}, {"surfaces_m": (1.58,)}, {"label": "chair"}])
 def test_what_has_a_top_alone_and_seats_have_no_boards(changes):
-    assert boards_of(replace(SHELF, **changes)) == ()
+    (surface,) = Furniture.of(replace(SHELF, **changes)).surfaces
+    assert not surface.is_covered
 
 
 def test_a_thing_goes_on_every_board_that_has_room_for_it(flat):
     spots = spots_on(shelved(flat).memory.snapshot(), "shelf_1", BOTTLE_M, None)
     assert heights(spots) == {0.4, 0.8, 1.2, 1.6}
     for spot in spots:
-        assert abs(spot.anchor.point_m[0]) <= 0.45 - (ASIDE_M if spot.is_covered else 0.0)
+        assert abs(spot.anchor.point_m[0]) <= 0.45 - (0.13 if spot.is_covered else 0.0)
 
 
 def test_what_is_too_high_for_a_board_goes_on_top(flat):
@@ -82,7 +78,7 @@ def test_what_stands_on_one_board_takes_no_room_on_the_others(flat):
 
 def test_behind_what_stands_in_front_nothing_is_put_from_that_side(flat):
     built = on_board(shelved(flat), "bottle_1", 0.0, -0.1, 0.8)
-    spots = [spot for spot in spots_on(built.memory.snapshot(), "shelf_1", BOTTLE_M, None) if spot.free_m < inf]
+    spots = [spot for spot in spots_on(built.memory.snapshot(), "shelf_1", BOTTLE_M, None) if spot.is_covered]
     behind = [
         spot
         for spot in spots
@@ -102,29 +98,29 @@ def test_the_arm_comes_in_straight_from_before_and_clear_of_the_ends(flat):
     snapshot = shelved(flat).memory.snapshot()
 
     def before(point_m, *places):
-        return is_before(snapshot, "shelf_1", point_m, np.array(places), "room_1").tolist()
+        return is_before(snapshot, "shelf_1", point_m, np.array(places), "room_1", HAND).tolist()
 
     middle = (0.0, 0.0, 0.0)
     assert before(middle, (0.0, 1.7), (0.1, 1.7), (0.5, 1.9), (0.7, 2.3)) == [True, True, False, False]
     near_end = (0.3, 0.0, 0.0)
     assert before(near_end, (0.3, 1.7), (0.5, 1.7), (0.15, 1.7)) == [True, False, True]
-    assert is_before(snapshot, "shelf_1", middle, np.array([(0.0, 1.7)]), "room_1", sides=(1,)).tolist() == [False]
+    assert is_before(snapshot, "shelf_1", middle, np.array([(0.0, 1.7)]), "room_1", HAND, sides=(1,)).tolist() == [
+        False
+    ]
 
 
 def test_a_hand_that_points_down_needs_more_room_over_a_board_than_a_level_one():
-    level, down = (headroom_m(0.24, 0.12, pitch, ArmGeometry()) for pitch in (0.0, -pi / 2))
+    level, down = (HAND.headroom_m(0.24, 0.12, pitch) for pitch in (0.0, -pi / 2))
     assert 0.24 < level < 0.365 - 0.05
     assert down > 0.3
-    assert headroom_m(0.075, 0.04, -pi / 2, ArmGeometry()) < 0.365
+    assert HAND.headroom_m(0.075, 0.04, -pi / 2) < 0.365
 
 
 def test_a_thing_stands_on_the_board_below_its_bottom_and_is_covered_by_the_next(flat):
     built = on_board(shelved(flat), "cup_1", 0.0, 0.0, 0.4, (0.08, 0.08, 0.1), graspable=True)
     snapshot = built.memory.snapshot()
-    board = board_under(snapshot, "cup_1")
-    assert round(board.height_m, 6) == -0.4
-    assert surface_m(snapshot, "shelf_1", "cup_1") == board.height_m
-    assert is_covered(snapshot, "cup_1", "room_1")
+    assert round(stand_of(snapshot, "cup_1").surface.height_m, 6) == -0.4
+    assert is_covered(snapshot, "cup_1", "room_1", HAND)
 
 
 @pytest.mark.parametrize(
@@ -133,15 +129,15 @@ def test_a_thing_stands_on_the_board_below_its_bottom_and_is_covered_by_the_next
 def test_below_a_board_what_is_low_is_taken_from_above_if_the_hand_fits_in(flat, height_m, surfaces_m, level):
     shelf = shelved(flat, (0.4, 0.8, *surfaces_m, 1.2))
     snapshot = on_board(shelf, "book_1", 0.0, 0.0, 0.8, (0.2, 0.085, height_m), graspable=True).memory.snapshot()
-    assert prefers_level(snapshot, "book_1", SE3.from_xyz_yaw(0.55, 0.0, 0.8 + height_m / 2, 0.0)) is level
-    roof_m = roof_over_m(snapshot, "book_1")
-    board = board_under(snapshot, "book_1")
-    assert height_m / 2 + roof_m + ArmGeometry().hand_length_m < board.free_m
+    assert prefers_level(snapshot, "book_1", SE3.from_xyz_yaw(0.55, 0.0, 0.8 + height_m / 2, 0.0), HAND) is level
+    roof_m = roof_over_m(snapshot, "book_1", HAND)
+    board = stand_of(snapshot, "book_1").surface
+    assert height_m / 2 + roof_m + HAND.geometry.hand_length_m < board.free_m
 
 
 def test_nothing_is_over_what_stands_on_top(flat):
     built = on_board(shelved(flat), "book_1", 0.0, 0.0, 1.6, (0.2, 0.085, 0.035), graspable=True)
-    assert roof_over_m(built.memory.snapshot(), "book_1") == inf
+    assert roof_over_m(built.memory.snapshot(), "book_1", HAND) == inf
 
 
 @pytest.mark.parametrize(
@@ -157,7 +153,7 @@ def test_nothing_is_over_what_stands_on_top(flat):
 def test_near_an_end_of_a_board_the_hand_takes_a_thing_a_little_from_the_inside(flat, x_m, width_m, aside_m):
     built = on_board(shelved(flat), "glass_1", x_m, 0.0, 0.8, (width_m, width_m, 0.14), graspable=True)
     snapshot = built.memory.snapshot()
-    at = off_end(snapshot, "glass_1", 0.12).position(snapshot, "shelf_1")
+    at = off_end(snapshot, "glass_1", HAND).position(snapshot, "shelf_1")
     assert at == pytest.approx((x_m + aside_m, 0.0, 0.07), abs=1e-6)
 
 
@@ -172,21 +168,21 @@ def test_between_an_end_and_a_neighbor_the_hand_comes_in_the_middle(flat, box_y_
     built = on_board(shelved(flat), "glass_1", 0.36, 0.05, 0.8, (0.07, 0.07, 0.14), graspable=True)
     on_board(built, "box_1", 0.213, box_y_m, 0.8, (0.14, 0.08, 0.1), graspable=True)
     snapshot = built.memory.snapshot()
-    at = off_end(snapshot, "glass_1", 0.12).position(snapshot, "shelf_1")
+    at = off_end(snapshot, "glass_1", HAND).position(snapshot, "shelf_1")
     assert at == pytest.approx((0.36 + aside_m, 0.05, 0.07), abs=1e-3)
 
 
 def test_what_stands_on_top_or_is_gone_is_taken_at_its_middle(flat):
     snapshot = on_board(shelved(flat), "glass_1", 0.4, 0.0, 1.6, (0.07, 0.07, 0.14)).memory.snapshot()
-    assert off_end(snapshot, "glass_1", 0.12) == Anchor("glass_1")
-    assert off_end(snapshot, "glass_9", 0.12) == Anchor("glass_9")
+    assert off_end(snapshot, "glass_1", HAND) == Anchor("glass_1")
+    assert off_end(snapshot, "glass_9", HAND) == Anchor("glass_9")
 
 
 def test_a_hand_is_among_boards_between_them_and_not_above_the_top(flat):
     snapshot = shelved(flat).memory.snapshot()
-    assert is_among_boards(snapshot, "room_1", np.array((0.0, 2.2, 0.9)))
-    assert not is_among_boards(snapshot, "room_1", np.array((0.0, 2.2, 1.7)))
-    assert not is_among_boards(snapshot, "room_1", np.array((0.0, 1.6, 0.9)))
+    assert is_among_boards(snapshot, "room_1", np.array((0.0, 2.2, 0.9)), HAND)
+    assert not is_among_boards(snapshot, "room_1", np.array((0.0, 2.2, 1.7)), HAND)
+    assert not is_among_boards(snapshot, "room_1", np.array((0.0, 1.6, 0.9)), HAND)
 
 
 @pytest.mark.parametrize(

@@ -9,9 +9,13 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from skills.furniture.standing import surfaces_of
 from skills.geometry import Box2, Pose2
 from skills.outline import disc
-from skills.place.place_spot import AMPLE_M, EDGE_MARGIN_M, GAP_M, spots_on, surface_m
+from skills.place.place_spot import spots_on
+from skills.place.settings import SpotSettings
+
+SETTINGS = SpotSettings()
 
 neighbors = st.lists(
     st.tuples(
@@ -34,12 +38,12 @@ def test_spots_lie_on_the_support_and_overlap_nothing(flat, things, size):
         x, y, z = spot.anchor.point_m
         if spot.turn_rad is not None:
             continue
-        assert abs(x) + radius <= 0.6 - EDGE_MARGIN_M + 1e-9
-        assert abs(y) + radius <= 0.4 - EDGE_MARGIN_M + 1e-9
+        assert abs(x) + radius <= 0.6 - SETTINGS.edge_m + 1e-9
+        assert abs(y) + radius <= 0.4 - SETTINGS.edge_m + 1e-9
         assert z == 0.375
         for bx, by, yaw, sx, sy in things:
             air = Box2(Pose2(bx, by, yaw), sx, sy).distance_m(np.array([[x, y]]))[0] - radius
-            assert air >= GAP_M - 1e-6
+            assert air >= SETTINGS.gap_m - 1e-6
             assert spot.room_m <= air + 1e-6
 
 
@@ -54,11 +58,11 @@ def test_what_is_laid_so_that_it_fits_lies_on_the_support_and_overlaps_nothing(f
             continue
         x, y, _ = spot.anchor.point_m
         half = np.array(size[:2] if spot.turn_rad == 0.0 else size[1::-1]) / 2
-        assert (np.abs([x, y]) + half <= np.array([0.225, 0.2]) - EDGE_MARGIN_M + 1e-9).all()
+        assert (np.abs([x, y]) + half <= np.array([0.225, 0.2]) - SETTINGS.edge_m + 1e-9).all()
         across = np.linspace(-1.0, 1.0, 9)
         covered = np.array([x, y]) + half * np.array([[a, b] for a in across for b in across])
         for bx, by, yaw, sx, sy in things:
-            assert Box2(Pose2(bx / 3, by / 3, yaw), sx / 2, sy / 2).distance_m(covered).min() >= GAP_M - 1e-6
+            assert Box2(Pose2(bx / 3, by / 3, yaw), sx / 2, sy / 2).distance_m(covered).min() >= SETTINGS.gap_m - 1e-6
 
 
 def test_a_phone_is_laid_beside_the_clock_in_the_middle_of_a_nightstand(flat):
@@ -67,12 +71,12 @@ def test_a_phone_is_laid_beside_the_clock_in_the_middle_of_a_nightstand(flat):
     spots = spots_on(built.memory.snapshot(), "nightstand_1", (0.15, 0.07, 0.02), None)
     assert {spot.turn_rad for spot in spots} == {0.0, np.pi / 2}
     lengthwise = [spot.anchor.point_m for spot in spots if spot.turn_rad == 0.0]
-    assert all(abs(y) > 0.045 + 0.035 + GAP_M for _, y, _ in lengthwise)
+    assert all(abs(y) > 0.045 + 0.035 + SETTINGS.gap_m for _, y, _ in lengthwise)
 
 
 def test_the_first_spots_of_a_table_are_not_at_its_edge(flat):
     spots = spots_on(flat().table().memory.snapshot(), "table_1", (0.08, 0.08, 0.2), None)
-    assert all(spot.air_m >= AMPLE_M - 1e-9 for spot in spots[:20])
+    assert all(spot.air_m >= SETTINGS.ample_m - 1e-9 for spot in spots[:20])
     x, y, _ = np.abs([spot.anchor.point_m for spot in spots]).T
     assert [spot.edge_m for spot in spots] == pytest.approx(np.minimum(0.6 - x, 0.4 - y) - 0.04)
     assert min(spot.edge_m for spot in spots) < 0.05
@@ -109,13 +113,13 @@ def test_unrelated_things_above_the_top_are_respected_too(flat):
 
 def test_a_seat_is_lower_than_its_back_and_what_stands_there_tells_better(flat):
     built = flat().thing("chair_1", (0.0, 0.0, 0.45), (0.45, 0.45, 0.9), support=True)
-    assert surface_m(built.memory.snapshot(), "chair_1", None) == 0.0
+    assert surfaces_of(built.memory.snapshot(), "chair_1", None)[0].height_m == 0.0
     built.thing("box_1", (0.0, 0.0, 0.52), (0.1, 0.1, 0.1), on="chair_1")
-    assert abs(surface_m(built.memory.snapshot(), "chair_1", None) - 0.02) < 1e-9
+    assert abs(surfaces_of(built.memory.snapshot(), "chair_1", None)[0].height_m - 0.02) < 1e-9
 
 
 def test_a_table_is_its_top(flat):
-    assert surface_m(flat().table().bottle().memory.snapshot(), "table_1", None) == 0.375
+    assert surfaces_of(flat().table().bottle().memory.snapshot(), "table_1", None)[0].height_m == 0.375
 
 
 def test_nothing_is_put_on_the_arms_or_the_back_of_a_sofa(flat):

@@ -11,9 +11,10 @@ from planner.goals import goal, holds_in
 from scene_graph.edges import RtEdge
 from scene_graph.geometry.se3 import SE3
 from scene_graph.nodes import DoorState, ObjectState
+from skills.facts import read_state
 from skills.goto.goto import Goto
 from skills.place.place import Place
-from skills.state.state import DoorLink, PlaceRelation, PlanState, Thing, World
+from skills.state.state import DoorLink, PlaceRelation, Thing, World
 
 
 def furnished(flat):
@@ -21,7 +22,7 @@ def furnished(flat):
 
 
 def test_state_reads_places_rooms_and_doors(flat):
-    state = PlanState.from_snapshot(furnished(flat).memory.snapshot())
+    state = read_state(furnished(flat).memory.snapshot())
     assert state.places == {"bottle_1": (PlaceRelation.ON, "table_1")}
     assert (state.robot_room, state.robot_at, state.holding) == ("room_1", "room_1", None)
     assert state.world.doors == (DoorLink(door="door_1_1_0", rooms=("room_1", "room_2"), open=True),)
@@ -39,7 +40,7 @@ def test_who_stands_beyond_the_walls_of_a_room_is_not_in_it(flat, place, inside)
     with built.memory.edit("test", 0.0) as tx:
         tx.put(RtEdge(source="room_1", target="robot", T_source_target=SE3.from_xyz_yaw(*place, 0.0, 0.0)))
     snapshot = built.memory.snapshot()
-    state, skill = PlanState.from_snapshot(snapshot), Goto()
+    state, skill = read_state(snapshot), Goto()
     assert state.is_inside("room_1") is inside
     assert holds_in(goal("robot_at", "room_1"), snapshot) is inside
     assert (skill.confirmed(snapshot, ("room_1",), 0.0) is None) is inside
@@ -51,20 +52,20 @@ def test_what_is_put_onto_the_floor_of_a_room_is_not_put_down_outdoors(flat):
     built = furnished(flat)
     with built.memory.edit("test", 0.0) as tx:
         tx.put(RtEdge(source="room_1", target="robot", T_source_target=SE3.from_xyz_yaw(-3.7, 0.0, 0.0, 0.0)))
-    state = PlanState.from_snapshot(built.memory.snapshot())
+    state = read_state(built.memory.snapshot())
     held = state.after(holding="bottle_1", places=state.moved("bottle_1", None))
     assert Place().conditions(held, ("bottle_1", "room_1"))
     assert not Place().conditions(Goto().effects(held, ("room_1",)), ("bottle_1", "room_1"))
 
 
 def test_distance_goes_through_the_door(flat):
-    state = PlanState.from_snapshot(furnished(flat).memory.snapshot())
+    state = read_state(furnished(flat).memory.snapshot())
     # room_1's center to the door is 3 m; the door's map point to table_2 at (5.7, 0) is 2.7 m.
     assert state.distance_m("room_1", "table_2") == pytest.approx(5.7)
 
 
 def test_distance_is_symmetric_and_zero_to_itself(flat):
-    state = PlanState.from_snapshot(furnished(flat).memory.snapshot())
+    state = read_state(furnished(flat).memory.snapshot())
     things = list(state.world.things)
     for a in things:
         assert state.world.distance_m(a, a) == 0.0
@@ -74,7 +75,7 @@ def test_distance_is_symmetric_and_zero_to_itself(flat):
 
 def test_no_distance_and_the_door_named_when_it_is_closed(flat):
     built = flat(door_state=DoorState.CLOSED).table("table_2", 0.5, 0.0, room="room_2")
-    state = PlanState.from_snapshot(built.memory.snapshot())
+    state = read_state(built.memory.snapshot())
     assert state.distance_m("room_1", "table_2") is None
     assert state.world.closed_doors("room_1", "room_2") == ("door_1_1_0",)
 
@@ -99,12 +100,12 @@ def test_held_and_missing_objects_have_no_place(flat):
     built = furnished(flat)
     with built.memory.edit("test", 0.0) as tx:
         tx.put(replace(built.memory.snapshot().object("bottle_1"), state=ObjectState.MISSING))
-    state = PlanState.from_snapshot(built.memory.snapshot())
+    state = read_state(built.memory.snapshot())
     assert state.missing == {"bottle_1"}
 
 
 def test_equal_facts_are_equal_states_and_different_facts_are_not(flat):
-    state = PlanState.from_snapshot(furnished(flat).memory.snapshot())
+    state = read_state(furnished(flat).memory.snapshot())
     there_and_back = state.after(robot_at="table_1").after(robot_at=state.robot_at)
     assert state == there_and_back
     assert hash(state) == hash(there_and_back)
@@ -112,16 +113,16 @@ def test_equal_facts_are_equal_states_and_different_facts_are_not(flat):
 
 
 def test_near_things_count_as_reached(flat):
-    state = PlanState.from_snapshot(flat().table("table_1", 0.9, 0.0).bottle("bottle_1", 0.5, 0.0).memory.snapshot())
+    state = read_state(flat().table("table_1", 0.9, 0.0).bottle("bottle_1", 0.5, 0.0).memory.snapshot())
     assert state.is_at("bottle_1")
     assert state.is_at("table_1")
-    far = PlanState.from_snapshot(furnished(flat).memory.snapshot())
+    far = read_state(furnished(flat).memory.snapshot())
     assert not far.is_at("table_1")
 
 
 def test_standing_at_one_bottle_is_standing_at_its_neighbor_but_not_at_the_next_table(flat):
     built = furnished(flat).bottle("bottle_2", 1.2, 0.95)
-    state = PlanState.from_snapshot(built.memory.snapshot()).after(robot_at="bottle_1")
+    state = read_state(built.memory.snapshot()).after(robot_at="bottle_1")
     assert state.is_at("bottle_2")
     assert state.is_at("table_1")
     assert not state.is_at("table_2")
@@ -129,20 +130,20 @@ def test_standing_at_one_bottle_is_standing_at_its_neighbor_but_not_at_the_next_
 
 def test_being_in_a_room_is_not_being_at_what_lies_on_its_floor(flat):
     built = flat().thing("box_1", (-2.0, 1.0, 0.1), (0.1, 0.1, 0.2), graspable=True)
-    state = PlanState.from_snapshot(built.memory.snapshot())
+    state = read_state(built.memory.snapshot())
     assert state.places["box_1"] == (PlaceRelation.IN, "room_1")
     assert not state.is_at("box_1")
 
 
 def test_carried_things_are_where_the_robot_is(flat):
-    state = PlanState.from_snapshot(furnished(flat).memory.snapshot())
+    state = read_state(furnished(flat).memory.snapshot())
     held = state.after(holding="bottle_1", places={}, robot_at="table_2", robot_room="room_2")
     assert held.room_of("bottle_1") == "room_2"
     assert held.anchor("bottle_1") == "table_2"
 
 
 def test_search_makes_thousands_of_states_a_second(flat):
-    state = PlanState.from_snapshot(furnished(flat).memory.snapshot())
+    state = read_state(furnished(flat).memory.snapshot())
     started = time.perf_counter()
     seen = {state.after(robot_at=str(i), places={**state.places, "x": (PlaceRelation.ON, str(i))}) for i in range(3000)}
     assert len(seen) == 3000

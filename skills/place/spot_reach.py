@@ -12,22 +12,16 @@ from numpy.typing import NDArray
 from scene_graph.nodes import ObjectNode
 from skills.action import RobotContext
 from skills.anchor import Anchor
-from skills.arm.arm_way import BARRED_COST_M, pushes_aside, spared_nodes
-from skills.arm.finger_room import palm_meets_rims
-from skills.arm.grasping import DOWN_RAD, PAD_DEPTH_M, PALM_HALF_HEIGHT_M, level_meets_rims
-from skills.furniture.boards import HAND_HALF_WIDTH_M, LOWEST_M, PALM_BEFORE_M, TURN_RAD, headroom_m, is_before
-from skills.furniture.seats import rims
+from skills.arm.arm_way import pushes_aside, spared_nodes
+from skills.arm.finger_room import palm_meets
+from skills.arm.hand import DOWN_RAD
+from skills.arm.held import above_bottom_m, held_radius_m, held_size_m, highest_underside_m
+from skills.arm.level_hand import level_meets
+from skills.arm.way_in import is_before
+from skills.furniture.furniture import Furniture
 from skills.geometry import Points, Pose2, wrap_rad
 from skills.navigation.pose import in_base, robot_frame
-from skills.outline import disc
 from skills.place.place_spot import Spot
-
-ABOVE_RIM_M = 0.04
-SPARE_LIFT_M = 0.02
-"""A surface may turn out to be a little higher when it is seen from near."""
-DEFAULT_GRIP_SHARE = 0.6
-STEEP_RAD = 0.1
-"""A hand that is off the vertical by less points down, and one that is off the horizontal by less is level."""
 
 SpotSource = Callable[[], Sequence[Spot]]
 """Gives the free spots as the graph is now."""
@@ -66,67 +60,63 @@ class Placement:
 
 
 def admitted(
-    context: RobotContext, spot: Spot, places: Points, *, turn_rad: float = TURN_RAD, spared: Collection[str] = ()
+    context: RobotContext, spot: Spot, places: Points, *, slack_rad: float = 0.0, spared: Collection[str] = ()
 ) -> NDArray[np.bool_]:
     """From which of (N, 2) places, in the robot's frame, the hand gets to a spot: to one below a board, from straight
     before; to any other, where what it holds is brought over all that lies on the way, however low the lift ends; and
     to one on a seat, where the hand meets neither back nor arms. ``spared``: things that are thought away.
     """
-    on, frame = spot.anchor, robot_frame(context.snapshot)
+    on, frame, hand = spot.anchor, robot_frame(context.snapshot), context.hand
     if spot.is_covered:
-        return is_before(context.snapshot, on.node_id, on.point_m, places, frame, sides=spot.sides, turn_rad=turn_rad)
+        return is_before(
+            context.snapshot, on.node_id, on.point_m, places, frame, hand, sides=spot.sides, slack_rad=slack_rad
+        )
     target = on.position(context.snapshot, frame)
     no_obstacle, low_m = spared_nodes(context.snapshot, on.node_id) | set(spared), highest_underside_m(context)
-    wide_m = held_radius_m(context)
-    free = ~pushes_aside(context.snapshot, frame, target, places, no_obstacle, low_m=low_m, wide_m=wide_m)
-    seat = context.snapshot.get(on.node_id)
-    if spot.inside or not isinstance(seat, ObjectNode) or not rims(seat):
+    free = ~pushes_aside(context, target, places, no_obstacle, low_m=low_m, wide_m=held_radius_m(context))
+    node = context.snapshot.get(on.node_id)
+    if spot.inside or not isinstance(node, ObjectNode) or not (furniture := Furniture.of(node)).obstacles:
         return free
-    x_m, y_m, surface_z_m = target
-    T_frame_seat = context.snapshot.transform(frame, seat.id)
-    pose, seat_z_m = Pose2.of(T_frame_seat), float(T_frame_seat.z_m)
+    x_m, y_m, _ = target
+    pose, pads_m = Pose2.of(context.snapshot.transform(frame, node.id)), on.point_m[2] + above_bottom_m(context)
     facing_rad = np.arctan2(y_m - places[:, 1], x_m - places[:, 0])
     if not _points_down(context):
-        low_m = float(surface_z_m) + above_bottom_m(context) - PALM_HALF_HEIGHT_M
-        return free & ~level_meets_rims(seat, pose, seat_z_m, target[:2], facing_rad, low_m)
+        low_m = pads_m - hand.geometry.palm_half_m[1]
+        return free & ~level_meets(furniture, pose, target[:2], facing_rad, low_m, hand)
     if spot.turn_rad is None:
         # from above, fingers that close along a, from where the robot faces, take a roll of pi/2 - a
         toward_rad = facing_rad + pi / 2 - context.body.arm.wrist_roll_rad
     else:
         toward_rad = np.full(len(places), pose.yaw_rad + spot.turn_rad + pi / 2)
-    palm_m = float(surface_z_m) + above_bottom_m(context) + PAD_DEPTH_M
-    return free & ~palm_meets_rims(seat, pose, seat_z_m, target[:2], toward_rad, palm_m)
+    return free & ~palm_meets(furniture, pose, target[:2], toward_rad, pads_m + hand.settings.bite_m, hand)
 
 
 def pressing_m(context: RobotContext, spot: Spot, places: Points, *, spared: Collection[str] = ()) -> Points:
     """What it costs, (N,), that a level hand which is lowered at a spot, with its arm straight from each of (N, 2)
     places in the robot's frame, comes down on a small thing before it. ``spared``: things that are thought away.
     """
-    if spot.is_covered or spot.inside or abs(context.body.arm.wrist_pitch_rad) > STEEP_RAD:
+    if (
+        spot.is_covered
+        or spot.inside
+        or abs(context.body.arm.wrist_pitch_rad) > context.settings.place.put_down.steep_rad
+    ):
         return np.zeros(len(places))
     on, frame = spot.anchor, robot_frame(context.snapshot)
     target = on.position(context.snapshot, frame)
     met = pushes_aside(
-        context.snapshot,
-        frame,
+        context,
         target,
         places,
         spared_nodes(context.snapshot, on.node_id) | set(spared),
-        low_m=float(target[2]) + above_bottom_m(context) - PALM_HALF_HEIGHT_M,
-        wide_m=HAND_HALF_WIDTH_M,
-        short_m=PALM_BEFORE_M,
+        low_m=float(target[2]) + above_bottom_m(context) - context.geometry.palm_half_m[1],
+        wide_m=context.geometry.hand_half_width_m,
+        short_m=context.geometry.palm_to_pads_m,
     )
-    return np.where(met, BARRED_COST_M, 0.0)
-
-
-def highest_underside_m(context: RobotContext) -> float:
-    """How high over the floor the lift brings the bottom of what the hand holds, with the wrist as it is."""
-    hand_m = context.geometry.hand_length_m * sin(context.body.arm.wrist_pitch_rad)
-    return context.limits.lift_m[1] + hand_m - above_bottom_m(context)
+    return np.where(met, context.settings.reach.barred_cost_m, 0.0)
 
 
 def _points_down(context: RobotContext) -> bool:
-    return abs(context.body.arm.wrist_pitch_rad - DOWN_RAD) < STEEP_RAD
+    return abs(context.body.arm.wrist_pitch_rad - DOWN_RAD) < context.settings.place.put_down.steep_rad
 
 
 def is_within_wrist(context: RobotContext, spot: Spot) -> bool:
@@ -150,37 +140,14 @@ def is_within_lift(context: RobotContext, spot: Spot) -> bool:
     """Whether the lift gets the hand with what it holds over the spot, and below the board above, if there is one."""
     if not is_within_wrist(context, spot):
         return False
-    snapshot, arm = context.snapshot, context.body.arm
+    snapshot, settings, hand = context.snapshot, context.settings.place.put_down, context.hand
+    above_m, pitch_rad = above_bottom_m(context), context.body.arm.wrist_pitch_rad
     surface_z_m = float(spot.anchor.position(snapshot, robot_frame(snapshot))[2])
-    above_m, pitch_rad = above_bottom_m(context), arm.wrist_pitch_rad
-    rim_m = ABOVE_RIM_M if spot.inside else 0.0
+    rim_m = settings.above_rim_m if spot.inside else 0.0
     lift_m = surface_z_m + above_m + rim_m - context.geometry.hand_length_m * sin(pitch_rad)
     low_m, high_m = context.limits.lift_m
-    if not low_m <= lift_m <= high_m - SPARE_LIFT_M:
+    if not low_m <= lift_m <= high_m - settings.spare_lift_m:
         return False
-    needed_m = headroom_m(held_height_m(context), above_m, pitch_rad, context.geometry)
-    return not spot.is_covered or (surface_z_m >= LOWEST_M and needed_m <= spot.free_m)
-
-
-def held_height_m(context: RobotContext) -> float:
-    """Height of what the hand holds."""
-    if context.grip is not None:
-        return context.grip.size_m[2]
-    robot = context.snapshot.robot
-    node = context.snapshot.get(robot.holding) if robot is not None and robot.holding is not None else None
-    return node.size_m[2] if isinstance(node, ObjectNode) else 0.2
-
-
-def held_radius_m(context: RobotContext) -> float:
-    """How far what the hand holds reaches to the sides, however it is turned; 0 where nothing is known of it."""
-    return disc(context.grip.size_m).radius_m if context.grip is not None else 0.0
-
-
-def above_bottom_m(context: RobotContext) -> float:
-    """Height of the pads over the bottom of what the hand holds."""
-    grip, hand = context.grip, context.body.T_base_gripper
-    if grip is not None:
-        return float(hand.z_m - (hand @ grip.T_gripper_object).z_m + grip.size_m[2] / 2)
-    robot = context.snapshot.robot
-    node = context.snapshot.get(robot.holding) if robot is not None and robot.holding is not None else None
-    return DEFAULT_GRIP_SHARE * node.size_m[2] if isinstance(node, ObjectNode) else 0.1
+    needed_m = hand.headroom_m(held_size_m(context)[2], above_m, pitch_rad)
+    high_enough = surface_z_m >= hand.settings.lowest_board_m
+    return not spot.is_covered or (high_enough and needed_m <= spot.surface.free_m)

@@ -1,0 +1,20 @@
+"""All that was tuned of the skills in one value; its parts stand with what they are of."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from skills.arm.hand import HandSettings
+from skills.arm.settings import ApproachSettings, ArmSettings, ReachSettings
+from skills.place.settings import PlaceSettings
+
+
+@dataclass(frozen=True, kw_only=True)
+class SkillSettings:
+    """What the actions of all skills go by."""
+
+    hand: HandSettings = field(default_factory=HandSettings)
+    arm: ArmSettings = field(default_factory=ArmSettings)
+    reach: ReachSettings = field(default_factory=ReachSettings)
+    approach: ApproachSettings = field(default_factory=ApproachSettings)
+    place: PlaceSettings = field(default_factory=PlaceSettings)

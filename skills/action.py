@@ -20,14 +20,11 @@ from scene_graph.memory import WorkingMemory
 from scene_graph.snapshot import Snapshot
 from skills.arm.hand import Hand
 from skills.failures import Evidence, Failure, FailureCode
+from skills.navigation.floor_relief import FloorRelief
 from skills.navigation.surroundings import Surroundings
 from skills.ports import NO_FLOOR, ArmGeometry, ArmTarget, BodyLimits, BodyPort, BodyState, FloorReturns
 from skills.settings import SkillSettings
 
-CARRY_SHARE = 0.6
-"""Share of the body's speed limits that is used with something in the hand."""
-CARRY_STEP_MPS, CARRY_STEP_RADPS = 0.015, 0.04
-"""With something in the hand, how far a command may exceed the measured speed."""
 AGENT = "robot_body"
 """Name under which actions edit the graph."""
 
@@ -91,11 +88,17 @@ class RobotContext:
     seen_base: Callable[[], NDArray[np.float64]] = _nothing_seen
     commands: Commands = field(default_factory=Commands)
     path_room: tuple[tuple[float, float], ...] = ()
-    surroundings: Surroundings = field(default_factory=Surroundings)
+    surroundings: Surroundings = field(init=False)
     grip: Grip | None = None
     blocked_doors: dict[str, float] = field(default_factory=dict)
     blocked_spots: dict[tuple[str, tuple[float, float, float]], float] = field(default_factory=dict)
     blocked_reaches: dict[tuple[str, float], float] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        """Nothing was hit yet."""
+        settings = self.settings.navigation
+        relief = FloorRelief(settings=settings.relief)
+        self.surroundings = Surroundings(settings=settings.surroundings, relief=relief)
 
     @property
     def hand(self) -> Hand:
@@ -174,9 +177,10 @@ class Action(py_trees.behaviour.Behaviour):
         if context.grip is None or context.commands.drive is None:
             return
         now = (context.body.linear_mps, context.body.angular_radps)
-        top = (CARRY_SHARE * context.limits.linear_mps, CARRY_SHARE * context.limits.angular_radps)
+        settings = context.settings.navigation
+        top = (settings.carry_share * limit for limit in (context.limits.linear_mps, context.limits.angular_radps))
         wanted = (_clip(v, limit) for v, limit in zip(context.commands.drive, top, strict=True))
-        steps = (CARRY_STEP_MPS, CARRY_STEP_RADPS)
+        steps = (settings.carry_step_mps, settings.carry_step_radps)
         linear, angular = (_gently(v, was, step) for v, was, step in zip(wanted, now, steps, strict=True))
         context.commands.drive = (linear, angular)
 

@@ -6,6 +6,9 @@ from dataclasses import dataclass, field
 
 from skills.arm.hand import HandSettings
 from skills.arm.settings import ApproachSettings, ArmSettings, ReachSettings
+from skills.goto.settings import GotoSettings
+from skills.looking.settings import LookSettings
+from skills.navigation.settings import NavigationSettings
 from skills.place.settings import PlaceSettings
 
 
@@ -17,4 +20,7 @@ class SkillSettings:
     arm: ArmSettings = field(default_factory=ArmSettings)
     reach: ReachSettings = field(default_factory=ReachSettings)
     approach: ApproachSettings = field(default_factory=ApproachSettings)
+    goto: GotoSettings = field(default_factory=GotoSettings)
+    looking: LookSettings = field(default_factory=LookSettings)
+    navigation: NavigationSettings = field(default_factory=NavigationSettings)
     place: PlaceSettings = field(default_factory=PlaceSettings)

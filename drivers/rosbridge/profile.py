@@ -108,7 +108,16 @@ class Geometry(_Table):
     wrist_x_m: float = 0.10
     hand_length_m: Positive = 0.18
     camera_height_m: Positive = 1.40
+    camera_x_m: float = 0.05
     lidar_height_m: Positive = 1.60
+    height_m: Positive = 1.75
+    hand_half_width_m: Positive = 0.09
+    palm_half_m: tuple[Positive, Positive] = (0.08, 0.02)
+    palm_to_pads_m: Positive = 0.07
+    pads_to_tips_m: Positive = 0.02
+    finger_m: Positive = 0.012
+    finger_half_height_m: Positive = 0.015
+    arm_half_m: Positive = 0.03
 
 
 class Profile(_Table):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Sequence
+from dataclasses import replace
 from math import atan2, cos, hypot, inf, pi
 
 import numpy as np
@@ -30,7 +31,6 @@ from skills.arm.way_in import is_before
 from skills.failures import FailureCode
 from skills.furniture.standing import stand_of
 from skills.geometry import Point2, Points
-from skills.navigation.driver import DriverConfig
 from skills.navigation.driving import DriveTo
 from skills.navigation.plan import Goal
 from skills.navigation.pose import planar_pose, robot_frame
@@ -57,7 +57,10 @@ class ApproachForReach(DriveTo):
         nothing by default.
         """
         super().__init__(
-            context, target, self._goals_around, config=DriverConfig(position_m=context.settings.approach.position_m)
+            context,
+            target,
+            self._goals_around,
+            settings=replace(context.settings.navigation.driver, position_m=context.settings.approach.position_m),
         )
         self.name = f"approach {target}"
         self._where, self._price_m, self._settings = where, price or _nothing, context.settings.approach

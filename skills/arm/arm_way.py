@@ -14,7 +14,7 @@ from skills.arm.barring import is_small_and_nameless
 from skills.arm.settings import ReachSettings
 from skills.furniture.furniture import Furniture
 from skills.geometry import Point2, Points, Pose2
-from skills.navigation.local_map import PERSON_FRESH_S, PERSON_RADIUS_M, draw_map, footprint
+from skills.navigation.local_map import draw_map, footprint
 from skills.navigation.pose import footprint_radius_m, in_base, robot_frame
 from skills.navigation.route import Routes, find_routes
 from skills.navigation.walls import Walls
@@ -113,7 +113,11 @@ def passing_over(context: RobotContext, target: Points, low_m: float, points: Po
     for person in snapshot.of_type(PersonNode):
         if person.id not in spared and snapshot.room_of(person.id) == frame:
             away_m = np.linalg.norm(way - snapshot.position(person.id, frame)[:2], axis=2)
-            cost_m = np.inf if context.stamp_s - person.last_seen_s < PERSON_FRESH_S else settings.barred_cost_m
+            cost_m = (
+                np.inf
+                if context.stamp_s - person.last_seen_s < context.settings.navigation.map.person_fresh_s
+                else settings.barred_cost_m
+            )
             costs += np.where(away_m.min(axis=0) < settings.person_clearance_m, cost_m, 0.0)
     return costs
 
@@ -133,7 +137,10 @@ def _ways_straight(
 
 def _meets_wall(context: RobotContext, target: Points, way: Points) -> NDArray[np.bool_]:
     """On which of the ways (S, N, 2) to a target a wall stands before the target; (N,)."""
-    walls, settings = Walls.of(context.snapshot, robot_frame(context.snapshot)).tree, context.settings.reach
+    walls, settings = (
+        Walls.of(context.snapshot, robot_frame(context.snapshot), context.settings.navigation.map).tree,
+        context.settings.reach,
+    )
     if walls is None or not way.size:
         return np.zeros(way.shape[1], np.bool_)
     near_m, _ = walls.query(way.reshape(-1, 2), distance_upper_bound=settings.at_wall_m)
@@ -162,9 +169,10 @@ def _rim_costs(context: RobotContext, node: ObjectNode, target: Points, low_m: f
     return costs
 
 
-def people_here(context: RobotContext, fresh_s: float = PERSON_FRESH_S) -> list[str]:
+def people_here(context: RobotContext, fresh_s: float | None = None) -> list[str]:
     """Who was seen so short a time ago in the robot's room."""
     snapshot, frame = context.snapshot, robot_frame(context.snapshot)
+    fresh_s = context.settings.navigation.map.person_fresh_s if fresh_s is None else fresh_s
     return [
         person.id
         for person in snapshot.of_type(PersonNode)
@@ -182,9 +190,21 @@ def routes_around(
 ) -> Routes:
     """The ways from ``here`` on a map that shows all the spots; ``spared``: people who are thought away."""
     snapshot, frame = context.snapshot, robot_frame(context.snapshot)
-    hit, around_m = context.surroundings.points(), PERSON_RADIUS_M + context.settings.reach.around_person_m
+    settings = context.settings.navigation
+    hit = context.surroundings.points()
+    around_m = settings.map.person_radius_m + context.settings.reach.around_person_m
     for person in spared:
         hit = hit[np.hypot(*(hit - snapshot.position(person, frame)[:2]).T) > around_m]
-    walls = Walls.of(snapshot, frame)
-    grid = draw_map(snapshot, frame, hit, [here, *spots], walls=walls, stamp_s=context.stamp_s, ignore=spared)
-    return find_routes(grid, here, footprint_radius_m(context))
+    walls = Walls.of(snapshot, frame, settings.map)
+    grid = draw_map(
+        snapshot,
+        frame,
+        hit,
+        [here, *spots],
+        walls=walls,
+        stamp_s=context.stamp_s,
+        ignore=spared,
+        geometry=context.geometry,
+        settings=settings.map,
+    )
+    return find_routes(grid, here, footprint_radius_m(context), settings.routes)

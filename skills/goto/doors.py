@@ -7,7 +7,7 @@ crossing has x in the direction of travel and y to the left, so that progress, o
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import replace
 from math import atan2, cos, hypot, pi
 
 import numpy as np
@@ -19,32 +19,17 @@ from scene_graph.snapshot import Snapshot
 from skills.action import Action, RobotContext
 from skills.failures import FailureCode
 from skills.geometry import Points, Pose2, wrap_rad
-from skills.goto.lanes import BEYOND_M, FRONT_M, WALL_M, Lane, clear_lane
-from skills.navigation.driver import Driver, DriverConfig, Progress
+from skills.goto.lanes import Lane, clear_lane
+from skills.navigation.cells import CELL_M
+from skills.navigation.driver import Driver, Progress
 from skills.navigation.driving import DriveTo
 from skills.navigation.goals import at_poses
-from skills.navigation.grid import CELL_M
 from skills.navigation.local_map import standing
-from skills.navigation.plan import SQUEEZE_M, GoalSource
+from skills.navigation.plan import GoalSource
 from skills.navigation.pose import footprint_radius_m, in_base, look_around, planar_pose, robot_frame
 from skills.navigation.pursuit import turn_rate
 from skills.navigation.safety import admissible
-
-OTHER_FRONTS_M = (0.8, 0.6, 0.95, 0.5, 0.42)
-ASIDE_M = (0.0, 0.08, -0.08)
-"""From where else a door may be crossed, when something stands right before it."""
-THRESHOLDS_M = (0.3, 0.15)
-"""From where it may be, at last, when something lies where a robot lines up: within the gap, reached from beside."""
-PANEL_BIN_M = 0.05
-PERSON_M = 0.4
-"""So far around the middle of somebody reaches what the LiDAR sees of them, from near and while they walk."""
-PANEL_HEIGHTS = (0.5, 0.95)
-"""Between these shares of a door's height a panel shows, but no crate, and no lintel."""
-LANE_SPARE_M = 0.03
-LANES = 3
-"""So often another lane is tried."""
-SQUEEZE_MPS = 0.12
-"""No more than a crawl, where nothing but the bare body fits."""
+from skills.navigation.settings import DriverSettings
 
 
 class ApproachDoor(DriveTo):
@@ -60,21 +45,8 @@ class ApproachDoor(DriveTo):
         return super().fail(code, message, nodes, observation)
 
 
-@dataclass(frozen=True, kw_only=True)
-class CrossingConfig:
-    """Speed in the gap, look-ahead along the axis, how far beyond the wall it ends, and patience."""
-
-    speed_mps: float = 0.30
-    beyond_m: float = BEYOND_M
-    look_ahead_m: float = 0.35
-    turn_in_place_rad: float = 0.5
-    closed_s: float = 1.5
-    patience_s: float = 8.0
-    panel_share: float = 0.8
-
-
 class CrossDoor(Action):
-    """Drives through a door along its axis until the base stands beyond the wall, by default 0.9 m.
+    """Drives through a door along its axis until the base stands ``beyond_m`` beyond the wall, by default 0.9 m.
 
     Where something lies in the way it drives beside the axis or aslant to it, as near to it as there is room, and lines
     up again for that. When the robot is placed into the far room on the way, it goes on by that room's own node of the
@@ -83,14 +55,15 @@ class CrossDoor(Action):
 
     timeout_s = 60.0
 
-    def __init__(self, context: RobotContext, door_id: str, config: CrossingConfig | None = None) -> None:
+    def __init__(self, context: RobotContext, door_id: str, *, beyond_m: float | None = None) -> None:
         super().__init__(f"cross {door_id}", context)
         self.door_id = door_id
-        self._config = config or CrossingConfig()
+        self._settings = settings = context.settings.goto.crossing
+        self._beyond_m = settings.lanes.beyond_m if beyond_m is None else beyond_m
         self._driver: Driver | None = None
         self._free_s = 0.0
         self._giving_up: tuple[FailureCode, str] | None = None
-        self._lane, self._lanes = Lane(), 0
+        self._lane, self._lanes = self._straight(), 0
         self._anew = self._squeezes = self._foresaw = False
 
     def fail(self, code: FailureCode, message: str, nodes: Sequence[str] = (), observation: str = "") -> Status:
@@ -101,16 +74,19 @@ class CrossDoor(Action):
     def begin(self) -> None:
         """Say which door, and line up first when not in front of it."""
         self._free_s, self._giving_up, self._driver = self.context.stamp_s, None, None
-        self._lane, self._lanes = Lane(), 0
+        self._lane, self._lanes = self._straight(), 0
         self._anew = self._squeezes = self._foresaw = False
         self.context.announce(f"crossing {self.door_id}")
         if self.door_id in self.context.snapshot and not self._lined_up(self._base_on_axis()):
-            self._line_up_on(Lane())
+            self._line_up_on(self._straight())
+
+    def _straight(self) -> Lane:
+        return Lane(settings=self._settings.lanes)
 
     def _line_up_on(self, lane: Lane) -> None:
         self._lane = lane
         source = _in_front(self.context, self.door_id, lane)
-        self._driver = Driver(self.context, source, config=DriverConfig(position_m=0.04))
+        self._driver = Driver(self.context, source, settings=_lining_up(self.context))
 
     def step(self) -> Status:
         """Line up, then drive along the axis."""
@@ -124,7 +100,7 @@ class CrossDoor(Action):
             return self._begin_anew(base)
         if self._giving_up is not None:
             return self._back_out(base, *self._giving_up)
-        if base.x_m - WALL_M >= self._config.beyond_m:
+        if base.x_m - self._settings.lanes.wall_m >= self._beyond_m:
             return Status.SUCCESS
         return Status.RUNNING if self._foresees(base) else self._advance(base)
 
@@ -154,14 +130,14 @@ class CrossDoor(Action):
         return True
 
     def _advance(self, base: Pose2) -> Status:
-        context, config = self.context, self._config
-        aim_m = self._lane.y_m(base.x_m + config.look_ahead_m)
-        error = wrap_rad(atan2(aim_m - base.y_m, config.look_ahead_m) - base.yaw_rad)
-        turning = abs(error) > config.turn_in_place_rad
-        fastest_mps = SQUEEZE_MPS if self._squeezes else config.speed_mps
+        context, settings = self.context, self._settings
+        aim_m = self._lane.y_m(base.x_m + settings.look_ahead_m)
+        error = wrap_rad(atan2(aim_m - base.y_m, settings.look_ahead_m) - base.yaw_rad)
+        turning = abs(error) > settings.turn_in_place_rad
+        fastest_mps = settings.squeeze_mps if self._squeezes else settings.speed_mps
         speed = 0.0 if turning else fastest_mps * max(cos(2 * error), 0.3)
         wanted = (speed, turn_rate(error, context.limits))
-        linear, angular = admissible(*wanted, self._points_base(), self._radius_m(), context.limits)
+        linear, angular = self._admissible(*wanted)
         context.commands.drive = (linear, angular)
         if turning or linear > 0:
             self._free_s = context.stamp_s
@@ -171,11 +147,11 @@ class CrossDoor(Action):
     def _blocked(self, base: Pose2) -> Status:
         """Something is ahead: a closed door is told at once, anything else gets time to move away."""
         waited_s = self.context.stamp_s - self._free_s
-        if base.x_m - WALL_M > self.context.limits.footprint_radius_m + 0.05:
+        if base.x_m - self._settings.lanes.wall_m > self.context.limits.footprint_radius_m + 0.05:
             return Status.SUCCESS  # through the wall already; what blocks stands in the far room
-        if waited_s > self._config.closed_s and self._panel_share() >= self._config.panel_share:
+        if waited_s > self._settings.closed_s and self._panel_share() >= self._settings.panel_share:
             self._giving_up = (FailureCode.DOOR_CLOSED, f"{self.door_id} is closed.")
-        elif waited_s > self._config.patience_s and not self._takes_another_lane(base):
+        elif waited_s > self._settings.patience_s and not self._takes_another_lane(base):
             person = self._person_in_gap()
             if person is not None:
                 self._giving_up = (FailureCode.PERSON_IN_WAY, f"{person} stands in {self.door_id}.")
@@ -185,7 +161,7 @@ class CrossDoor(Action):
 
     def _takes_another_lane(self, base: Pose2) -> bool:
         """Whether there is a lane that has not been tried; where none is clear, one that is clear for the bare body."""
-        if self._lanes == LANES:
+        if self._lanes == self._settings.tries:
             return False
         self._lanes += 1
         lane = self._clear_lane(base)
@@ -213,7 +189,7 @@ class CrossDoor(Action):
 
     def _is_out(self, base: Pose2) -> bool:
         """Whether the base stands before the gap; drives it backwards as long as it does not and can."""
-        linear, _ = admissible(-0.15, 0.0, self._points_base(), self._radius_m(), self.context.limits)
+        linear, _ = self._admissible(-0.15, 0.0)
         if linear == 0.0 or base.x_m < -0.55:
             return True
         self.context.commands.drive = (linear, 0.0)
@@ -221,10 +197,10 @@ class CrossDoor(Action):
 
     def _clear_lane(self, base: Pose2) -> Lane | None:
         """The lane on which the way from here on is clear; ``None`` where none is."""
-        half_m = self._radius_m() + (0.0 if self._squeezes else LANE_SPARE_M)
+        half_m = self._radius_m() + (0.0 if self._squeezes else self._settings.lane_spare_m)
         width_m = self.context.snapshot.door(self.door_id).width_m
         points = base.apply(self._points_base())
-        return clear_lane(points, half_m=half_m, width_m=width_m, base_x_m=base.x_m)
+        return clear_lane(points, half_m=half_m, width_m=width_m, base_x_m=base.x_m, settings=self._settings.lanes)
 
     def _lined_up(self, base: Pose2) -> bool:
         in_front = -1.3 < base.x_m < -0.35 and abs(base.y_m) < 0.10
@@ -237,35 +213,48 @@ class CrossDoor(Action):
         base = Pose2.of(in_base(self.context, tracked).inverse())
         if tracked == self.door_id:
             return Pose2(-base.y_m, base.x_m, wrap_rad(base.yaw_rad + pi / 2))
-        return Pose2(base.y_m + WALL_M, -base.x_m, wrap_rad(base.yaw_rad - pi / 2))
+        return Pose2(base.y_m + self._settings.lanes.wall_m, -base.x_m, wrap_rad(base.yaw_rad - pi / 2))
+
+    def _admissible(self, linear_mps: float, angular_radps: float) -> tuple[float, float]:
+        context = self.context
+        safety = context.settings.navigation.safety
+        return admissible(linear_mps, angular_radps, self._points_base(), self._radius_m(), context.limits, safety)
 
     def _points_base(self) -> Points:
         """What was hit lately, and around what is known to lie on the floor of both rooms, which is soon overlooked."""
         context, snapshot = self.context, self.context.snapshot
         frame = robot_frame(snapshot)
         rooms = {snapshot.door(door).rooms[0] for door in (self.door_id, *twins_of(snapshot, self.door_id))}
-        low = [box.outline(CELL_M) for box in standing(snapshot, frame, small_only=True, rooms=rooms)]
+        low = [
+            box.outline(CELL_M)
+            for box in standing(snapshot, frame, small_only=True, rooms=rooms, settings=context.settings.navigation.map)
+        ]
         return planar_pose(context, frame).inverse_apply(np.concatenate([context.surroundings.points(), *low]))
 
     def _radius_m(self) -> float:
-        return footprint_radius_m(self.context) - (SQUEEZE_M if self._squeezes else 0.0)
+        return footprint_radius_m(self.context) - (
+            self.context.settings.navigation.plan.squeeze_m if self._squeezes else 0.0
+        )
 
     def _panel_share(self) -> float:
         """Share of the gap's width that the newest scan's high points fill within the wall, but for those on people."""
         door = self.context.snapshot.door(self.door_id)
-        points, (low, high) = self.context.obstacles_base, PANEL_HEIGHTS
+        points, settings = self.context.obstacles_base, self._settings
+        low, high = settings.panel_heights
         tall = (points[:, 2] > low * door.height_m) & (points[:, 2] < high * door.height_m)
         on_axis = self._base_on_axis().apply(self._beside_people(points[tall, :2]))
-        within = on_axis[(on_axis[:, 0] > -0.10) & (on_axis[:, 0] < WALL_M + 0.10)]
-        half_m = door.width_m / 2 - PANEL_BIN_M
-        edges = np.arange(-half_m, half_m + 1e-9, PANEL_BIN_M)
+        within = on_axis[(on_axis[:, 0] > -0.10) & (on_axis[:, 0] < settings.lanes.wall_m + 0.10)]
+        half_m = door.width_m / 2 - settings.panel_bin_m
+        edges = np.arange(-half_m, half_m + 1e-9, settings.panel_bin_m)
         return float((np.histogram(within[:, 1], edges)[0] > 0).mean())
 
     def _beside_people(self, points: Points) -> Points:
         """Those of ``points`` (N, 2) in the base's frame that are not on somebody whom the robot knows."""
         people = [in_base(self.context, person.id) for person in self.context.snapshot.of_type(PersonNode)]
         for T_base_person in people:
-            points = points[np.hypot(points[:, 0] - T_base_person.x_m, points[:, 1] - T_base_person.y_m) > PERSON_M]
+            points = points[
+                np.hypot(points[:, 0] - T_base_person.x_m, points[:, 1] - T_base_person.y_m) > self._settings.person_m
+            ]
         return points
 
     def _person_in_gap(self) -> str | None:
@@ -311,8 +300,14 @@ def twins_of(snapshot: Snapshot, door_id: str) -> list[str]:
 
 
 def _in_front(context: RobotContext, door_id: str, lane: Lane | None = None) -> GoalSource:
-    lane = lane or Lane()
-    places = [(x_m, y_m) for x_m in ASIDE_M for y_m in (FRONT_M, *OTHER_FRONTS_M)]
-    places += [(x_m, y_m) for y_m in THRESHOLDS_M for x_m in ASIDE_M]
+    settings = context.settings.goto.crossing
+    lane = lane or Lane(settings=settings.lanes)
+    fronts_m = (settings.lanes.front_m, *settings.other_fronts_m)
+    places = [(x_m, y_m) for x_m in settings.aside_m for y_m in fronts_m]
+    places += [(x_m, y_m) for y_m in settings.thresholds_m for x_m in settings.aside_m]
     heading_rad = lane.bearing_rad - pi / 2
     return at_poses(context, door_id, [(lane.y_m(-y_m) + x_m, y_m, heading_rad) for x_m, y_m in places])
+
+
+def _lining_up(context: RobotContext) -> DriverSettings:
+    return replace(context.settings.navigation.driver, position_m=context.settings.goto.crossing.position_m)

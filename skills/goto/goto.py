@@ -12,16 +12,12 @@ from skills.anchor import Anchor
 from skills.arm.approach import ApproachForReach
 from skills.arm.arm import Stow
 from skills.failures import Evidence, Failure, FailureCode
-from skills.goto.journeys import LEAST_STANDOFF_M, travel, visit
+from skills.goto.journeys import travel, visit
 from skills.goto.nearness import excess_m
+from skills.goto.settings import GotoSettings
 from skills.looking.looking import LookAt
 from skills.skill import Parameter, Unmet, argument_schema, unknown_arguments
 from skills.state.state import PlanState
-
-SPEED_MPS = 0.35
-SETTLE_S = 6.0
-UNKNOWN_WAY_M = 10.0
-PERSON_STANDOFF_M = 0.65
 
 
 class Goto:
@@ -40,6 +36,10 @@ class Goto:
             description="identifier of the room, object, person or door to drive to",
         ),
     )
+
+    def __init__(self, settings: GotoSettings = GotoSettings()) -> None:
+        """``settings``: what a way costs, and what counts as being there."""
+        self._settings = settings
 
     def schema(self) -> dict[str, Any]:
         """JSON schema of the arguments."""
@@ -66,27 +66,27 @@ class Goto:
 
     def cost_s(self, state: PlanState, args: Sequence[str]) -> float:
         """Driving time, and a while to line up and look."""
-        way_m = state.distance_m(state.robot_at, args[0])
-        return SETTLE_S + (UNKNOWN_WAY_M if way_m is None else way_m) / SPEED_MPS
+        way_m, settings = state.distance_m(state.robot_at, args[0]), self._settings
+        return settings.settle_s + (settings.unknown_way_m if way_m is None else way_m) / settings.speed_mps
 
     def actions(self, context: RobotContext, args: Sequence[str]) -> list[Action]:
         """Through the doors, then to the target, then look at it."""
         (target,) = args
-        node = context.building.node(target)
+        node, settings = context.building.node(target), context.settings.goto
         if isinstance(node, RoomNode | DoorNode):
-            return visit(context, target, 0.9)
+            return visit(context, target, settings.standoff_m)
         if isinstance(node, ObjectNode) and node.graspable:
             way = travel(context, context.building.room_of(target))
             approach = ApproachForReach(context, target, Anchor(target))
             return [Stow(context), *way, approach, LookAt(context, target, Anchor(target))]
-        standoff_m = LEAST_STANDOFF_M if isinstance(node, ObjectNode) else PERSON_STANDOFF_M
+        standoff_m = settings.least_standoff_m if isinstance(node, ObjectNode) else settings.person_standoff_m
         return [*visit(context, target, standoff_m), LookAt(context, target, Anchor(target))]
 
     def confirmed(self, snapshot: Snapshot, args: Sequence[str], since_s: float) -> Failure | None:
         """The graph places the robot in the room, or near the target; the pose estimate is always fresh."""
         del since_s
         (target,) = args
-        distance_m = excess_m(snapshot, target)
+        distance_m = excess_m(snapshot, target, self._settings.near)
         if distance_m is not None and distance_m <= 0.0:
             return None
         message = f"the robot is not at {target}."

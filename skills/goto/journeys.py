@@ -14,23 +14,13 @@ from skills.action import Action, Refusal, RobotContext
 from skills.anchor import Anchor
 from skills.arm.arm import Stow
 from skills.failures import Evidence, Failure, FailureCode
-from skills.goto.doors import ApproachDoor, CrossDoor, CrossingConfig, EnterRoom
+from skills.goto.doors import ApproachDoor, CrossDoor, EnterRoom
+from skills.goto.settings import GotoSettings
 from skills.looking.accounting import Account, AccountFor, SeeFromElsewhere
 from skills.looking.looking import LookAt, SweepCamera, gaze_points
 from skills.navigation.driving import DriveTo
 from skills.navigation.goals import around, at_poses, freest, near_origin, overlooking
 from skills.navigation.walls import robot_beyond_m
-
-LOOK_DWELL_S = 1.2
-LEAST_STANDOFF_M = 0.42
-"""Nearest that the base's axis comes to a footprint: the planning radius and what drawing on the grid takes."""
-
-THROUGH_M = 0.5
-"""So far beyond the wall a known room is entered: out of the gap, and no detour to what stands beside it."""
-BLOCKED_S = 120.0
-"""So long something is expected to stay in a doorway; another way is taken meanwhile, if there is one."""
-ASIDE_DEG = (0.0, 25.0, -25.0, 45.0, -45.0)
-"""From which sides a door may be looked at, when something stands before it."""
 
 
 def travel(context: RobotContext, room: str | None) -> list[Action]:
@@ -68,19 +58,22 @@ def look(context: RobotContext, node_id: str, standoff_m: float = 0.8, side_rad:
     where all of it is near, from the side ``side_rad`` (a direction in its frame) if that can be; then at whatever
     should be there and is not seen, and at what hides from there once more from another side.
     """
-    node = context.building.node(node_id)
+    node, settings = context.building.node(node_id), context.settings.goto
     if isinstance(node, RoomNode):
         return [*visit(context, node_id), SweepCamera(context)]
     if not isinstance(node, ObjectNode):
-        return [*visit(context, node_id, standoff_m), LookAt(context, node_id, Anchor(node_id), dwell_s=LOOK_DWELL_S)]
-    standoff_m = max(standoff_m, LEAST_STANDOFF_M)
+        return [
+            *visit(context, node_id, standoff_m),
+            LookAt(context, node_id, Anchor(node_id), dwell_s=settings.look_s),
+        ]
+    standoff_m = max(standoff_m, settings.least_standoff_m)
     where, account = overlooking(context, node_id, standoff_m, side_rad=side_rad), Account(context, node_id)
-    points = gaze_points(node.size_m, context.geometry.camera_height_m)
+    points = gaze_points(node.size_m, context.geometry.camera_height_m, context.settings.looking)
     return [
         Stow(context),
         *travel(context, context.building.room_of(node_id)),
         DriveTo(context, node_id, where),
-        *(LookAt(context, node_id, Anchor(node_id, point), dwell_s=LOOK_DWELL_S) for point in points),
+        *(LookAt(context, node_id, Anchor(node_id, point), dwell_s=settings.look_s) for point in points),
         AccountFor(account),
         SeeFromElsewhere(account, standoff_m),
         AccountFor(account),
@@ -109,33 +102,39 @@ def no_way(snapshot: Snapshot, here: str, room: str) -> Failure:
 def _way(context: RobotContext, snapshot: Snapshot, here: str, room: str) -> Path | None:
     """The shortest open way from where the robot stands, around doors that were blocked just now if there is one."""
     topology, start = Topology.from_snapshot(snapshot), snapshot.position(ROBOT_ID, here)
-    blocked = {door for door, since_s in context.blocked_doors.items() if context.stamp_s - since_s < BLOCKED_S}
+    blocked_s, lately = context.settings.goto.blocked_s, context.blocked_doors.items()
+    blocked = {door for door, since_s in lately if context.stamp_s - since_s < blocked_s}
     detour = topology.path(here, room, blocked, start_m=(start[0], start[1]))
     return detour if detour is not None else topology.path(here, room, start_m=(start[0], start[1]))
 
 
 def _back_inside(context: RobotContext, snapshot: Snapshot, here: str) -> list[Action]:
     """Back into the room that the robot hangs from, through its nearest door, when it stands beyond its walls."""
-    if robot_beyond_m(snapshot) == 0.0:
+    if robot_beyond_m(snapshot, context.settings.navigation.map) == 0.0:
         return []
     doors = [door.id for door in snapshot.of_type(DoorNode) if door.rooms[0] == here]
     away_m = {door: float(np.hypot(*snapshot.position(door, ROBOT_ID)[:2])) for door in doors}
-    return [_drive(context, min(away_m, key=lambda door: away_m[door]), 0.9)] if away_m else []
+    return (
+        [_drive(context, min(away_m, key=lambda door: away_m[door]), context.settings.goto.standoff_m)]
+        if away_m
+        else []
+    )
 
 
 def _drive(context: RobotContext, node_id: str, standoff_m: float) -> Action:
-    node = context.building.node(node_id)
+    node, settings = context.building.node(node_id), context.settings.goto
     if isinstance(node, RoomNode):
         return DriveTo(context, node_id, near_origin(context, node_id))
+    standoff_m = max(standoff_m, settings.least_standoff_m)
     if isinstance(node, DoorNode):
-        return DriveTo(context, node_id, at_poses(context, node_id, _before_door(max(standoff_m, LEAST_STANDOFF_M))))
-    return DriveTo(context, node_id, around(context, node_id, max(standoff_m, LEAST_STANDOFF_M)))
+        return DriveTo(context, node_id, at_poses(context, node_id, _before_door(standoff_m, settings)))
+    return DriveTo(context, node_id, around(context, node_id, standoff_m))
 
 
-def _before_door(standoff_m: float) -> list[tuple[float, float, float]]:
+def _before_door(standoff_m: float, settings: GotoSettings) -> list[tuple[float, float, float]]:
     """Poses from which to face a door, in its frame: straight before it, at several distances, then from aside."""
-    distances = dict.fromkeys((standoff_m, 0.8, 0.6, 1.2, 0.45))
-    places = [(d * sin(radians(a)), d * cos(radians(a))) for a in ASIDE_DEG for d in distances]
+    distances = dict.fromkeys((standoff_m, *settings.doors_from_m))
+    places = [(d * sin(radians(a)), d * cos(radians(a))) for a in settings.doors_aside_deg for d in distances]
     return [(x_m, y_m, atan2(-y_m, -x_m)) for x_m, y_m in places]
 
 
@@ -145,7 +144,7 @@ def _legs(path: Path) -> list[tuple[str, str]]:
 
 
 def _through(context: RobotContext, door: str, room: str) -> list[Action]:
-    crossing = CrossDoor(context, door, CrossingConfig(beyond_m=THROUGH_M))
+    crossing = CrossDoor(context, door, beyond_m=context.settings.goto.through_m)
     return [ApproachDoor(context, door), crossing, EnterRoom(context, room)]
 
 

@@ -6,17 +6,11 @@ from math import hypot
 
 from scene_graph.nodes import ROBOT_ID, DoorNode, Node, ObjectNode, ObjectState, PersonNode, RoomNode
 from scene_graph.snapshot import Snapshot
+from skills.goto.settings import NearnessSettings
 from skills.navigation.walls import robot_beyond_m
 
-OBJECT_M = 0.85
-"""From the base's axis to the extent of a piece of furniture."""
-GRASPABLE_M = 1.05
-"""To that of a thing to be grasped: the arm's span."""
-PERSON_M = 1.50
-DOOR_M = 1.50
 
-
-def excess_m(snapshot: Snapshot, node_id: str) -> float | None:
+def excess_m(snapshot: Snapshot, node_id: str, settings: NearnessSettings = NearnessSettings()) -> float | None:
     """How much too far the robot is from a node to be at it: 0 or less when it is, ``None`` when in another room.
 
     A room needs nothing but being within its walls; something missing is nowhere.
@@ -27,17 +21,19 @@ def excess_m(snapshot: Snapshot, node_id: str) -> float | None:
     if isinstance(node, RoomNode):
         return robot_beyond_m(snapshot)
     if isinstance(node, ObjectNode):
-        return None if node.state is ObjectState.MISSING else extent_distance_m(snapshot, node) - _reach_m(node)
+        return (
+            None if node.state is ObjectState.MISSING else extent_distance_m(snapshot, node) - _reach_m(node, settings)
+        )
     x_m, y_m, _ = snapshot.transform(node_id, ROBOT_ID).translation_m
-    return hypot(x_m, y_m) - _reach_m(node)
+    return hypot(x_m, y_m) - _reach_m(node, settings)
 
 
-def is_at(snapshot: Snapshot, node_id: str) -> bool:
+def is_at(snapshot: Snapshot, node_id: str, settings: NearnessSettings = NearnessSettings()) -> bool:
     """Whether the robot is at an object or a person, and beside it: a graph that has both in one place was never told
     where they are.
     """
-    gap_m, node = excess_m(snapshot, node_id), snapshot.get(node_id)
-    return gap_m is not None and node is not None and -_reach_m(node) < gap_m <= 0.0
+    gap_m, node = excess_m(snapshot, node_id, settings), snapshot.get(node_id)
+    return gap_m is not None and node is not None and -_reach_m(node, settings) < gap_m <= 0.0
 
 
 def extent_distance_m(snapshot: Snapshot, node: ObjectNode) -> float:
@@ -46,7 +42,7 @@ def extent_distance_m(snapshot: Snapshot, node: ObjectNode) -> float:
     return hypot(max(abs(x_m) - node.size_m[0] / 2, 0.0), max(abs(y_m) - node.size_m[1] / 2, 0.0))
 
 
-def _reach_m(node: Node) -> float:
-    if isinstance(node, ObjectNode) and node.graspable:
-        return GRASPABLE_M
-    return {PersonNode: PERSON_M, DoorNode: DOOR_M}.get(type(node), OBJECT_M)
+def _reach_m(node: Node, settings: NearnessSettings) -> float:
+    if isinstance(node, ObjectNode):
+        return settings.graspable_m if node.graspable else settings.object_m
+    return {PersonNode: settings.person_m, DoorNode: settings.door_m}.get(type(node), settings.object_m)

@@ -15,9 +15,6 @@ from skills.navigation.driving import DriveTo
 from skills.navigation.goals import overlooking
 from skills.navigation.pose import in_base
 
-NOTICEABLE = 0.02
-"""By so much the probability falls that a thing is there while one looks and does not find it."""
-
 
 class Account:
     """What should be on or in a node, and was not seen since ``since_s`` before the account was opened."""
@@ -78,7 +75,9 @@ class AccountFor(Action):
             self._tried.add(object_id)
             self._object_id, self._waits_from_s, self._existence = object_id, None, 1.0
         aimed, existence = self._gaze.at(*aim(self.context, Anchor(object_id))), self._existence_of(object_id)
-        if aimed and (self._waits_from_s is None or existence < self._existence - NOTICEABLE):
+        if aimed and (
+            self._waits_from_s is None or existence < self._existence - self.context.settings.looking.noticeable
+        ):
             self._waits_from_s, self._existence = self.context.stamp_s, existence
         return Status.RUNNING
 

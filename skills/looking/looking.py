@@ -12,27 +12,9 @@ from skills.action import Action, RobotContext
 from skills.anchor import Anchor, AnchorSource, resolved
 from skills.failures import FailureCode
 from skills.geometry import wrap_rad
+from skills.looking.settings import LookSettings, Row
 from skills.navigation.pose import planar_pose, robot_frame
 from skills.navigation.pursuit import turn_rate
-
-CAMERA_X_M = 0.05
-SETTLED_RAD = 0.02
-DRIFT_RAD = 0.06
-DWELL_S = 0.5
-"""Long enough for two still frames at 5 Hz."""
-VIEWS = 8
-TILT_RAD = -0.38
-RAISED_RAD = 0.15
-"""Above what is seen at ``TILT_RAD``: the tops of wardrobes and shelves, and what hangs on walls."""
-LOWERED_RAD = -0.98
-"""Below what is seen at ``TILT_RAD``: the floor from 0.4 m before the camera's foot on, and low furniture there."""
-LOWERED_VIEWS = 6
-"""The nearer to straight down, the more of the surroundings is in a picture."""
-PICTURE_M = 0.9
-"""So much of a thing, side by side, is in a picture taken from an arm's length."""
-TOP, UPPER, LOWER = 0.3, 0.17, -0.25
-"""Where to look at a thing, as shares of its height from its middle; the latter two where it is as high as the eye."""
-EYE_LEVEL_M = 0.2
 
 
 class LookAt(Action):
@@ -40,9 +22,11 @@ class LookAt(Action):
 
     timeout_s = 15.0
 
-    def __init__(self, context: RobotContext, target: str, where: AnchorSource, *, dwell_s: float = DWELL_S) -> None:
+    def __init__(
+        self, context: RobotContext, target: str, where: AnchorSource, *, dwell_s: float | None = None
+    ) -> None:
         super().__init__(f"look at {target}", context)
-        self._where, self._dwell_s = where, dwell_s
+        self._where, self._dwell_s = where, context.settings.looking.dwell_s if dwell_s is None else dwell_s
         self._gaze = Gaze(context)
         self._settled_s: float | None = None
 
@@ -64,19 +48,15 @@ class LookAt(Action):
         return Status.SUCCESS if self.context.stamp_s - self._settled_s >= self._dwell_s else Status.RUNNING
 
 
-Row = tuple[float, int]
-"""Tilt of the camera and number of views all around."""
-ROWS: tuple[Row, ...] = ((TILT_RAD, VIEWS), (RAISED_RAD, VIEWS), (LOWERED_RAD, LOWERED_VIEWS))
-
-
 class SweepCamera(Action):
     """Looks once around in overlapping views, standing still in each long enough to be seen twice."""
 
     timeout_s = 90.0
 
-    def __init__(self, context: RobotContext, *, rows: tuple[Row, ...] = ROWS) -> None:
+    def __init__(self, context: RobotContext, *, rows: tuple[Row, ...] | None = None) -> None:
         super().__init__("look around", context)
-        self._rows = rows
+        self._settings = context.settings.looking
+        self._rows = self._settings.rows if rows is None else rows
         self._gaze = Gaze(context)
         self._todo: list[tuple[float, float]] = []
         self._settled_s: float | None = None
@@ -93,7 +73,7 @@ class SweepCamera(Action):
     def step(self) -> Status:
         """Aim at the next heading, settle, dwell."""
         if not self._todo:
-            self.context.commands.look = (0.0, TILT_RAD)
+            self.context.commands.look = (0.0, self._settings.tilt_rad)
             return Status.SUCCESS
         heading, tilt = self._todo[0]
         if not self._gaze.at(wrap_rad(heading - self._yaw()), tilt):
@@ -101,7 +81,7 @@ class SweepCamera(Action):
             return Status.RUNNING
         if self._settled_s is None:
             self._settled_s = self.context.stamp_s
-        if self.context.stamp_s - self._settled_s >= DWELL_S:
+        if self.context.stamp_s - self._settled_s >= self._settings.dwell_s:
             self._todo.pop(0)
             self._settled_s = None
         return Status.RUNNING
@@ -113,19 +93,19 @@ class SweepCamera(Action):
 def aim(context: RobotContext, anchor: Anchor) -> tuple[float, float]:
     """Pan and tilt that center ``anchor`` in the image (radians; pan to the left, tilt up positive); unlimited."""
     x_m, y_m, z_m = anchor.in_base(context)
-    ahead = hypot(x_m - CAMERA_X_M, y_m)
-    return atan2(y_m, x_m - CAMERA_X_M), atan2(z_m - context.geometry.camera_height_m, max(ahead, 1e-3))
+    before_m, over_m = x_m - context.geometry.camera_x_m, z_m - context.geometry.camera_height_m
+    return atan2(y_m, before_m), atan2(over_m, max(hypot(before_m, y_m), 1e-3))
 
 
-def gaze_points(size_m: Point3, camera_height_m: float) -> list[Point3]:
+def gaze_points(size_m: Point3, camera_height_m: float, settings: LookSettings) -> list[Point3]:
     """Where to point the camera, from an arm's length, to see all of a thing of this size: points in its own frame.
 
     A top is seen in pictures side by side, what is as high as the camera also in one below the other.
     """
     x_m, y_m, z_m = size_m
-    count = max(1, ceil(max(x_m, y_m) / PICTURE_M))
+    count = max(1, ceil(max(x_m, y_m) / settings.picture_m))
     aside = [max(x_m, y_m) * ((number + 0.5) / count - 0.5) for number in range(count)]
-    heights = (UPPER, LOWER) if z_m > camera_height_m - EYE_LEVEL_M else (TOP,)
+    heights = settings.high if z_m > camera_height_m - settings.eye_level_m else (settings.top,)
     return [(a, 0.0, h * z_m) if x_m >= y_m else (0.0, a, h * z_m) for h in heights for a in aside]
 
 
@@ -133,7 +113,7 @@ class Gaze:
     """Points the camera and holds it still: the pose estimate's noise does not move it, a real change does."""
 
     def __init__(self, context: RobotContext) -> None:
-        self._context = context
+        self._context, self._settings = context, context.settings.looking
         self._held: tuple[float, float] | None = None
 
     def at(self, pan_rad: float, tilt_rad: float) -> bool:
@@ -141,13 +121,13 @@ class Gaze:
         limits, body = self._context.limits, self._context.body
         (pan_low, pan_high), (tilt_low, tilt_high) = limits.pan_rad, limits.tilt_rad
         pan, tilt = min(max(pan_rad, pan_low), pan_high), min(max(tilt_rad, tilt_low), tilt_high)
-        if self._held is None or max(abs(self._held[0] - pan), abs(self._held[1] - tilt)) > DRIFT_RAD:
+        if self._held is None or max(abs(self._held[0] - pan), abs(self._held[1] - tilt)) > self._settings.drift_rad:
             self._held = (pan, tilt)
         self._context.commands.look = self._held
-        if abs(pan_rad - pan) > SETTLED_RAD:
+        if abs(pan_rad - pan) > self._settings.settled_rad:
             self._context.commands.drive = (0.0, turn_rate(pan_rad - pan, limits))
             return False
         self._context.commands.drive = (0.0, 0.0)
         still = abs(body.angular_radps) < 0.03 and abs(body.linear_mps) < 0.02
-        aimed = max(abs(body.pan_rad - self._held[0]), abs(body.tilt_rad - self._held[1])) < SETTLED_RAD
+        aimed = max(abs(body.pan_rad - self._held[0]), abs(body.tilt_rad - self._held[1])) < self._settings.settled_rad
         return still and aimed

@@ -16,11 +16,6 @@ from skills.arm.kinematics import reach_band_m
 from skills.failures import Failure, FailureCode
 from skills.looking.looking import Gaze, aim
 
-MOVED_M = 0.15
-GLANCES_RAD = ((0.0, 0.0), (0.12, 0.0), (-0.12, 0.0), (0.0, -0.1))
-GLANCE_S = 2.0
-PAST_EDGE_M = 0.05
-
 
 class Refine(Action):
     """Looks at an object until perception has seen it ``fresh`` times since the action began.
@@ -64,7 +59,7 @@ class Refine(Action):
 
     def _look(self) -> bool:
         pan, tilt = aim(self.context, Anchor(self.object_id))
-        pan_more, tilt_more = GLANCES_RAD[int(self.elapsed_s / GLANCE_S) % len(GLANCES_RAD)]
+        pan_more, tilt_more = _glance_rad(self)
         return self._gaze.at(pan + pan_more, tilt + tilt_more)
 
     def _judge(self) -> Status:
@@ -73,7 +68,7 @@ class Refine(Action):
             return Status.SUCCESS
         offset = Anchor(self.object_id).position(snapshot, self._planned.node_id) - self._planned.point_m
         moved_m = hypot(offset[0], offset[1])
-        if moved_m <= MOVED_M or self._within_reach():
+        if moved_m <= self.context.settings.looking.moved_m or self._within_reach():
             return Status.SUCCESS
         message = f"{self.object_id} is {moved_m:.2f} m from where it was planned to be."
         return self.fail(FailureCode.OBJECT_MOVED, message, (self.object_id,), f"moved {moved_m:.2f} m")
@@ -81,7 +76,8 @@ class Refine(Action):
     def _within_reach(self) -> bool:
         x_m, y_m, _ = Anchor(self.object_id).in_base(self.context)
         _, far_m = reach_band_m(self.context.limits.wrist_pitch_rad[0], self.context.geometry, self.context.limits)
-        return self.context.limits.footprint_radius_m + PAST_EDGE_M < hypot(x_m, y_m) < far_m - 0.01
+        edge_m = self.context.limits.footprint_radius_m + self.context.settings.looking.past_edge_m
+        return edge_m < hypot(x_m, y_m) < far_m - 0.01
 
     def _gone(self, message: str) -> Status:
         node = self.context.snapshot.get(self.object_id)
@@ -125,9 +121,15 @@ class Confirm(Action):
             return self.fail(FailureCode.SLIPPED, "the fingers lost what they held.", amiss.evidence.nodes)
         if self._where.node_id in snapshot:
             pan, tilt = aim(self.context, self._where)
-            pan_more, tilt_more = GLANCES_RAD[int(self.elapsed_s / GLANCE_S) % len(GLANCES_RAD)]
+            pan_more, tilt_more = _glance_rad(self)
             self._gaze.at(pan + pan_more, tilt + tilt_more)
         if self.elapsed_s > self._patience_s:
             self.failure, self.feedback_message = amiss, amiss.message
             return Status.FAILURE
         return Status.RUNNING
+
+
+def _glance_rad(action: Action) -> tuple[float, float]:
+    """Pan and tilt that are added just now."""
+    settings = action.context.settings.looking
+    return settings.glances_rad[int(action.elapsed_s / settings.glance_s) % len(settings.glances_rad)]

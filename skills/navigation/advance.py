@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
-STEP_M = 0.04
-DETOUR_M = 0.3
-MOST_DETOURS = 3
+from skills.navigation.settings import DriverSettings
 
 
 @dataclass(kw_only=True)
@@ -25,18 +23,19 @@ class Advance:
     """
 
     stamp_s: float
+    settings: DriverSettings = field(default_factory=DriverSettings)
     detours: int = 0
     _remaining_m: float = np.inf
     _nearest_m: float = np.inf
 
     def note(self, remaining_m: float, stamp_s: float, *, turning: bool) -> None:
         """Take in the length of the way left. ``turning``: the robot turns in place, which is no standstill."""
-        if remaining_m < self._nearest_m - STEP_M:
+        if remaining_m < self._nearest_m - self.settings.step_m:
             self._nearest_m, self.detours = remaining_m, 0
-        if remaining_m > self._remaining_m + DETOUR_M:
+        if remaining_m > self._remaining_m + self.settings.detour_m:
             self._remaining_m = remaining_m
             self.detours += 1
-        elif remaining_m < self._remaining_m - STEP_M:
+        elif remaining_m < self._remaining_m - self.settings.step_m:
             self.stamp_s, self._remaining_m = stamp_s, remaining_m
         if turning:
             self.stamp_s = stamp_s
@@ -44,4 +43,4 @@ class Advance:
     @property
     def astray(self) -> bool:
         """Whether the robot goes back and forth."""
-        return self.detours > MOST_DETOURS
+        return self.detours > self.settings.most_detours

@@ -9,6 +9,7 @@ from scene_graph.geometry.se3 import SE3
 from skills.geometry import Points
 
 CELL_M = 0.04
+"""Length of a cell's side: the resolution of memory and map alike."""
 _OFFSET = 1 << 20
 _COLUMN = 1 << 21
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Collection
-from dataclasses import dataclass
 from enum import Enum, auto
 
 import numpy as np
@@ -15,9 +14,8 @@ from skills.navigation.plan import Goal, GoalSource, Plan, make_plan
 from skills.navigation.pose import look_around, planar_pose, robot_frame
 from skills.navigation.pursuit import Pursuit, deviation_m, point_ahead, turn_rate
 from skills.navigation.route import path_length_m
-from skills.navigation.safety import FAR_M, admissible, retreat
-
-PASSED_RAD = 1.2
+from skills.navigation.safety import admissible, retreat
+from skills.navigation.settings import DriverSettings
 
 
 class Progress(Enum):
@@ -29,19 +27,6 @@ class Progress(Enum):
     BLOCKED = auto()
 
 
-@dataclass(frozen=True, kw_only=True)
-class DriverConfig:
-    """Tolerances and patience."""
-
-    position_m: float = 0.05
-    yaw_rad: float = 0.03
-    replan_s: float = 1.0
-    retry_s: float = 0.5
-    patience_s: float = 8.0
-    no_way_s: float = 4.0
-    stray_m: float = 0.35
-
-
 class Driver:
     """One drive. Call ``step`` every tick; it leaves a drive command in the context."""
 
@@ -51,13 +36,13 @@ class Driver:
         goals: GoalSource,
         *,
         ignore: Collection[str] = (),
-        config: DriverConfig | None = None,
+        settings: DriverSettings | None = None,
     ) -> None:
         self._context, self._goals, self._ignore = context, goals, frozenset(ignore)
-        self._config = config or DriverConfig()
-        self._pursuit = Pursuit(context.limits)
+        self._settings = settings or context.settings.navigation.driver
+        self._pursuit = Pursuit(context.limits, context.settings.navigation.pursuit)
         self._plan: Plan | None = None
-        self._tried_s, self._advance = -np.inf, Advance(stamp_s=context.stamp_s)
+        self._tried_s, self._advance = -np.inf, Advance(stamp_s=context.stamp_s, settings=self._settings)
         self._turning = False
 
     @property
@@ -79,7 +64,7 @@ class Driver:
         plan = self._present_plan(frame, pose)
         if plan is None:
             context.commands.drive = (0.0, 0.0)
-            return Progress.NO_WAY if self._waited_s > self._config.no_way_s else Progress.RUNNING
+            return Progress.NO_WAY if self._waited_s > self._settings.no_way_s else Progress.RUNNING
         if self._turning or self._has_arrived(plan.goal, pose):
             self._turning = True
             return self._turn(plan.goal, pose)
@@ -103,11 +88,11 @@ class Driver:
         """The plan to follow now: the last one while it is fresh, else a new one; ``None`` when there is no way."""
         now_s, plan = self._context.stamp_s, self._plan
         if plan is not None and plan.frame == frame:
-            astray = deviation_m(plan.path, pose.point) > self._config.stray_m
-            fresh_s = self._config.retry_s if astray else self._config.replan_s
+            astray = deviation_m(plan.path, pose.point) > self._settings.stray_m
+            fresh_s = self._settings.retry_s if astray else self._settings.replan_s
             if self._turning or now_s - plan.made_s < fresh_s:
                 return plan
-        elif plan is None and now_s - self._tried_s < self._config.retry_s:
+        elif plan is None and now_s - self._tried_s < self._settings.retry_s:
             return None
         last = plan.goal if plan is not None and plan.frame == frame else None
         self._tried_s = now_s
@@ -118,18 +103,19 @@ class Driver:
 
     def _has_arrived(self, goal: Goal, pose: Pose2) -> bool:
         distance_m = pose.distance_m(goal.point)
-        passed = abs(wrap_rad(pose.bearing_rad(goal.point) - pose.yaw_rad)) > PASSED_RAD
-        return distance_m < self._config.position_m or (distance_m < 2 * self._config.position_m and passed)
+        passed = abs(wrap_rad(pose.bearing_rad(goal.point) - pose.yaw_rad)) > self._settings.passed_rad
+        return distance_m < self._settings.position_m or (distance_m < 2 * self._settings.position_m and passed)
 
     def _follow(self, plan: Plan, pose: Pose2) -> Progress:
         context = self._context
         clearance_m = float(plan.grid.clearance_at(np.array([pose.point]))[0])
         wanted = self._pursuit.velocity(pose, plan.path, clearance_m, context.body.linear_mps)
-        near = context.surroundings.points_near(pose.point, FAR_M)
+        safety = context.settings.navigation.safety
+        near = context.surroundings.points_near(pose.point, safety.far_m)
         obstacles_base = pose.inverse_apply(plan.walls.explain(near))
-        linear, angular = admissible(*wanted, obstacles_base, plan.radius_m, context.limits)
+        linear, angular = admissible(*wanted, obstacles_base, plan.radius_m, context.limits, safety)
         if linear == 0.0 < wanted[0]:
-            linear = retreat(obstacles_base, plan.radius_m, context.limits)
+            linear = retreat(obstacles_base, plan.radius_m, context.limits, safety)
         context.commands.drive = (linear, angular if linear >= 0.0 else 0.0)
         return self._judge(plan, pose)
 
@@ -137,14 +123,14 @@ class Driver:
         """Whether the drive advances; when it does not for long, give up."""
         _, remaining_m = point_ahead(plan.path, pose.point, 0.0)
         self._advance.note(remaining_m, self._context.stamp_s, turning=self._pursuit.turning)
-        stuck = self._waited_s > self._config.patience_s or self._advance.astray
+        stuck = self._waited_s > self._settings.patience_s or self._advance.astray
         return Progress.BLOCKED if stuck else Progress.RUNNING
 
     def _turn(self, goal: Goal, pose: Pose2) -> Progress:
         """Turn in place to the goal's heading and come to rest."""
         context = self._context
         error = 0.0 if goal.yaw_rad is None else wrap_rad(goal.yaw_rad - pose.yaw_rad)
-        if abs(error) < self._config.yaw_rad:
+        if abs(error) < self._settings.yaw_rad:
             context.commands.drive = (0.0, 0.0)
             still = abs(context.body.angular_radps) < 0.05 and abs(context.body.linear_mps) < 0.02
             return Progress.ARRIVED if still else Progress.RUNNING

@@ -13,13 +13,12 @@ from skills.action import Action, RobotContext
 from skills.anchor import AnchorSource, resolved
 from skills.failures import FailureCode
 from skills.geometry import Point2, Points
-from skills.navigation.driver import Driver, DriverConfig, Progress
+from skills.navigation.driver import Driver, Progress
 from skills.navigation.local_map import footprint
 from skills.navigation.plan import GoalSource
 from skills.navigation.pose import robot_frame
 from skills.navigation.pursuit import turn_rate
-
-PERSON_NEAR_M = 0.7
+from skills.navigation.settings import DriverSettings
 
 
 class DriveTo(Action):
@@ -35,11 +34,11 @@ class DriveTo(Action):
         goals: GoalSource,
         *,
         ignore: Collection[str] = (),
-        config: DriverConfig | None = None,
+        settings: DriverSettings | None = None,
     ) -> None:
         super().__init__(f"drive to {target}", context)
         self.target = target
-        self._goals, self._ignore, self._config = goals, ignore, config
+        self._goals, self._ignore, self._drive_settings = goals, ignore, settings
         self._driver = self.new_driver()
 
     def begin(self) -> None:
@@ -68,7 +67,7 @@ class DriveTo(Action):
 
     def new_driver(self) -> Driver:
         """A fresh drive to the goals."""
-        return Driver(self.context, self._goals, ignore=self._ignore, config=self._config)
+        return Driver(self.context, self._goals, ignore=self._ignore, settings=self._drive_settings)
 
     def blocked(self, obstacle: Point2, *, no_way: bool) -> Status:
         """Fail, naming what is in the way as far as the graph knows it."""
@@ -113,9 +112,10 @@ def nodes_at(context: RobotContext, point: Point2, within_m: float = 0.35) -> li
     snapshot = context.snapshot
     frame = robot_frame(snapshot)
     found: list[tuple[bool, float, str]] = []
+    near_m = context.settings.navigation.driver.person_near_m
     for person in snapshot.of_type(PersonNode):
         x_m, y_m, _ = snapshot.position(person.id, frame)
-        if (distance_m := hypot(x_m - point[0], y_m - point[1])) < PERSON_NEAR_M:
+        if (distance_m := hypot(x_m - point[0], y_m - point[1])) < near_m:
             found.append((False, distance_m, person.id))
     for node in snapshot.of_type(ObjectNode):
         if snapshot.room_of(node.id) == frame and snapshot.support_of(node.id) is None:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from scene_graph.geometry.se3 import SE3
 from skills.geometry import Points
 from skills.navigation.cells import found, keys_of, moved, neighbor_keys
+from skills.navigation.settings import FloorReliefSettings
 from skills.ports import FloorReturns
 
 _SPOT = np.dtype(
@@ -27,37 +28,21 @@ _SPOT = np.dtype(
 _MEANS = ("height_m", "square_m2", "at_m")
 
 
-@dataclass(frozen=True, kw_only=True)
-class FloorReliefConfig:
-    """``raised_m``: least height of what matters to the base. ``significance``: in standard errors of the mean.
-
-    ``returns``: least number for a mean, ``most_returns``: after so many, new ones replace old. ``fade_s``: how long a
-    spot is remembered. ``flattest_m``: least standard deviation assumed of a return's height.
-    """
-
-    raised_m: float = 0.015
-    significance: float = 5.0
-    returns: int = 8
-    most_returns: int = 60
-    fade_s: float = 300.0
-    flattest_m: float = 0.005
-
-
 @dataclass(kw_only=True)
 class FloorRelief:
     """Mean height above the floor of spots of ``CELL_M``, by what was returned from there."""
 
-    config: FloorReliefConfig = field(default_factory=FloorReliefConfig)
+    settings: FloorReliefSettings = field(default_factory=FloorReliefSettings)
     _spots: NDArray[np.void] = field(default_factory=lambda: np.zeros(0, dtype=_SPOT))
 
     def points(self) -> Points:
         """Where something rises from the floor, (N, 2), in the frame of the observations; single spots do not count."""
-        spots, config = self._spots, self.config
-        variance = np.maximum(spots["square_m2"] - spots["height_m"] ** 2, config.flattest_m**2)
+        spots, settings = self._spots, self.settings
+        variance = np.maximum(spots["square_m2"] - spots["height_m"] ** 2, settings.flattest_m**2)
         error_m = np.sqrt(variance / np.maximum(spots["returns"], 1.0))
         raised = spots[
-            (spots["returns"] >= config.returns)
-            & (spots["height_m"] > np.maximum(config.raised_m, config.significance * error_m))
+            (spots["returns"] >= settings.returns)
+            & (spots["height_m"] > np.maximum(settings.raised_m, settings.significance * error_m))
         ]
         beside = np.isin(neighbor_keys(raised["key"]), raised["key"]).any(axis=0)
         return np.array(raised["at_m"][beside])
@@ -74,12 +59,12 @@ class FloorRelief:
         for axis in (0, 1):
             seen["at_m"][:, axis] = np.bincount(index, at_m[:, axis], len(keys)) / count
         self._merge(seen)
-        self._spots = self._spots[stamp_s - self._spots["seen_s"] <= self.config.fade_s]
+        self._spots = self._spots[stamp_s - self._spots["seen_s"] <= self.settings.fade_s]
 
     def flat_among(self, keys: NDArray[np.int64], stamp_s: float) -> NDArray[np.bool_]:
         """Which of the cells ``keys`` (N,) were seen at ``stamp_s`` to be bare floor."""
         now = self._spots[self._spots["seen_s"] == stamp_s]
-        bare = (now["returns"] >= self.config.returns) & (now["height_m"] < self.config.raised_m)
+        bare = (now["returns"] >= self.settings.returns) & (now["height_m"] < self.settings.raised_m)
         return np.isin(keys, now["key"][bare])
 
     def move_to(self, T_new_old: SE3 | None) -> None:
@@ -90,7 +75,7 @@ class FloorRelief:
         """Take in what was seen, sorted by key and each once."""
         place, known = found(seen["key"], self._spots["key"])
         before, after = self._spots[place[known]], seen[known]
-        kept = np.minimum(before["returns"], self.config.most_returns)
+        kept = np.minimum(before["returns"], self.settings.most_returns)
         share = after["returns"] / (kept + after["returns"])
         for name in _MEANS:
             weight = share[:, None] if name == "at_m" else share

@@ -17,18 +17,8 @@ from skills.geometry import Box2, Points, Pose2
 from skills.navigation.plan import Goal, GoalSource
 from skills.navigation.pose import planar_pose, robot_frame
 from skills.navigation.route import Routes
+from skills.navigation.settings import GoalSettings
 from skills.navigation.sight import hidden_share
-
-SPACING_M = 0.15
-OTHER_SIDE_M = 6.0
-"""So much way is made to look at a thing from the side that is wanted and not from the opposite one."""
-PERSON_SIZE_M = 0.4
-_NEAR_M = (0.0, 0.1, 0.2, 0.35)
-_FAR_M = (0.6, 0.9, 1.3)
-_LAST_RESORT_M = 20.0
-"""As how many meters of way it counts to look from farther away than one should."""
-_HIDDEN_M = 30.0
-"""As how many meters of way it counts that all of what one looks at hides behind something."""
 
 
 def at_poses(context: RobotContext, node_id: str, poses: Sequence[tuple[float, float, float | None]]) -> GoalSource:
@@ -65,7 +55,7 @@ def near_origin(context: RobotContext, node_id: str, radius_m: float = 1.2) -> G
 
 def freest(context: RobotContext, reach_m: float = 2.5) -> GoalSource:
     """Spots within ``reach_m`` of where the robot is now, those farthest from everything preferred; needs no map."""
-    steps = np.arange(-reach_m, reach_m + 1e-6, 2 * SPACING_M)
+    steps = np.arange(-reach_m, reach_m + 1e-6, 2 * context.settings.navigation.goals.spacing_m)
     spots = np.stack(np.meshgrid(steps, steps), axis=-1).reshape(-1, 2)
     points = spots + planar_pose(context, robot_frame(context.snapshot)).point
 
@@ -82,7 +72,8 @@ def around(context: RobotContext, node_id: str, standoff_m: float) -> GoalSource
 
     def goals(routes: Routes | None) -> list[Goal]:
         del routes
-        return _facing(_footprint(context, node_id), standoff_m)
+        settings = context.settings.navigation.goals
+        return _facing(_footprint(context, node_id), standoff_m, settings.near_m, settings)
 
     return goals
 
@@ -113,13 +104,15 @@ def overlooking(
 def _overlooking(
     context: RobotContext, node_id: str, standoff_m: float, side_rad: float | None, things: Sequence[str]
 ) -> list[Goal]:
-    box = _footprint(context, node_id)
-    afar = [replace(goal, cost_m=goal.cost_m + _LAST_RESORT_M) for goal in _facing(box, standoff_m, _FAR_M)]
-    found = [*_facing(box, standoff_m), *afar]
+    box, settings = _footprint(context, node_id), context.settings.navigation.goals
+    afar = _facing(box, standoff_m, settings.far_m, settings)
+    afar = [replace(goal, cost_m=goal.cost_m + settings.last_resort_m) for goal in afar]
+    found = [*_facing(box, standoff_m, settings.near_m, settings), *afar]
     hidden = _hidden(context, node_id, np.array([goal.point for goal in found]), things)
     return [
-        replace(goal, cost_m=goal.cost_m + _askew_m(box, goal.point, side_rad) + _HIDDEN_M * share)
+        replace(goal, cost_m=goal.cost_m + askew_m + settings.hidden_m * share)
         for goal, share in zip(found, hidden.tolist(), strict=True)
+        for askew_m in (_askew_m(box, goal.point, side_rad, settings.other_side_m),)
     ]
 
 
@@ -154,46 +147,47 @@ def _top(context: RobotContext, node_id: str) -> Points:
     return np.column_stack((xy, np.full(len(xy), top_m)))
 
 
-def _facing(box: Box2, standoff_m: float, extras_m: Sequence[float] = _NEAR_M) -> list[Goal]:
+def _facing(box: Box2, standoff_m: float, extras_m: Sequence[float], settings: GoalSettings) -> list[Goal]:
     """Goals on curves around a rectangle, ``standoff_m`` and ``extras_m`` away, the nearer ones preferred."""
     found = []
     for extra_m in extras_m:
-        for x_m, y_m in _outline(box, standoff_m + extra_m):
+        for x_m, y_m in _outline(box, standoff_m + extra_m, settings.spacing_m):
             yaw = Pose2(x_m, y_m).bearing_rad(box.pose.point)
             found.append(Goal(point=(x_m, y_m), yaw_rad=yaw, cost_m=3.0 * extra_m))
     return found
 
 
-def _askew_m(box: Box2, point: tuple[float, float], side_rad: float | None) -> float:
+def _askew_m(box: Box2, point: tuple[float, float], side_rad: float | None, other_side_m: float) -> float:
     """As how many meters of way it counts that a corner is far from ``point``, and that it lies on another side."""
     far_m = float(np.hypot(*(box.corners() - point).T).max())
     if side_rad is None:
         return far_m
     off_rad = box.pose.bearing_rad(point) - box.pose.yaw_rad - side_rad
-    return far_m + OTHER_SIDE_M * (1.0 - cos(off_rad)) / 2.0
+    return far_m + other_side_m * (1.0 - cos(off_rad)) / 2.0
 
 
-def _outline(box: Box2, distance_m: float) -> list[tuple[float, float]]:
-    """Points on the curve at ``distance_m`` around a rectangle, about ``SPACING_M`` apart."""
+def _outline(box: Box2, distance_m: float, spacing_m: float) -> list[tuple[float, float]]:
+    """Points on the curve at ``distance_m`` around a rectangle, about ``spacing_m`` apart."""
     half_x, half_y = box.size_x_m / 2, box.size_y_m / 2
     local: list[tuple[float, float]] = []
     for sign in (1.0, -1.0):
-        local += [(x, sign * (half_y + distance_m)) for x in _spread(half_x)]
-        local += [(sign * (half_x + distance_m), y) for y in _spread(half_y)]
+        local += [(x, sign * (half_y + distance_m)) for x in _spread(half_x, spacing_m)]
+        local += [(sign * (half_x + distance_m), y) for y in _spread(half_y, spacing_m)]
         for other in (1.0, -1.0):
             for angle in (pi / 6, pi / 3):
                 local.append((sign * (half_x + distance_m * cos(angle)), other * (half_y + distance_m * sin(angle))))
     return [(float(x), float(y)) for x, y in box.pose.apply(np.array(local))]
 
 
-def _spread(half_m: float) -> list[float]:
-    count = max(int(2 * half_m / SPACING_M), 0)
+def _spread(half_m: float, spacing_m: float) -> list[float]:
+    count = max(int(2 * half_m / spacing_m), 0)
     return [float(value) for value in np.linspace(-half_m, half_m, count + 1)] if count else [0.0]
 
 
 def _footprint(context: RobotContext, node_id: str) -> Box2:
     node = context.snapshot.get(node_id)
-    size = node.size_m if isinstance(node, ObjectNode) else (PERSON_SIZE_M, PERSON_SIZE_M, 0.0)
+    person_m = context.settings.navigation.goals.person_size_m
+    size = node.size_m if isinstance(node, ObjectNode) else (person_m, person_m, 0.0)
     return Box2(_planar(context, node_id), size[0], size[1])
 
 

@@ -11,13 +11,10 @@ from scipy.ndimage import distance_transform_edt
 from scipy.spatial import cKDTree
 
 from skills.geometry import Box2, Point2, Points
+from skills.navigation.cells import CELL_M
 
-CELL_M = 0.04
 GROW_M = 0.71 * CELL_M
 """Obstacles grow by half a cell's diagonal before they are drawn, so that none slips between cell centers."""
-
-EXACT_M = 0.8
-"""Distances up to this are exact; no robot is so wide, nor keeps so far from things, that more would matter."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -92,12 +89,14 @@ class Canvas:
         self.blocked[i, j] = True
         self.at_m[i, j] = points[within]
 
-    def finish(self) -> Grid:
-        """The grid. Near what is blocked, distances are exact to the points, not only to the cells that hold them."""
+    def finish(self, exact_m: float = 0.8) -> Grid:
+        """The grid. Distances up to ``exact_m`` are exact to the points, not only to the cells that hold them; no robot
+        is so wide, nor keeps so far from things, that more would matter.
+        """
         if not self.blocked.any():
             return Grid(origin=self.origin, clearance_m=np.full(self.blocked.shape, 10.0))
         clearance_m = np.asarray(distance_transform_edt(~self.blocked) * CELL_M, dtype=np.float64)
-        near = ~self.blocked & (clearance_m < EXACT_M)
+        near = ~self.blocked & (clearance_m < exact_m)
         clearance_m[near], _ = cKDTree(self.at_m[self.blocked]).query(np.argwhere(near) * CELL_M + self.origin)
         return Grid(origin=self.origin, clearance_m=clearance_m)
 

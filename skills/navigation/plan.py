@@ -13,13 +13,8 @@ from skills.navigation.grid import Grid
 from skills.navigation.local_map import draw_map
 from skills.navigation.pose import footprint_radius_m
 from skills.navigation.route import Routes, find_routes
+from skills.navigation.settings import PlanSettings
 from skills.navigation.walls import Walls
-
-SAME_GOAL_M = 0.08
-SQUEEZE_M = 0.02
-"""So much closer, and slowly, the base passes what leaves no other way: the body is less wide than planned."""
-KEEP_GOAL_M = 0.3
-"""Credit of the goal chosen last, so that two equal goals do not take turns."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -61,9 +56,10 @@ def make_plan(
     with hardly any room to spare.
     """
     spots = [pose.point, *(goal.point for goal in goals(None))]
-    walls = Walls.of(context.snapshot, frame)
+    settings = context.settings.navigation
+    walls = Walls.of(context.snapshot, frame, settings.map)
     carrying_m, base_m = footprint_radius_m(context), context.limits.footprint_radius_m
-    bare_m = base_m - SQUEEZE_M
+    bare_m = base_m - settings.plan.squeeze_m
     tries = dict.fromkeys([(True, carrying_m), (True, base_m), (False, base_m), (True, bare_m), (False, bare_m)])
     for believe_furniture, radius_m in tries:
         grid = draw_map(
@@ -75,9 +71,11 @@ def make_plan(
             stamp_s=context.stamp_s,
             believe_furniture=believe_furniture,
             ignore=ignore,
+            geometry=context.geometry,
+            settings=settings.map,
         )
-        routes = find_routes(grid, pose.point, radius_m)
-        goal = _cheapest(routes, goals(routes), last)
+        routes = find_routes(grid, pose.point, radius_m, settings.routes)
+        goal = _cheapest(routes, goals(routes), last, settings.plan)
         if goal is not None and (path := routes.path_to(goal.point)):
             return Plan(
                 frame=frame,
@@ -91,12 +89,13 @@ def make_plan(
     return None
 
 
-def _cheapest(routes: Routes, goals: Sequence[Goal], last: Goal | None) -> Goal | None:
+def _cheapest(routes: Routes, goals: Sequence[Goal], last: Goal | None, settings: PlanSettings) -> Goal | None:
     if not goals:
         return None
     points = np.array([goal.point for goal in goals])
     costs = routes.cost_at(points) + [goal.cost_m for goal in goals]
     if last is not None:
-        costs -= np.where(np.hypot(*(points - last.point).T) < SAME_GOAL_M, KEEP_GOAL_M, 0.0)
+        same = np.hypot(*(points - last.point).T) < settings.same_goal_m
+        costs -= np.where(same, settings.keep_goal_m, 0.0)
     best = int(np.argmin(costs))
     return goals[best] if np.isfinite(costs[best]) else None

@@ -10,7 +10,6 @@ from scene_graph.snapshot import Snapshot
 from skills.action import RobotContext
 from skills.geometry import Pose2
 
-MAX_PREDICTION_S = 0.25
 ANYWHERE = "anywhere"
 """Stands for the frame of a robot that does not know where it is: what it sees there is worth nothing elsewhere."""
 
@@ -27,9 +26,10 @@ def base_pose(context: RobotContext, frame: str) -> SE3:
     edge = snapshot.parent(ROBOT_ID)
     pose = snapshot.transform(frame, ROBOT_ID)
     age_s = context.stamp_s - edge.stamp_s if edge is not None else 0.0
-    if not 0.0 < age_s <= 2 * MAX_PREDICTION_S:
+    most_s = context.settings.navigation.prediction_s
+    if not 0.0 < age_s <= 2 * most_s:
         return pose
-    age_s = min(age_s, MAX_PREDICTION_S)
+    age_s = min(age_s, most_s)
     moved = Pose2(0.0, 0.0).advanced(context.body.linear_mps * age_s, context.body.angular_radps * age_s)
     return pose @ SE3.from_xyz_yaw(moved.x_m, moved.y_m, 0.0, moved.yaw_rad)
 
@@ -57,8 +57,8 @@ def look_around(context: RobotContext) -> None:
     if around.frame != name:
         known = around.frame in snapshot and not lost
         around.move_to(name, snapshot.transform(frame, around.frame) if known else None)
-    arm_reach_m = context.body.T_base_gripper.x_m + 0.15
-    reach_m = arm_reach_m if context.body.arm.extension_m > 0.08 else 0.0
+    arm_reach_m = context.body.T_base_gripper.x_m + around.settings.beyond_hand_m
+    reach_m = arm_reach_m if context.body.arm.extension_m > around.settings.out_m else 0.0
     T_frame_base = snapshot.transform(frame, ROBOT_ID)
     around.observe(context.obstacles_base, T_frame_base, context.stamp_s, reach_m)
     around.observe_floor(context.floor_base, T_frame_base, context.stamp_s, reach_m)

@@ -6,35 +6,20 @@ the path (eq. 1), speed scaled by curvature and by clearance.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import copysign, cos, hypot, sin, sqrt
 
 import numpy as np
 
 from skills.geometry import Point2, Pose2, wrap_rad
+from skills.navigation.settings import PursuitSettings
 from skills.ports import BodyLimits
-
-
-@dataclass(frozen=True, kw_only=True)
-class PursuitConfig:
-    """Shares of the body's limits, look-ahead, and the clearances between which the speed is scaled."""
-
-    cruise: float = 0.85
-    creep_mps: float = 0.10
-    brake: float = 0.5
-    turn: float = 0.8
-    heading_gain: float = 2.0
-    look_ahead_m: tuple[float, float] = (0.25, 0.50)
-    clearance_m: tuple[float, float] = (0.30, 0.60)
-    turn_in_place_rad: float = 0.7
-    aligned_rad: float = 0.15
 
 
 class Pursuit:
     """Velocity commands along one path; remembers whether it is turning in place."""
 
-    def __init__(self, limits: BodyLimits, config: PursuitConfig | None = None) -> None:
-        self.config = config or PursuitConfig()
+    def __init__(self, limits: BodyLimits, settings: PursuitSettings = PursuitSettings()) -> None:
+        self._settings = settings
         self._limits = limits
         self.turning = False
 
@@ -44,20 +29,20 @@ class Pursuit:
         """Linear and angular velocity at ``pose``; ``clearance_m`` to the nearest obstacle, ``speed_mps`` as
         measured.
         """
-        config, limits = self.config, self._limits
-        short, far = config.look_ahead_m
+        settings, limits = self._settings, self._limits
+        short, far = settings.look_ahead_m
         ahead, remaining_m = point_ahead(path, pose.point, min(max(short, 0.9 * abs(speed_mps)), far))
         error = wrap_rad(pose.bearing_rad(ahead) - pose.yaw_rad)
-        self.turning = abs(error) > (config.aligned_rad if self.turning else config.turn_in_place_rad)
+        self.turning = abs(error) > (settings.aligned_rad if self.turning else settings.turn_in_place_rad)
         if self.turning:
-            return 0.0, turn_rate(error, limits, config.turn)
+            return 0.0, turn_rate(error, limits, settings.turn)
         curvature = 2 * sin(error) / max(pose.distance_m(ahead), 0.1)
-        low, high = config.clearance_m
+        low, high = settings.clearance_m
         open_share = min(max((clearance_m - low) / (high - low), 0.0), 1.0)
-        cruise = config.cruise * limits.linear_mps
-        speed = config.creep_mps + (cruise - config.creep_mps) * max(open_share, 0.25)
-        speed = min(speed, config.turn * limits.angular_radps / max(abs(curvature), 1e-3))
-        speed = min(speed, sqrt(2 * config.brake * limits.linear_mps2 * remaining_m) + 0.02) * max(cos(error), 0.0)
+        cruise = settings.cruise * limits.linear_mps
+        speed = settings.creep_mps + (cruise - settings.creep_mps) * max(open_share, 0.25)
+        speed = min(speed, settings.turn * limits.angular_radps / max(abs(curvature), 1e-3))
+        speed = min(speed, sqrt(2 * settings.brake * limits.linear_mps2 * remaining_m) + 0.02) * max(cos(error), 0.0)
         return speed, speed * curvature + 0.3 * error
 
 

@@ -14,12 +14,11 @@ from scipy.sparse import csr_array
 from scipy.sparse.csgraph import dijkstra
 
 from skills.geometry import Point2, Points
-from skills.navigation.grid import CELL_M, GROW_M, Grid
+from skills.navigation.cells import CELL_M
+from skills.navigation.grid import GROW_M, Grid
+from skills.navigation.settings import RouteSettings
 
-COMFORT_M = 0.25
-"""Cells with less clearance than the radius plus this cost more, so that ways keep off obstacles where they can."""
 _STEPS = ((1, 0), (0, 1), (1, 1), (1, -1))
-_ESCAPE_RADIUS_M = 0.6
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -33,6 +32,7 @@ class Routes:
     radius_m: float
     cost_m: NDArray[np.float64]
     predecessors: NDArray[np.int32]
+    comfort_m: float = RouteSettings.comfort_m
 
     def cost_at(self, points: Points) -> Points:
         """Cost (N,) of going to ``points`` (N, 2); ``inf`` for points the disc cannot stand on."""
@@ -46,7 +46,7 @@ class Routes:
             return ()
         cells = self._trace(goal)
         points = [self.start, *(self.grid.center(cell) for cell in cells[1:-1]), goal]
-        return _shorten(self.grid, points, needed_clearance_m(self.radius_m))
+        return _shorten(self.grid, points, needed_clearance_m(self.radius_m), self.comfort_m)
 
     def _trace(self, goal: Point2) -> list[tuple[int, int]]:
         ny = self.grid.shape[1]
@@ -64,7 +64,7 @@ def needed_clearance_m(radius_m: float) -> float:
     return radius_m + GROW_M / 2
 
 
-def find_routes(grid: Grid, start: Point2, radius_m: float) -> Routes:
+def find_routes(grid: Grid, start: Point2, radius_m: float, settings: RouteSettings = RouteSettings()) -> Routes:
     """All shortest ways from ``start``.
 
     Where the start itself is too close to something, cells around it with no less clearance may be used to get away.
@@ -72,14 +72,20 @@ def find_routes(grid: Grid, start: Point2, radius_m: float) -> Routes:
     needed = needed_clearance_m(radius_m)
     free = grid.clearance_m >= needed
     start_cell = grid.cells(np.array([start]))[0]
-    multiplier = 1.0 + 3.0 * np.clip((needed + COMFORT_M - grid.clearance_m) / COMFORT_M, 0.0, 1.0) ** 2
-    free |= _escape(grid, start_cell)
+    lacking = np.clip((needed + settings.comfort_m - grid.clearance_m) / settings.comfort_m, 0.0, 1.0)
+    multiplier = 1.0 + settings.comfort_weight * lacking**2
+    free |= _escape(grid, start_cell, settings.escape_m)
     ny = grid.shape[1]
     costs, predecessors = dijkstra(
         _graph(free, multiplier), indices=int(start_cell[0] * ny + start_cell[1]), return_predecessors=True
     )
     return Routes(
-        grid=grid, start=start, radius_m=radius_m, cost_m=costs.reshape(grid.shape), predecessors=predecessors
+        grid=grid,
+        start=start,
+        radius_m=radius_m,
+        cost_m=costs.reshape(grid.shape),
+        predecessors=predecessors,
+        comfort_m=settings.comfort_m,
     )
 
 
@@ -94,10 +100,10 @@ def sampled(a: Point2, b: Point2, step_m: float = CELL_M / 2) -> Points:
     return np.linspace(a, b, count)
 
 
-def _escape(grid: Grid, start_cell: NDArray[np.int64]) -> NDArray[np.bool_]:
+def _escape(grid: Grid, start_cell: NDArray[np.int64], around_m: float) -> NDArray[np.bool_]:
     """Cells near the start that are no closer to an obstacle than the start is; the start itself always."""
     i, j = np.indices(grid.shape)
-    near = np.hypot(i - start_cell[0], j - start_cell[1]) * CELL_M <= _ESCAPE_RADIUS_M
+    near = np.hypot(i - start_cell[0], j - start_cell[1]) * CELL_M <= around_m
     here = float(grid.clearance_m[start_cell[0], start_cell[1]])
     escape = near & (grid.clearance_m >= max(here, CELL_M))
     escape[start_cell[0], start_cell[1]] = True
@@ -123,7 +129,7 @@ def _graph(free: NDArray[np.bool_], multiplier: NDArray[np.float64]) -> csr_arra
     return csr_array((np.concatenate([w, w]), (np.concatenate([a, b]), np.concatenate([b, a]))), shape=shape)
 
 
-def _shorten(grid: Grid, points: list[Point2], needed_m: float) -> tuple[Point2, ...]:
+def _shorten(grid: Grid, points: list[Point2], needed_m: float, comfort_m: float) -> tuple[Point2, ...]:
     """Greedy line of sight: skip way points while the straight line keeps the clearance that the way around had."""
     clearance = grid.clearance_at(np.array(points))
     kept = [points[0]]
@@ -133,7 +139,7 @@ def _shorten(grid: Grid, points: list[Point2], needed_m: float) -> tuple[Point2,
         low, high = at + 1, len(points) - 1
         while low <= high:  # visibility is nearly monotone; a binary search finds a far visible point
             middle = (low + high) // 2
-            floor_m = min(needed_m + COMFORT_M / 2, float(clearance[at : middle + 1].min()))
+            floor_m = min(needed_m + comfort_m / 2, float(clearance[at : middle + 1].min()))
             if grid.clearance_at(sampled(points[at], points[middle])).min() >= floor_m - 1e-9:
                 reach, low = middle, middle + 1
             else:

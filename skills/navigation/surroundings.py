@@ -16,37 +16,14 @@ from scene_graph.geometry.se3 import SE3
 from skills.geometry import Point2, Points
 from skills.navigation.cells import CELL_M, found, moved, packed
 from skills.navigation.floor_relief import FloorRelief
+from skills.navigation.settings import SurroundingsSettings
 from skills.ports import FloorReturns
 
-PATCH_CELLS = 3
-BESIDE_M = 0.2
 _CELL = np.dtype(
     [("key", np.int64), ("at_m", np.float64, 2), ("scans", np.int64), ("seen_s", np.float64), ("tall", "?")]
 )
 """A cell in which something was hit: where it lies, the mean of the hits, in how many scans, when last, how high."""
 Cells = NDArray[np.void]
-
-
-@dataclass(frozen=True, kw_only=True)
-class SurroundingsConfig:
-    """Heights of what can be hit, how far to look, how long to remember, and over how many scans hits are averaged.
-
-    ``blind_m``: nearer than this the mast's LiDAR looks over the floor. What it saw there last is remembered for
-    ``fade_blind_s``, since it cannot be seen to be gone.
-    """
-
-    min_height_m: float = 0.04
-    max_height_m: float = 1.80
-    tall_m: float = 0.95
-    max_range_m: float = 6.0
-    body_radius_m: float = 0.20
-    blind_m: float = 0.95
-    fade_low_s: float = 60.0
-    fade_blind_s: float = 120.0
-    fade_tall_s: float = 0.7
-    min_hits: int = 2
-    averaged: int = 5
-    settled_s: float = 2.0
 
 
 @dataclass(kw_only=True)
@@ -56,7 +33,7 @@ class Surroundings:
     ``arm_reach_m``: how far the arm reaches ahead; points on it are not obstacles.
     """
 
-    config: SurroundingsConfig = field(default_factory=SurroundingsConfig)
+    settings: SurroundingsSettings = field(default_factory=SurroundingsSettings)
     frame: str = ""
     relief: FloorRelief = field(default_factory=FloorRelief)
     _cells: Cells = field(default_factory=lambda: np.zeros(0, dtype=_CELL))
@@ -78,8 +55,8 @@ class Surroundings:
             self._last_scan = points_base
             self._merge(self._seen(points_base, T_frame_base, stamp_s, arm_reach_m))
         away_m = np.hypot(*(self._cells["at_m"] - T_frame_base.translation_m[:2]).T)
-        low_s = np.where(away_m < self.config.blind_m, self.config.fade_blind_s, self.config.fade_low_s)
-        fade_s = np.where(self._cells["tall"], self.config.fade_tall_s, low_s)
+        low_s = np.where(away_m < self.settings.blind_m, self.settings.fade_blind_s, self.settings.fade_low_s)
+        fade_s = np.where(self._cells["tall"], self.settings.fade_tall_s, low_s)
         self._cells = self._cells[stamp_s - self._cells["seen_s"] <= fade_s]
 
     def observe_floor(self, returns: FloorReturns, T_frame_base: SE3, stamp_s: float, arm_reach_m: float = 0.0) -> None:
@@ -87,15 +64,15 @@ class Surroundings:
         if returns is self._last_floor or not len(returns.spots_m):
             return
         self._last_floor = returns
-        returns = returns.where(~_on_arm(returns.spots_m, arm_reach_m))
+        returns = returns.where(~self._on_arm(returns.spots_m, arm_reach_m))
         spots = returns.spots_m @ T_frame_base.rotation()[:2, :2].T + T_frame_base.translation_m[:2]
         tall = self._cells["at_m"][self._cells["tall"]]
         if len(tall):
-            far = np.isinf(cKDTree(tall).query(spots, distance_upper_bound=BESIDE_M)[0])
+            far = np.isinf(cKDTree(tall).query(spots, distance_upper_bound=self.settings.beside_m)[0])
             returns = returns.where(far)
         self.relief.observe(returns, T_frame_base, stamp_s)
         flat = self.relief.flat_among(self._cells["key"], stamp_s)
-        self._cells = self._cells[~flat | (stamp_s - self._cells["seen_s"] < self.config.settled_s)]
+        self._cells = self._cells[~flat | (stamp_s - self._cells["seen_s"] < self.settings.settled_s)]
 
     def move_to(self, frame: str, T_new_old: SE3 | None) -> None:
         """Carry the memory into another frame, or drop it when the frames are not connected."""
@@ -109,12 +86,12 @@ class Surroundings:
 
     def _seen(self, points: Points, T_frame_base: SE3, stamp_s: float, arm_reach_m: float) -> Cells:
         """What one scan hit, by key: cells with enough hits, and those known already."""
-        config = self.config
+        settings = self.settings
         x, y, z = points.T
         range_m = np.hypot(x, y)
-        keep = (z > config.min_height_m) & (z < config.max_height_m)
-        keep &= (range_m > config.body_radius_m) & (range_m < config.max_range_m)
-        points = points[keep & ~_on_arm(points, arm_reach_m)]
+        keep = (z > settings.min_height_m) & (z < settings.max_height_m)
+        keep &= (range_m > settings.body_radius_m) & (range_m < settings.max_range_m)
+        points = points[keep & ~self._on_arm(points, arm_reach_m)]
         if not len(points):
             return np.zeros(0, dtype=_CELL)
         placed = points @ T_frame_base.rotation()[:2].T + T_frame_base.translation_m[:2]
@@ -125,20 +102,25 @@ class Surroundings:
         count = np.bincount(index, minlength=columns * rows)
         hit = np.flatnonzero(count)
         cells = np.stack([hit // rows, hit % rows], axis=1) + corner
-        tall = np.bincount(index[points[:, 2] > config.tall_m], minlength=columns * rows)[hit] > 0
+        tall = np.bincount(index[points[:, 2] > settings.tall_m], minlength=columns * rows)[hit] > 0
         seen = np.zeros(len(hit), dtype=_CELL)
         seen["key"], seen["scans"], seen["seen_s"] = packed(cells), 1, stamp_s
         for axis in (0, 1):
             seen["at_m"][:, axis] = np.bincount(index, placed[:, axis], minlength=columns * rows)[hit] / count[hit]
-        solid = (count[hit] >= config.min_hits) | found(seen["key"], self._cells["key"])[1]
-        seen["tall"][solid] = _beside_tall(cells[solid], tall[solid])
+        solid = (count[hit] >= settings.min_hits) | found(seen["key"], self._cells["key"])[1]
+        seen["tall"][solid] = _beside_tall(cells[solid], tall[solid], settings.patch_cells)
         return np.asarray(seen[solid])
+
+    def _on_arm(self, points_base: Points, arm_reach_m: float) -> NDArray[np.bool_]:
+        """Which of (N, 2 or 3) points may be the arm itself, or what it holds."""
+        x, y = points_base[:, 0], points_base[:, 1]
+        return np.asarray((x > 0) & (x < arm_reach_m) & (np.abs(y) < self.settings.arm_half_width_m))
 
     def _merge(self, seen: Cells) -> None:
         """Take in what was seen, sorted by key and each once."""
         place, known = found(seen["key"], self._cells["key"])
         at = place[known]
-        scans = np.minimum(self._cells["scans"][at] + 1, self.config.averaged)
+        scans = np.minimum(self._cells["scans"][at] + 1, self.settings.averaged)
         before_m = self._cells["at_m"][at]
         after_m = before_m + (seen["at_m"][known] - before_m) / scans[:, None]
         self._cells[at] = seen[known]
@@ -146,20 +128,14 @@ class Surroundings:
         self._cells = np.insert(self._cells, place[~known], seen[~known])
 
 
-def _on_arm(points_base: Points, arm_reach_m: float) -> NDArray[np.bool_]:
-    """Which of (N, 2 or 3) points may be the arm itself, or what it holds."""
-    x, y = points_base[:, 0], points_base[:, 1]
-    return np.asarray((x > 0) & (x < arm_reach_m) & (np.abs(y) < 0.12))
-
-
-def _beside_tall(cells: NDArray[np.int64], tall: NDArray[np.bool_]) -> NDArray[np.bool_]:
+def _beside_tall(cells: NDArray[np.int64], tall: NDArray[np.bool_], patch_cells: int) -> NDArray[np.bool_]:
     """Which of (N, 2) cells are part of something tall: those that are, and those in or next to a patch that has one.
 
     A person's feet are seen beside the torso; they must fade with it, or every step would leave an obstacle behind.
     """
     if not tall.any():
         return tall
-    patches = cells // PATCH_CELLS
+    patches = cells // patch_cells
     patches -= patches.min(axis=0) - 1
     high = np.zeros(patches.max(axis=0) + 2, dtype=bool)
     high[*patches[tall].T] = True

@@ -11,14 +11,9 @@ from scene_graph.errors import FramesNotConnected
 from scene_graph.nodes import ROBOT_ID, DoorNode, DoorState, RoomNode, RoomStatus
 from scene_graph.snapshot import Snapshot
 from skills.geometry import Box2, Points, Pose2, boundary_distance_m, inside_polygon
+from skills.navigation.settings import MapSettings
 
-SKIN_M = 0.08
-"""Points this close to a wall that the graph knows are that wall, blurred by noise."""
-STEP_M = 0.05
 MIN_CORNERS = 3
-DOOR_DEPTH_M = 0.5
-BEYOND_M = 0.05
-"""By less than this nobody is beyond a wall: so well outlines and poses are known."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -27,25 +22,28 @@ class Walls:
 
     points: Points
     tree: cKDTree | None
+    skin_m: float = MapSettings.skin_m
 
     @classmethod
-    def of(cls, snapshot: Snapshot, frame: str) -> Walls:
+    def of(cls, snapshot: Snapshot, frame: str, settings: MapSettings = MapSettings()) -> Walls:
         """The walls of the room ``frame``, in its frame; none where a part of them was guessed."""
         room = whole_room(snapshot, frame)
         if room is None:
             return cls(points=np.zeros((0, 2)), tree=None)
         corners = np.array(room.polygon_m)
         sides = zip(corners, np.roll(corners, -1, axis=0), strict=True)
-        points = np.concatenate([np.linspace(a, b, int(np.hypot(*(b - a)) / STEP_M) + 2) for a, b in sides])
-        for gap in door_gaps(snapshot, frame):
+        points = np.concatenate(
+            [np.linspace(a, b, int(np.hypot(*(b - a)) / settings.wall_step_m) + 2) for a, b in sides]
+        )
+        for gap in door_gaps(snapshot, frame, settings):
             points = points[~gap.contains(points)]
-        return cls(points=points, tree=cKDTree(points) if len(points) else None)
+        return cls(points=points, tree=cKDTree(points) if len(points) else None, skin_m=settings.skin_m)
 
     def explain(self, points: Points) -> Points:
         """``points`` (N, 2) without those that are a known wall, and the walls themselves."""
         if self.tree is None or not len(points):
             return points
-        far, _ = self.tree.query(points, distance_upper_bound=SKIN_M)
+        far, _ = self.tree.query(points, distance_upper_bound=self.skin_m)
         return np.concatenate([points[np.isinf(far)], self.points])
 
 
@@ -57,18 +55,18 @@ def whole_room(snapshot: Snapshot, frame: str) -> RoomNode | None:
     return None
 
 
-def door_gaps(snapshot: Snapshot, room: str) -> list[Box2]:
+def door_gaps(snapshot: Snapshot, room: str, settings: MapSettings = MapSettings()) -> list[Box2]:
     """Passages through the walls of ``room`` that are not closed, in its frame, a little deeper than the wall."""
     gaps = []
     for door in snapshot.of_type(DoorNode):
         if door.rooms[0] == room and door.state is not DoorState.CLOSED:
             pose = Pose2.of(snapshot.transform(room, door.id))
-            x_m, y_m = pose.apply(np.array([[0.0, 0.1 - DOOR_DEPTH_M]]))[0]
-            gaps.append(Box2(Pose2(float(x_m), float(y_m), pose.yaw_rad), door.width_m, 2 * DOOR_DEPTH_M))
+            x_m, y_m = pose.apply(np.array([[0.0, settings.door_middle_m - settings.door_depth_m]]))[0]
+            gaps.append(Box2(Pose2(float(x_m), float(y_m), pose.yaw_rad), door.width_m, 2 * settings.door_depth_m))
     return gaps
 
 
-def robot_beyond_m(snapshot: Snapshot) -> float:
+def robot_beyond_m(snapshot: Snapshot, settings: MapSettings = MapSettings()) -> float:
     """How far the robot is beyond the walls of the room that it hangs from: outdoors, or where nothing is measured yet.
 
     0 inside, in the gap of a door that is not closed, and where the room was not seen whole.
@@ -81,7 +79,9 @@ def robot_beyond_m(snapshot: Snapshot) -> float:
     except FramesNotConnected:
         return 0.0
     at = np.array([[x_m, y_m]])
-    if inside_polygon(room.polygon_m, at)[0] or any(gap.contains(at)[0] for gap in door_gaps(snapshot, room.id)):
+    if inside_polygon(room.polygon_m, at)[0] or any(
+        gap.contains(at)[0] for gap in door_gaps(snapshot, room.id, settings)
+    ):
         return 0.0
     beyond_m = boundary_distance_m(room.polygon_m, (x_m, y_m))
-    return beyond_m if beyond_m > BEYOND_M else 0.0
+    return beyond_m if beyond_m > settings.beyond_m else 0.0

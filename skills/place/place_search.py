@@ -104,17 +104,19 @@ def _floor_spots(context: RobotContext, center: str, size_m: tuple[float, float,
     points = np.concatenate([radius_m * directions for radius_m in settings.floor_radii_m]) + np.array([x_m, y_m])
     spots = [(float(x), float(y)) for x, y in points]
     robot = snapshot.position(ROBOT_ID, room)
-    around = context.surroundings.points()
+    around, walls = context.surroundings.points(), context.settings.navigation.map
     grid = draw_map(
         snapshot,
         room,
         around,
         [(float(robot[0]), float(robot[1])), *spots],
-        walls=Walls.of(snapshot, room),
+        walls=Walls.of(snapshot, room, walls),
         stamp_s=context.stamp_s,
+        geometry=context.geometry,
+        settings=walls,
     )
     room_m = grid.clearance_at(points) - disc(size_m).radius_m
-    gaps = [gap.grown(settings.doorway_m) for gap in door_gaps(snapshot, room)]
+    gaps = [gap.grown(settings.doorway_m) for gap in door_gaps(snapshot, room, walls)]
     clear = [not any(gap.contains(points[i : i + 1])[0] for gap in gaps) for i in range(len(points))]
     return [
         Spot(anchor=Anchor(room, (*spot, 0.0)), room_m=float(free_m))

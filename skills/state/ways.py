@@ -14,8 +14,6 @@ from scipy.sparse.csgraph import dijkstra
 
 Point2 = tuple[float, float]
 Whereabouts = Callable[[str], tuple[str | None, Point2 | None]]
-UNKNOWN_STEP_M = 3.0
-"""Assumed distance between two nodes of one room when a position is not known."""
 
 
 class Ways:
@@ -27,10 +25,13 @@ class Ways:
     Args:
         whereabouts: room and position of a node.
         doors: (door, its two rooms, open).
+        unknown_m: assumed distance between two nodes of one room when a position is not known.
     """
 
-    def __init__(self, whereabouts: Whereabouts, doors: tuple[tuple[str, tuple[str, str], bool], ...]) -> None:
-        self._whereabouts, self._doors = whereabouts, doors
+    def __init__(
+        self, whereabouts: Whereabouts, doors: tuple[tuple[str, tuple[str, str], bool], ...], unknown_m: float = 3.0
+    ) -> None:
+        self._whereabouts, self._doors, self._unknown_m = whereabouts, doors, unknown_m
         self._by_room: dict[str, list[int]] = {}
         for index, (_, pair, _) in enumerate(doors):
             for room in dict.fromkeys(pair):
@@ -89,7 +90,7 @@ class Ways:
     def _straight_m(self, a: str, b: str) -> float:
         (_, at_a), (_, at_b) = self._whereabouts(a), self._whereabouts(b)
         if at_a is None or at_b is None:
-            return 0.0 if a == b else UNKNOWN_STEP_M
+            return 0.0 if a == b else self._unknown_m
         return hypot(at_a[0] - at_b[0], at_a[1] - at_b[1])
 
     @cached_property
@@ -104,14 +105,14 @@ class Ways:
         for doors in self._by_room.values():
             members = [i for i in doors if self._doors[i][2] or not only_open]
             block = np.ix_(members, members)
-            lengths_m[block] = np.minimum(lengths_m[block], _apart_m(points, members))
+            lengths_m[block] = np.minimum(lengths_m[block], _apart_m(points, members, self._unknown_m))
         np.fill_diagonal(lengths_m, inf)
         rows, columns = np.nonzero(np.isfinite(lengths_m))
         return csr_array((lengths_m[rows, columns], (rows, columns)), shape=(count, count))
 
 
-def _apart_m(points: NDArray[np.float64], members: Sequence[int]) -> NDArray[np.float64]:
+def _apart_m(points: NDArray[np.float64], members: Sequence[int], unknown_m: float) -> NDArray[np.float64]:
     """(M, M) distances between (D, 2) ``points``; never 0, which the search would read as no link."""
     offsets = points[members][:, None, :] - points[members][None, :, :]
     apart_m = np.maximum(np.hypot(offsets[..., 0], offsets[..., 1]), 1e-6)
-    return np.where(np.isnan(apart_m), UNKNOWN_STEP_M, apart_m)
+    return np.where(np.isnan(apart_m), unknown_m, apart_m)

@@ -5,8 +5,10 @@ from math import hypot, pi
 import numpy as np
 import pytest
 
-from skills.goto.lanes import BEYOND_M, FRONT_M, WALL_M, Lane, clear_lane
+from skills.goto.lanes import Lane, clear_lane
+from skills.goto.settings import LaneSettings
 
+LANES = LaneSettings()
 HALF_M = 0.28
 
 
@@ -14,7 +16,7 @@ def wall(width_m):
     """Both jambs, and the wall's near face on both sides."""
     aside = np.arange(width_m / 2, width_m / 2 + 1.0, 0.03)
     near = np.stack([np.zeros_like(aside), aside], axis=1)
-    depth = np.arange(0.0, WALL_M + 0.01, 0.03)
+    depth = np.arange(0.0, LANES.wall_m + 0.01, 0.03)
     jamb = np.stack([depth, np.full_like(depth, width_m / 2)], axis=1)
     left = np.vstack([near, jamb])
     return np.vstack([left, left * (1.0, -1.0)])
@@ -45,7 +47,7 @@ def test_what_lies_right_before_the_gap_is_passed_aslant(y_m):
     things = box(-0.6, y_m)
     lane = lane_through(things)
     assert 0.2 < abs(lane.bearing_rad) < pi / 3
-    for x_m in np.arange(-FRONT_M, WALL_M + BEYOND_M, 0.02):
+    for x_m in np.arange(-LANES.front_m, LANES.wall_m + LANES.beyond_m, 0.02):
         nearest_m = min(hypot(x_m - x, lane.y_m(x_m) - y) for x, y in np.vstack([things, wall(1.0)]))
         assert nearest_m > HALF_M - 0.01
 
@@ -54,7 +56,7 @@ def test_a_way_that_only_one_slant_leaves_is_found():
     things = np.vstack([wall(1.01), box(-0.37, 0.0, 0.1), box(-0.2, -0.4, 0.1), box(0.85, -0.6, 0.1)])
     lane = clear_lane(things, half_m=0.265, width_m=1.01, base_x_m=-0.68)
     assert lane is not None
-    assert lane.is_clear(things, 0.265, -FRONT_M)
+    assert lane.is_clear(things, 0.265, -LANES.front_m)
     closed = np.vstack([things, box(-0.2, 0.4, 0.1)])
     assert clear_lane(closed, half_m=0.265, width_m=1.01, base_x_m=-0.68) is None
 

@@ -22,42 +22,48 @@ from scene_graph.queries.doors import physical_doors
 from scene_graph.queries.poses import MapPoses
 from scene_graph.snapshot import Snapshot
 from skills.arm.barring import barring
+from skills.arm.hand import Hand
 from skills.furniture.kinds import is_container
 from skills.goto.nearness import is_at
+from skills.goto.settings import NearnessSettings
 from skills.navigation.walls import robot_beyond_m
 from skills.place.capacity import Capacity
 from skills.room_contents import in_room
+from skills.settings import SkillSettings
 from skills.state.placement import Place, Placement, PlaceRelation
 from skills.state.state import DoorLink, PlanState, Thing, World
 
 _KINDS = (RoomNode, DoorNode, ObjectNode, PersonNode)
 
 
-def read_state(snapshot: Snapshot) -> PlanState:
-    """The facts that ``snapshot`` believes. Of thousands of things only those are read that a plan asks for."""
+def read_state(snapshot: Snapshot, hand: Hand = Hand(), settings: SkillSettings = SkillSettings()) -> PlanState:
+    """The facts that ``snapshot`` believes. Of thousands of things only those are read that a plan asks for.
+
+    ``hand``: what the robot can take hold of, and where that fits; ``settings``: of the skills.
+    """
     robot, room = snapshot.robot, snapshot.current_room
-    beyond = robot_beyond_m(snapshot) > 0.0
+    beyond = robot_beyond_m(snapshot, settings.navigation.map) > 0.0
     places = StoodPlaces(snapshot)
     return PlanState(
-        world=read_world(snapshot),
+        world=read_world(snapshot, hand, settings),
         robot_at=ROOT_ID if room is None or beyond else room,
         robot_room=room,
         beyond_walls=beyond,
         holding=robot.holding if robot is not None else None,
         places=Placement(places, places.at, {}),
         missing=frozenset(node.id for node in snapshot.of_type(ObjectNode) if node.state is ObjectState.MISSING),
-        near=_near(snapshot),
+        near=_near(snapshot, settings.goto.near),
     )
 
 
-def read_world(snapshot: Snapshot) -> World:
+def read_world(snapshot: Snapshot, hand: Hand = Hand(), settings: SkillSettings = SkillSettings()) -> World:
     """The things that plans speak about, and the physical doors between rooms that both are known."""
     return World(
         things=KnownThings(snapshot),
         doors=_door_links(snapshot),
         inside=lambda room: in_room(snapshot, room),
-        fits=Capacity(snapshot).fits,
-        bars=cache(partial(barring, snapshot)),
+        fits=Capacity(snapshot, hand, settings.place.spots).fits,
+        bars=cache(partial(barring, snapshot, hand=hand)),
     )
 
 
@@ -168,9 +174,11 @@ def _place(snapshot: Snapshot, node: ObjectNode) -> tuple[PlaceRelation, str] | 
     return (PlaceRelation.IN, room) if room is not None else None
 
 
-def _near(snapshot: Snapshot) -> frozenset[str]:
+def _near(snapshot: Snapshot, settings: NearnessSettings) -> frozenset[str]:
     """Objects and persons that the robot is at; not what it would stand in, for there a place was never told."""
     room, holding = snapshot.current_room, snapshot.robot.holding if snapshot.robot is not None else None
     if room is None:
         return frozenset()
-    return frozenset(node_id for node_id in in_room(snapshot, room) if node_id != holding and is_at(snapshot, node_id))
+    return frozenset(
+        node_id for node_id in in_room(snapshot, room) if node_id != holding and is_at(snapshot, node_id, settings)
+    )

@@ -10,6 +10,7 @@ from skills.errors import DuplicateSkill, NotASkill, SkillNotFound
 from skills.goto.goto import Goto
 from skills.pick.pick import Pick
 from skills.place.place import Place
+from skills.settings import SkillSettings
 from skills.skill import Skill
 
 ENTRY_POINT_GROUP = "majordomo.skills"
@@ -63,15 +64,18 @@ class SkillRegistry(Mapping[str, Skill]):
         return {name: phrases for name, phrases in declared.items() if phrases}
 
 
-def load_registry(more: Iterable[tuple[str, object]] | None = None) -> SkillRegistry:
+def load_registry(
+    more: Iterable[tuple[str, object]] | None = None, settings: SkillSettings = SkillSettings()
+) -> SkillRegistry:
     """The built-in skills, then those of installed packages; ``more`` (origin, skill) replaces the latter in tests.
+    ``settings``: what the built-in ones plan by; they act by those of the robot's context.
 
     Raises:
         NotASkill: an entry point gives something else.
         DuplicateSkill: two packages provide one name.
     """
     registry = SkillRegistry()
-    for skill in (Goto(), Pick(), Place()):
+    for skill in (Goto(settings.goto), Pick(settings.hand), Place(settings.place.spots)):
         registry.register(skill, BUILT_IN)
     for origin, skill_or_class in installed_skills() if more is None else more:
         registry.register(skill_or_class() if isinstance(skill_or_class, type) else skill_or_class, origin)

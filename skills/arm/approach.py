@@ -29,7 +29,7 @@ from skills.arm.level_hand import level_hand_barred
 from skills.arm.roof import roof_over_m
 from skills.arm.way_in import is_before
 from skills.failures import FailureCode
-from skills.furniture.standing import stand_of
+from skills.furniture.standing import stand_below
 from skills.geometry import Point2, Points
 from skills.navigation.driving import DriveTo
 from skills.navigation.plan import Goal
@@ -247,8 +247,8 @@ class ApproachForReach(DriveTo):
     def _faces_board(self, frame: str, places: Points) -> NDArray[np.bool_]:
         """From which of (N, 2) places the hand gets straight to a thing that stands below a board; else from all."""
         snapshot, node_id = self.context.snapshot, resolved(self._where).node_id
-        stand = stand_of(snapshot, node_id) if self.context.grip is None else None
-        if stand is None or not stand.surface.is_covered:
+        stand = stand_below(snapshot, node_id) if self.context.grip is None else None
+        if stand is None:
             return np.ones(len(places), np.bool_)
         return is_before(snapshot, stand.on, stand.point_m, places, frame, self.context.hand)
 

@@ -9,7 +9,7 @@ from scene_graph.snapshot import Snapshot
 from skills.arm.hand import Hand
 from skills.arm.roof import underside_below_board_m
 from skills.arm.way_in import BOTH_SIDES, beside
-from skills.furniture.standing import Stand, extent_on, stand_of
+from skills.furniture.standing import Stand, extent_on, stand_below
 from skills.geometry import inside_polygon
 from skills.navigation.walls import whole_room
 
@@ -19,8 +19,8 @@ def barring(snapshot: Snapshot, object_id: str, hand: Hand = Hand()) -> tuple[st
     its way straight in from the front: from the side with fewer of them, where both may be open. None for a thing that
     is not below a board.
     """
-    stand = stand_of(snapshot, object_id)
-    if stand is None or not stand.surface.is_covered:
+    stand = stand_below(snapshot, object_id)
+    if stand is None:
         return ()
     others = [node for node in beside(snapshot, object_id, stand) if _can_be_taken(node, hand)]
     sides = [side for side in BOTH_SIDES if not _is_at_wall(snapshot, stand, side, hand)] if others else []

@@ -8,7 +8,7 @@ from scene_graph.nodes import ObjectNode, ObjectState
 from scene_graph.snapshot import Snapshot
 from skills.arm.hand import DOWN_RAD, Hand
 from skills.furniture.furniture import Furniture
-from skills.furniture.standing import stand_of
+from skills.furniture.standing import stand_below
 
 
 def is_covered(snapshot: Snapshot, object_id: str, room: str, hand: Hand) -> bool:
@@ -40,8 +40,8 @@ def roof_over_m(snapshot: Snapshot, object_id: str, hand: Hand) -> float:
     room = snapshot.room_of(object_id)
     if room is None or not is_covered(snapshot, object_id, room, hand):
         return inf
-    stand = stand_of(snapshot, object_id)
-    if stand is None or not stand.surface.is_covered:
+    stand = stand_below(snapshot, object_id)
+    if stand is None:
         return -inf
     hand_m = hand.headroom_m(0.0, 0.0, DOWN_RAD)
     return stand.surface.free_m - snapshot.object(object_id).size_m[2] / 2 - hand_m

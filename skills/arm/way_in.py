@@ -16,7 +16,7 @@ from scene_graph.snapshot import Snapshot
 from skills.anchor import Anchor
 from skills.arm.hand import Hand
 from skills.furniture.furniture import Furniture
-from skills.furniture.standing import Stand, extent_on, stand_of
+from skills.furniture.standing import Stand, extent_on, stand_below, stand_of
 from skills.geometry import Points
 
 BOTH_SIDES = (-1, 1)
@@ -91,7 +91,7 @@ def off_end(snapshot: Snapshot, object_id: str, hand: Hand) -> Anchor:
     """Where the hand goes to take a thing: at its middle; below a board, near an end or a neighbor, as far beside it as
     the fingers allow, so that the hand passes both.
     """
-    stand, room_m = stand_of(snapshot, object_id), palm_room_m(snapshot, object_id, hand)
+    stand, room_m = stand_below(snapshot, object_id), palm_room_m(snapshot, object_id, hand)
     if stand is None or room_m is None:
         return Anchor(object_id)
     point, (low_m, high_m) = list(stand.point_m), room_m
@@ -106,8 +106,8 @@ def palm_room_m(snapshot: Snapshot, object_id: str, hand: Hand) -> tuple[float, 
     """How far a palm that comes to a thing below a board may be to both sides of the thing's middle, along the
     support's long axis: to the ends, or to what stands on the board beside its way; ``None`` for any other thing.
     """
-    stand = stand_of(snapshot, object_id)
-    if stand is None or not stand.surface.is_covered:
+    stand = stand_below(snapshot, object_id)
+    if stand is None:
         return None
     long, short = stand.furniture.long, stand.furniture.short
     half_m, along_m = stand.furniture.inner_half_m, stand.point_m[long]

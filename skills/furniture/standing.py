@@ -50,6 +50,12 @@ def stand_of(snapshot: Snapshot, object_id: str) -> Stand | None:
     return Stand(on=on, furniture=furniture, surface=surface, point_m=(x_m, y_m, z_m))
 
 
+def stand_below(snapshot: Snapshot, object_id: str) -> Stand | None:
+    """The same for what stands below a board; ``None`` for anything else."""
+    stand = stand_of(snapshot, object_id)
+    return stand if stand is not None and stand.surface.is_covered else None
+
+
 def surfaces_of(snapshot: Snapshot, support_id: str, held: str | None) -> tuple[Surface, ...]:
     """The surfaces of a piece of furniture; those of which only the kind tells the height are where things stand on it
     already, but for ``held``.

@@ -89,7 +89,7 @@ class Flat:
             tx.put(InEdge(source="person_1", target=room))
         return self
 
-    def context(self, stamp_s: float = 0.0) -> RobotContext:
+    def context(self, stamp_s: float = 0.0, **more: object) -> RobotContext:
         """What actions share, with a robot at rest."""
         body, limits = FakeBody(), BodyLimits()
         state = BodyState(
@@ -97,7 +97,9 @@ class Flat:
             finger_contacts=(False, False), pan_rad=0.0, tilt_rad=0.0, bumped=False, stopped=False,
             T_base_gripper=gripper_pose(body.arm, body.geometry),
         )  # fmt: skip
-        return RobotContext(memory=self.memory, limits=limits, geometry=body.geometry, body=state, stamp_s=stamp_s)
+        return RobotContext(
+            memory=self.memory, limits=limits, geometry=body.geometry, body=state, stamp_s=stamp_s, **more
+        )
 
     @staticmethod
     def _room(tx, node_id, half, pose) -> None:

@@ -20,8 +20,8 @@ from scene_graph.memory import WorkingMemory
 from scene_graph.snapshot import Snapshot
 from skills.arm.hand import Hand
 from skills.failures import Evidence, Failure, FailureCode
-from skills.navigation.floor_relief import FloorRelief
-from skills.navigation.surroundings import Surroundings
+from skills.obstacles.floor_relief import FloorRelief
+from skills.obstacles.surroundings import Surroundings
 from skills.ports import NO_FLOOR, ArmGeometry, ArmTarget, BodyLimits, BodyPort, BodyState, FloorReturns
 from skills.settings import SkillSettings
 
@@ -96,7 +96,7 @@ class RobotContext:
 
     def __post_init__(self) -> None:
         """Nothing was hit yet."""
-        settings = self.settings.navigation
+        settings = self.settings.obstacles
         relief = FloorRelief(settings=settings.relief)
         self.surroundings = Surroundings(settings=settings.surroundings, relief=relief)
 
@@ -104,6 +104,10 @@ class RobotContext:
     def hand(self) -> Hand:
         """The hand as the robot's description has it, with the margins that are kept to it."""
         return Hand(geometry=self.geometry, limits=self.limits, settings=self.settings.hand)
+
+    def is_lately(self, since_s: float) -> bool:
+        """Whether what stopped base or arm then is expected to be there still."""
+        return self.stamp_s - since_s < self.settings.blocked_s
 
     @property
     def snapshot(self) -> Snapshot:

@@ -26,7 +26,7 @@ from skills.arm.hand import Hand
 from skills.furniture.kinds import is_container
 from skills.goto.nearness import is_at
 from skills.goto.settings import NearnessSettings
-from skills.navigation.walls import robot_beyond_m
+from skills.obstacles.walls import robot_beyond_m
 from skills.place.capacity import Capacity
 from skills.room_contents import in_room
 from skills.settings import SkillSettings
@@ -42,7 +42,7 @@ def read_state(snapshot: Snapshot, hand: Hand = Hand(), settings: SkillSettings 
     ``hand``: what the robot can take hold of, and where that fits; ``settings``: of the skills.
     """
     robot, room = snapshot.robot, snapshot.current_room
-    beyond = robot_beyond_m(snapshot, settings.navigation.map) > 0.0
+    beyond = robot_beyond_m(snapshot, settings.obstacles.map) > 0.0
     places = StoodPlaces(snapshot)
     return PlanState(
         world=read_world(snapshot, hand, settings),

@@ -9,6 +9,7 @@ from skills.arm.settings import ApproachSettings, ArmSettings, ReachSettings
 from skills.goto.settings import GotoSettings
 from skills.looking.settings import LookSettings
 from skills.navigation.settings import NavigationSettings
+from skills.obstacles.settings import ObstacleSettings
 from skills.place.settings import PlaceSettings
 
 
@@ -23,4 +24,7 @@ class SkillSettings:
     goto: GotoSettings = field(default_factory=GotoSettings)
     looking: LookSettings = field(default_factory=LookSettings)
     navigation: NavigationSettings = field(default_factory=NavigationSettings)
+    obstacles: ObstacleSettings = field(default_factory=ObstacleSettings)
     place: PlaceSettings = field(default_factory=PlaceSettings)
+    blocked_s: float = 120.0
+    """So long what stopped base or arm is expected to be there; chosen: people clear a way within minutes."""

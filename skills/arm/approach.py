@@ -165,7 +165,7 @@ class ApproachForReach(DriveTo):
         node_id = resolved(self._where).node_id
         stopped = np.zeros(len(bearings_rad), np.bool_)
         for (name, bearing), since_s in self.context.blocked_reaches.items():
-            if name == node_id and self.context.stamp_s - since_s < self._settings.stopped_s:
+            if name == node_id and self.context.is_lately(since_s):
                 stopped |= np.abs(np.angle(np.exp(1j * (bearings_rad - bearing)))) < self._settings.stopped_rad
         return stopped
 

@@ -80,7 +80,7 @@ class ArmAction(Action):
         if not out:
             return None
         farthest_m = max(_hand_x_m(context, target) for target in out)
-        clear_m = context.settings.reach.person_clearance_m - context.settings.reach.drift_m
+        clear_m = context.settings.reach.person_clearance_m - context.settings.approach.position_m
         for person in people_here(context, self.settings.person_away_s):
             T_base_person = in_base(context, person)
             beyond_m = max(T_base_person.x_m - farthest_m, 0.0)

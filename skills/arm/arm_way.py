@@ -14,10 +14,11 @@ from skills.arm.barring import is_small_and_nameless
 from skills.arm.settings import ReachSettings
 from skills.furniture.furniture import Furniture
 from skills.geometry import Point2, Points, Pose2
-from skills.navigation.local_map import draw_map, footprint
+from skills.navigation.plan import map_of
 from skills.navigation.pose import footprint_radius_m, in_base, robot_frame
 from skills.navigation.route import Routes, find_routes
-from skills.navigation.walls import Walls
+from skills.obstacles.local_map import footprint
+from skills.obstacles.walls import Walls
 
 
 def underside_of_held_m(context: RobotContext, z_m: float) -> float:
@@ -115,7 +116,7 @@ def passing_over(context: RobotContext, target: Points, low_m: float, points: Po
             away_m = np.linalg.norm(way - snapshot.position(person.id, frame)[:2], axis=2)
             cost_m = (
                 np.inf
-                if context.stamp_s - person.last_seen_s < context.settings.navigation.map.person_fresh_s
+                if context.stamp_s - person.last_seen_s < context.settings.obstacles.map.person_fresh_s
                 else settings.barred_cost_m
             )
             costs += np.where(away_m.min(axis=0) < settings.person_clearance_m, cost_m, 0.0)
@@ -138,7 +139,7 @@ def _ways_straight(
 def _meets_wall(context: RobotContext, target: Points, way: Points) -> NDArray[np.bool_]:
     """On which of the ways (S, N, 2) to a target a wall stands before the target; (N,)."""
     walls, settings = (
-        Walls.of(context.snapshot, robot_frame(context.snapshot), context.settings.navigation.map).tree,
+        Walls.of(context.snapshot, robot_frame(context.snapshot), context.settings.obstacles.map).tree,
         context.settings.reach,
     )
     if walls is None or not way.size:
@@ -155,7 +156,8 @@ def _rim_costs(context: RobotContext, node: ObjectNode, target: Points, low_m: f
     """
     costs, furniture, settings = np.zeros(way.shape[1]), Furniture.of(node), context.settings.reach
     T_frame_node = context.snapshot.transform(robot_frame(context.snapshot), node.id)
-    pose, clear_m = Pose2.of(T_frame_node), context.geometry.hand_half_width_m + settings.drift_m
+    pose = Pose2.of(T_frame_node)
+    clear_m = context.geometry.hand_half_width_m + context.settings.approach.position_m
     before = np.linalg.norm(way - target[:2], axis=2) > settings.at_target_m
     (goal,) = pose.inverse_apply(target[None, :2])
     for rim in furniture.obstacles:
@@ -172,7 +174,7 @@ def _rim_costs(context: RobotContext, node: ObjectNode, target: Points, low_m: f
 def people_here(context: RobotContext, fresh_s: float | None = None) -> list[str]:
     """Who was seen so short a time ago in the robot's room."""
     snapshot, frame = context.snapshot, robot_frame(context.snapshot)
-    fresh_s = context.settings.navigation.map.person_fresh_s if fresh_s is None else fresh_s
+    fresh_s = context.settings.obstacles.map.person_fresh_s if fresh_s is None else fresh_s
     return [
         person.id
         for person in snapshot.of_type(PersonNode)
@@ -190,21 +192,10 @@ def routes_around(
 ) -> Routes:
     """The ways from ``here`` on a map that shows all the spots; ``spared``: people who are thought away."""
     snapshot, frame = context.snapshot, robot_frame(context.snapshot)
-    settings = context.settings.navigation
-    hit = context.surroundings.points()
-    around_m = settings.map.person_radius_m + context.settings.reach.around_person_m
+    hit, settings = context.surroundings.points(), context.settings.obstacles.map
+    around_m = settings.person_radius_m + context.settings.reach.around_person_m
     for person in spared:
         hit = hit[np.hypot(*(hit - snapshot.position(person, frame)[:2]).T) > around_m]
-    walls = Walls.of(snapshot, frame, settings.map)
-    grid = draw_map(
-        snapshot,
-        frame,
-        hit,
-        [here, *spots],
-        walls=walls,
-        stamp_s=context.stamp_s,
-        ignore=spared,
-        geometry=context.geometry,
-        settings=settings.map,
-    )
-    return find_routes(grid, here, footprint_radius_m(context), settings.routes)
+    walls = Walls.of(snapshot, frame, settings)
+    grid = map_of(context, frame, [here, *spots], walls, hit=hit, ignore=spared)
+    return find_routes(grid, here, footprint_radius_m(context), context.settings.navigation.routes)

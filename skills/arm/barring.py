@@ -11,7 +11,7 @@ from skills.arm.roof import underside_below_board_m
 from skills.arm.way_in import BOTH_SIDES, beside
 from skills.furniture.standing import Stand, extent_on, stand_below
 from skills.geometry import inside_polygon
-from skills.navigation.walls import whole_room
+from skills.obstacles.walls import whole_room
 
 
 def barring(snapshot: Snapshot, object_id: str, hand: Hand = Hand()) -> tuple[str, ...]:

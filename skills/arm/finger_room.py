@@ -20,8 +20,10 @@ from skills.furniture.furniture import Furniture
 from skills.geometry import Points, Pose2
 from skills.navigation.pose import in_base, robot_frame
 
-_PALM_AT = tuple((along, out) for along in (0.25, 0.5, 0.75, 1.0) for out in (-1.0, 0.0, 1.0))
-"""Points of half a palm, as shares of its sides: four along, three across."""
+_PALM_AT = np.array(
+    [[(sign * along, out) for along in (0.25, 0.5, 0.75, 1.0) for out in (-1.0, 0.0, 1.0)] for sign in (1.0, -1.0)]
+)
+"""Points of both halves of a palm, (2, 12, 2), as shares of its sides: four along, three across."""
 
 
 def fingers_met(context: RobotContext, object_id: str) -> Callable[[float, float], int]:
@@ -43,16 +45,11 @@ def fingers_met(context: RobotContext, object_id: str) -> Callable[[float, float
         high.append(_Support(context, support, object_id, palm_m))
 
     def count(direction_rad: float, pad_m: float) -> int:
-        toward = np.array((cos(direction_rad), sin(direction_rad)))
-        middle, aside = T_base_object.translation_m[:2], np.array((-toward[1], toward[0]))
-        half_m, broad_m = hand.geometry.palm_half_m
-        met = 0
-        for sign in (1, -1):
-            finger = middle + sign * (pad_m + hand.geometry.finger_m / 2) * toward
-            palm = [middle + sign * along * half_m * toward + out * broad_m * aside for along, out in _PALM_AT]
-            met += any(solid.covers(finger) for solid in solids)
-            met += any(solid.covers(point) for solid in high for point in palm)
-        return met
+        middle = T_base_object.translation_m[:2]
+        ahead = (pad_m + hand.geometry.finger_m / 2) * np.array((cos(direction_rad), sin(direction_rad)))
+        fingers, (halves,) = (middle + ahead, middle - ahead), _palm(hand, middle, np.array([direction_rad]))
+        met = sum(any(solid.covers(finger) for solid in solids) for finger in fingers)
+        return met + sum(any(solid.covers(point) for solid in high for point in half) for half in halves)
 
     return count
 
@@ -64,13 +61,17 @@ def palm_meets(
     ``toward_rad`` (N,) in which its fingers may close; all in one frame, in which the furniture has that ``pose``.
     ``low_m``: height of what is lowest of the palm over the middle of the furniture.
     """
-    toward = np.stack((np.cos(toward_rad), np.sin(toward_rad)), axis=-1)[:, None]
-    aside = np.stack((-toward[..., 1], toward[..., 0]), axis=-1)
-    shares = np.array([(sign * along, out) for sign in (1.0, -1.0) for along, out in _PALM_AT])
-    shares *= hand.geometry.palm_half_m
-    palm = pose.inverse_apply(middle + shares[:, :1] * toward + shares[:, 1:] * aside)
+    palm = pose.inverse_apply(_palm(hand, middle, toward_rad).reshape(len(toward_rad), -1, 2))
     air_m, thicker_m = hand.settings.neighbor_air_m, hand.settings.thicker_m
     return np.asarray(furniture.met(palm, low_m - air_m, air_m=air_m + thicker_m).any(axis=1))
+
+
+def _palm(hand: Hand, middle: Points, toward_rad: Points) -> Points:
+    """(N, 2, 12, 2): points of both halves of a palm over ``middle`` whose fingers close in each of the directions."""
+    toward = np.stack((np.cos(toward_rad), np.sin(toward_rad)), axis=-1)[:, None, None]
+    aside = np.stack((-toward[..., 1], toward[..., 0]), axis=-1)
+    shares = _PALM_AT * hand.geometry.palm_half_m
+    return np.asarray(middle + shares[..., :1] * toward + shares[..., 1:] * aside)
 
 
 def _neighbors(context: RobotContext, object_id: str) -> list[ObjectNode]:

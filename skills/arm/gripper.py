@@ -23,7 +23,7 @@ class CloseGripper(Action):
     def __init__(self, context: RobotContext, object_id: str) -> None:
         super().__init__(f"close on {object_id}", context)
         self.object_id, self._settings = object_id, context.settings.arm
-        self.timeout_s = self._settings.close_limit_s
+        self.timeout_s = self._settings.give_up_s + 1.0  # what ends it leaves the fingers closing
         self._last_m, self._still_s = 0.0, 0.0
         self._open_m = self._moved_m = self._along_m = self._stamp_s = 0.0
         self._follows, self._arm = True, context.body.arm

@@ -65,10 +65,8 @@ class ArmSettings:
     """How fast the hand follows a finger that touches alone."""
     follow_m: float = 0.03
     """How far it does at most."""
-    close_limit_s: float = 8.0
-    """So long closing may take."""
     give_up_s: float = 7.0
-    """Fingers that have come to no rest by then hold nothing; short of the time limit, which leaves them closing."""
+    """Fingers that have come to no rest by then hold nothing."""
     misjudged_m: float = 0.1
     """A height that is farther off than this is not that of a thing standing there."""
     let_go_m: float = 0.06
@@ -109,8 +107,6 @@ class ReachSettings:
     """So much lower than the hover over a spot what is held may reach."""
     person_clearance_m: float = 0.32
     """So far from the middle of a person the middle of the arm keeps."""
-    drift_m: float = 0.04
-    """A place to stand may be missed by so much: the drive's tolerance."""
     beside_held_m: float = 0.02
     """Air beside what is carried past something."""
     least_air_m: float = 0.01
@@ -153,8 +149,6 @@ class ApproachSettings:
     """What it costs to reach from a side from which the arm was stopped lately: others are tried first."""
     stopped_rad: float = 0.35
     """As near to that side it is the same."""
-    stopped_s: float = 120.0
-    """So long it is remembered."""
     failed_m: float = 0.25
     """As near to a place that could not be driven to none is tried."""
     tries: int = 3
@@ -166,4 +160,6 @@ class ApproachSettings:
     between them.
     """
     position_m: float = 0.04
-    """How near to its place the base must come: the arm reaches straight ahead and has only so much to spare."""
+    """How near to its place the base must come, and so what a place may be missed by: the arm reaches straight ahead,
+    and has only so much to spare.
+    """

@@ -20,16 +20,16 @@ from skills.action import Action, RobotContext
 from skills.failures import FailureCode
 from skills.geometry import Points, Pose2, wrap_rad
 from skills.goto.lanes import Lane, clear_lane
-from skills.navigation.cells import CELL_M
 from skills.navigation.driver import Driver, Progress
 from skills.navigation.driving import DriveTo
 from skills.navigation.goals import at_poses
-from skills.navigation.local_map import standing
 from skills.navigation.plan import GoalSource
 from skills.navigation.pose import footprint_radius_m, in_base, look_around, planar_pose, robot_frame
 from skills.navigation.pursuit import turn_rate
 from skills.navigation.safety import admissible
 from skills.navigation.settings import DriverSettings
+from skills.obstacles.cells import CELL_M
+from skills.obstacles.local_map import standing
 
 
 class ApproachDoor(DriveTo):
@@ -227,7 +227,7 @@ class CrossDoor(Action):
         rooms = {snapshot.door(door).rooms[0] for door in (self.door_id, *twins_of(snapshot, self.door_id))}
         low = [
             box.outline(CELL_M)
-            for box in standing(snapshot, frame, small_only=True, rooms=rooms, settings=context.settings.navigation.map)
+            for box in standing(snapshot, frame, small_only=True, rooms=rooms, settings=context.settings.obstacles.map)
         ]
         return planar_pose(context, frame).inverse_apply(np.concatenate([context.surroundings.points(), *low]))
 

@@ -20,7 +20,7 @@ from skills.looking.accounting import Account, AccountFor, SeeFromElsewhere
 from skills.looking.looking import LookAt, SweepCamera, gaze_points
 from skills.navigation.driving import DriveTo
 from skills.navigation.goals import around, at_poses, freest, near_origin, overlooking
-from skills.navigation.walls import robot_beyond_m
+from skills.obstacles.walls import robot_beyond_m
 
 
 def travel(context: RobotContext, room: str | None) -> list[Action]:
@@ -102,15 +102,14 @@ def no_way(snapshot: Snapshot, here: str, room: str) -> Failure:
 def _way(context: RobotContext, snapshot: Snapshot, here: str, room: str) -> Path | None:
     """The shortest open way from where the robot stands, around doors that were blocked just now if there is one."""
     topology, start = Topology.from_snapshot(snapshot), snapshot.position(ROBOT_ID, here)
-    blocked_s, lately = context.settings.goto.blocked_s, context.blocked_doors.items()
-    blocked = {door for door, since_s in lately if context.stamp_s - since_s < blocked_s}
+    blocked = {door for door, since_s in context.blocked_doors.items() if context.is_lately(since_s)}
     detour = topology.path(here, room, blocked, start_m=(start[0], start[1]))
     return detour if detour is not None else topology.path(here, room, start_m=(start[0], start[1]))
 
 
 def _back_inside(context: RobotContext, snapshot: Snapshot, here: str) -> list[Action]:
     """Back into the room that the robot hangs from, through its nearest door, when it stands beyond its walls."""
-    if robot_beyond_m(snapshot, context.settings.navigation.map) == 0.0:
+    if robot_beyond_m(snapshot, context.settings.obstacles.map) == 0.0:
         return []
     doors = [door.id for door in snapshot.of_type(DoorNode) if door.rooms[0] == here]
     away_m = {door: float(np.hypot(*snapshot.position(door, ROBOT_ID)[:2])) for door in doors}

@@ -7,7 +7,7 @@ from math import hypot
 from scene_graph.nodes import ROBOT_ID, DoorNode, Node, ObjectNode, ObjectState, PersonNode, RoomNode
 from scene_graph.snapshot import Snapshot
 from skills.goto.settings import NearnessSettings
-from skills.navigation.walls import robot_beyond_m
+from skills.obstacles.walls import robot_beyond_m
 
 
 def excess_m(snapshot: Snapshot, node_id: str, settings: NearnessSettings = NearnessSettings()) -> float | None:

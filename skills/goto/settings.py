@@ -100,8 +100,6 @@ class GotoSettings:
     """Nearest that the base's axis comes to a footprint: the planning radius and what drawing on the grid takes."""
     through_m: float = 0.5
     """So far beyond the wall a known room is entered: out of the gap, and no detour to what stands beside it."""
-    blocked_s: float = 120.0
-    """So long something is expected to stay in a doorway; another way is taken meanwhile, if there is one."""
     doors_from_m: tuple[float, ...] = (0.8, 0.6, 1.2, 0.45)
     """From how far a door may be looked at where it cannot be from the wanted distance, and ..."""
     doors_aside_deg: tuple[float, ...] = (0.0, 25.0, -25.0, 45.0, -45.0)

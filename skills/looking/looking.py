@@ -73,7 +73,7 @@ class SweepCamera(Action):
     def step(self) -> Status:
         """Aim at the next heading, settle, dwell."""
         if not self._todo:
-            self.context.commands.look = (0.0, self._settings.tilt_rad)
+            self.context.commands.look = (0.0, self._settings.rows[0][0])
             return Status.SUCCESS
         heading, tilt = self._todo[0]
         if not self._gaze.at(wrap_rad(heading - self._yaw()), tilt):

@@ -20,12 +20,10 @@ class LookSettings:
     """By less than this it is not pointed anew: the noise of the pose estimate, seen from an arm's length."""
     dwell_s: float = 0.5
     """Long enough for two still frames."""
-    tilt_rad: float = -0.38
-    """Tilt at which the robot looks around, and drives: tables and floor."""
     rows: tuple[Row, ...] = ((-0.38, 8), (0.15, 8), (-0.98, 6))
-    """A look around: above what is seen at ``tilt_rad`` are the tops of wardrobes and shelves, and what hangs on walls;
-    below it the floor from 0.4 m before the camera's foot on, and low furniture there. The nearer to straight down, the
-    more of the surroundings is in a picture.
+    """A look around, first with the tilt at which the robot drives: above that are the tops of wardrobes and shelves,
+    and what hangs on walls; below it the floor from 0.4 m before the camera's foot on, and low furniture there. The
+    nearer to straight down, the more of the surroundings is in a picture.
     """
     picture_m: float = 0.9
     """So much of a thing, side by side, is in a picture taken from an arm's length."""

@@ -14,11 +14,11 @@ from skills.anchor import AnchorSource, resolved
 from skills.failures import FailureCode
 from skills.geometry import Point2, Points
 from skills.navigation.driver import Driver, Progress
-from skills.navigation.local_map import footprint
 from skills.navigation.plan import GoalSource
 from skills.navigation.pose import robot_frame
 from skills.navigation.pursuit import turn_rate
 from skills.navigation.settings import DriverSettings
+from skills.obstacles.local_map import footprint
 
 
 class DriveTo(Action):

@@ -18,7 +18,7 @@ from skills.navigation.plan import Goal, GoalSource
 from skills.navigation.pose import planar_pose, robot_frame
 from skills.navigation.route import Routes
 from skills.navigation.settings import GoalSettings
-from skills.navigation.sight import hidden_share
+from skills.obstacles.sight import hidden_share
 
 
 def at_poses(context: RobotContext, node_id: str, poses: Sequence[tuple[float, float, float | None]]) -> GoalSource:

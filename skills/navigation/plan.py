@@ -8,13 +8,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from skills.action import RobotContext
-from skills.geometry import Point2, Pose2
-from skills.navigation.grid import Grid
-from skills.navigation.local_map import draw_map
+from skills.geometry import Point2, Points, Pose2
 from skills.navigation.pose import footprint_radius_m
 from skills.navigation.route import Routes, find_routes
 from skills.navigation.settings import PlanSettings
-from skills.navigation.walls import Walls
+from skills.obstacles.grid import Grid
+from skills.obstacles.local_map import draw_map
+from skills.obstacles.walls import Walls
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -57,23 +57,12 @@ def make_plan(
     """
     spots = [pose.point, *(goal.point for goal in goals(None))]
     settings = context.settings.navigation
-    walls = Walls.of(context.snapshot, frame, settings.map)
+    walls = Walls.of(context.snapshot, frame, context.settings.obstacles.map)
     carrying_m, base_m = footprint_radius_m(context), context.limits.footprint_radius_m
     bare_m = base_m - settings.plan.squeeze_m
     tries = dict.fromkeys([(True, carrying_m), (True, base_m), (False, base_m), (True, bare_m), (False, bare_m)])
     for believe_furniture, radius_m in tries:
-        grid = draw_map(
-            context.snapshot,
-            frame,
-            context.surroundings.points(),
-            spots,
-            walls=walls,
-            stamp_s=context.stamp_s,
-            believe_furniture=believe_furniture,
-            ignore=ignore,
-            geometry=context.geometry,
-            settings=settings.map,
-        )
+        grid = map_of(context, frame, spots, walls, believe_furniture=believe_furniture, ignore=ignore)
         routes = find_routes(grid, pose.point, radius_m, settings.routes)
         goal = _cheapest(routes, goals(routes), last, settings.plan)
         if goal is not None and (path := routes.path_to(goal.point)):
@@ -87,6 +76,31 @@ def make_plan(
                 radius_m=radius_m,
             )
     return None
+
+
+def map_of(
+    context: RobotContext,
+    frame: str,
+    spots: Sequence[Point2],
+    walls: Walls,
+    *,
+    hit: Points | None = None,
+    believe_furniture: bool = True,
+    ignore: Collection[str] = (),
+) -> Grid:
+    """The map that holds all ``spots``, the robot first; ``hit``: what was hit lately, if not all of it counts."""
+    return draw_map(
+        context.snapshot,
+        frame,
+        context.surroundings.points() if hit is None else hit,
+        spots,
+        walls=walls,
+        stamp_s=context.stamp_s,
+        believe_furniture=believe_furniture,
+        ignore=ignore,
+        geometry=context.geometry,
+        settings=context.settings.obstacles.map,
+    )
 
 
 def _cheapest(routes: Routes, goals: Sequence[Goal], last: Goal | None, settings: PlanSettings) -> Goal | None:

@@ -14,9 +14,9 @@ from scipy.sparse import csr_array
 from scipy.sparse.csgraph import dijkstra
 
 from skills.geometry import Point2, Points
-from skills.navigation.cells import CELL_M
-from skills.navigation.grid import GROW_M, Grid
 from skills.navigation.settings import RouteSettings
+from skills.obstacles.cells import CELL_M
+from skills.obstacles.grid import GROW_M, Grid
 
 _STEPS = ((1, 0), (0, 1), (1, 1), (1, -1))
 

@@ -13,8 +13,8 @@ from skills.action import RobotContext
 from skills.anchor import Anchor
 from skills.arm.held import held_size_m
 from skills.furniture.furniture import Furniture
-from skills.navigation.local_map import draw_map
-from skills.navigation.walls import Walls, door_gaps
+from skills.navigation.plan import map_of
+from skills.obstacles.walls import Walls, door_gaps
 from skills.outline import disc
 from skills.place.place_spot import Spot, spots_on
 
@@ -66,8 +66,7 @@ def _spots_on(context: RobotContext, support: str, held: str, *, as_empty: bool 
 def _unblocked(context: RobotContext, spots: Sequence[Spot]) -> list[Spot]:
     """Those not near a point over which the arm was stopped lately: something is there that is not in the graph."""
     settings = context.settings.place.spots
-    blocked = context.blocked_spots.items()
-    lately = [at for at, since_s in blocked if context.stamp_s - since_s < settings.blocked_s]
+    lately = [at for at, since_s in context.blocked_spots.items() if context.is_lately(since_s)]
     return [
         spot
         for spot in spots
@@ -104,19 +103,11 @@ def _floor_spots(context: RobotContext, center: str, size_m: tuple[float, float,
     points = np.concatenate([radius_m * directions for radius_m in settings.floor_radii_m]) + np.array([x_m, y_m])
     spots = [(float(x), float(y)) for x, y in points]
     robot = snapshot.position(ROBOT_ID, room)
-    around, walls = context.surroundings.points(), context.settings.navigation.map
-    grid = draw_map(
-        snapshot,
-        room,
-        around,
-        [(float(robot[0]), float(robot[1])), *spots],
-        walls=Walls.of(snapshot, room, walls),
-        stamp_s=context.stamp_s,
-        geometry=context.geometry,
-        settings=walls,
-    )
+    around = context.settings.obstacles.map
+    here = (float(robot[0]), float(robot[1]))
+    grid = map_of(context, room, [here, *spots], Walls.of(snapshot, room, around))
     room_m = grid.clearance_at(points) - disc(size_m).radius_m
-    gaps = [gap.grown(settings.doorway_m) for gap in door_gaps(snapshot, room, walls)]
+    gaps = [gap.grown(settings.doorway_m) for gap in door_gaps(snapshot, room, around)]
     clear = [not any(gap.contains(points[i : i + 1])[0] for gap in gaps) for i in range(len(points))]
     return [
         Spot(anchor=Anchor(room, (*spot, 0.0)), room_m=float(free_m))

@@ -41,8 +41,6 @@ class SpotSettings:
     """So far from a doorway nothing is put on the floor."""
     blocked_m: float = 0.12
     """What stopped the arm may be so large."""
-    blocked_s: float = 120.0
-    """So long it is expected to be there."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -18,7 +18,7 @@ from skills.arm.hand import DOWN_RAD
 from skills.arm.held import above_bottom_m, held_radius_m, held_size_m, highest_underside_m
 from skills.arm.level_hand import level_meets
 from skills.arm.way_in import is_before
-from skills.furniture.furniture import Furniture
+from skills.furniture.furniture import Entry, Furniture
 from skills.geometry import Points, Pose2, wrap_rad
 from skills.navigation.pose import in_base, robot_frame
 from skills.place.place_spot import Spot
@@ -95,11 +95,8 @@ def pressing_m(context: RobotContext, spot: Spot, places: Points, *, spared: Col
     """What it costs, (N,), that a level hand which is lowered at a spot, with its arm straight from each of (N, 2)
     places in the robot's frame, comes down on a small thing before it. ``spared``: things that are thought away.
     """
-    if (
-        spot.is_covered
-        or spot.inside
-        or abs(context.body.arm.wrist_pitch_rad) > context.settings.place.put_down.steep_rad
-    ):
+    level = abs(context.body.arm.wrist_pitch_rad) <= context.settings.place.put_down.steep_rad
+    if spot.surface.entry is not Entry.ABOVE or not level:
         return np.zeros(len(places))
     on, frame = spot.anchor, robot_frame(context.snapshot)
     target = on.position(context.snapshot, frame)

@@ -177,7 +177,7 @@ async def test_after_a_blocked_door_another_one_is_taken_for_a_while(flat):
     assert doors() == ["door_1_1_0"]
     context.blocked_doors["door_1_1_0"] = context.stamp_s
     assert doors() == ["door_1_1_1"]
-    context.stamp_s += context.settings.goto.blocked_s
+    context.stamp_s += context.settings.blocked_s
     assert doors() == ["door_1_1_0"]
     del context.blocked_doors["door_1_1_0"]
     assert (await rehearsal.run(journeys.travel(context, "room_2"))).code is FailureCode.WAY_BLOCKED

@@ -18,7 +18,7 @@ from skills.looking.accounting import Account, AccountFor, SeeFromElsewhere
 from skills.looking.looking import LookAt, SweepCamera
 from skills.navigation.driving import DriveTo
 from skills.navigation.goals import overlooking
-from skills.navigation.sight import hidden_share
+from skills.obstacles.sight import hidden_share
 
 pytestmark = pytest.mark.anyio
 

@@ -17,9 +17,9 @@ from skills.geometry import Box2, Pose2, wrap_rad
 from skills.goto import journeys
 from skills.navigation.driving import DriveTo, TurnTo
 from skills.navigation.goals import around, at_poses, overlooking
-from skills.navigation.grid import Canvas
 from skills.navigation.pose import ANYWHERE
 from skills.navigation.route import find_routes
+from skills.obstacles.grid import Canvas
 
 pytestmark = pytest.mark.anyio
 

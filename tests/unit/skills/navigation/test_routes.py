@@ -12,10 +12,10 @@ from hypothesis import strategies as st
 
 from skills.geometry import Box2, Pose2, inside_polygon
 from skills.navigation.advance import Advance
-from skills.navigation.cells import CELL_M
-from skills.navigation.grid import Canvas
 from skills.navigation.pursuit import point_ahead
 from skills.navigation.route import find_routes, path_length_m, sampled
+from skills.obstacles.cells import CELL_M
+from skills.obstacles.grid import Canvas
 
 RADIUS_M = 0.28
 

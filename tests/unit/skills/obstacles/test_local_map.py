@@ -11,11 +11,11 @@ from hypothesis import strategies as st
 from scene_graph.geometry.se3 import SE3
 from scene_graph.nodes import RoomStatus
 from skills.geometry import Box2, Pose2
-from skills.navigation.grid import Canvas
-from skills.navigation.local_map import draw_map
 from skills.navigation.route import find_routes
-from skills.navigation.surroundings import Surroundings
-from skills.navigation.walls import Walls
+from skills.obstacles.grid import Canvas
+from skills.obstacles.local_map import draw_map
+from skills.obstacles.surroundings import Surroundings
+from skills.obstacles.walls import Walls
 
 RADIUS_M = 0.28
 

@@ -9,9 +9,9 @@ import numpy as np
 from scene_graph.nodes import ObjectNode, ObjectState, PersonNode, RoomNode
 from scene_graph.snapshot import Snapshot
 from skills.geometry import Box2, Point2, Points, Pose2, inside_polygon
-from skills.navigation.grid import Canvas, Grid
-from skills.navigation.settings import MapSettings
-from skills.navigation.walls import Walls, door_gaps, whole_room
+from skills.obstacles.grid import Canvas, Grid
+from skills.obstacles.settings import MapSettings
+from skills.obstacles.walls import Walls, door_gaps, whole_room
 from skills.ports import ArmGeometry
 
 

@@ -11,7 +11,7 @@ from scene_graph.errors import FramesNotConnected
 from scene_graph.nodes import ROBOT_ID, DoorNode, DoorState, RoomNode, RoomStatus
 from scene_graph.snapshot import Snapshot
 from skills.geometry import Box2, Points, Pose2, boundary_distance_m, inside_polygon
-from skills.navigation.settings import MapSettings
+from skills.obstacles.settings import MapSettings
 
 MIN_CORNERS = 3
 

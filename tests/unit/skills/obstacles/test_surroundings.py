@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from scene_graph.geometry.se3 import SE3
 from skills.geometry import Box2, Pose2
-from skills.navigation.surroundings import Surroundings
+from skills.obstacles.surroundings import Surroundings
 from skills.ports import FloorReturns
 
 points = st.tuples(st.floats(-2.4, 2.4), st.floats(-2.4, 2.4))

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from scene_graph.nodes import ObjectNode, ObjectState
 from scene_graph.snapshot import Snapshot
 from skills.geometry import Points, inside_polygon
-from skills.navigation.local_map import footprint
-from skills.navigation.walls import whole_room
+from skills.obstacles.local_map import footprint
+from skills.obstacles.walls import whole_room
 
 _ALONG = np.linspace(0.1, 0.92, 14)
 """Shares of a line of sight that are looked at; what is nearer to its end is what one looks at."""

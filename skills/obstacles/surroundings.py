@@ -14,9 +14,9 @@ from scipy.spatial import cKDTree
 
 from scene_graph.geometry.se3 import SE3
 from skills.geometry import Point2, Points
-from skills.navigation.cells import CELL_M, found, moved, packed
-from skills.navigation.floor_relief import FloorRelief
-from skills.navigation.settings import SurroundingsSettings
+from skills.obstacles.cells import CELL_M, found, moved, packed
+from skills.obstacles.floor_relief import FloorRelief
+from skills.obstacles.settings import SurroundingsSettings
 from skills.ports import FloorReturns
 
 _CELL = np.dtype(

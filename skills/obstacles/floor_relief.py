@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from scene_graph.geometry.se3 import SE3
 from skills.geometry import Points
-from skills.navigation.cells import found, keys_of, moved, neighbor_keys
-from skills.navigation.settings import FloorReliefSettings
+from skills.obstacles.cells import found, keys_of, moved, neighbor_keys
+from skills.obstacles.settings import FloorReliefSettings
 from skills.ports import FloorReturns
 
 _SPOT = np.dtype(

@@ -11,7 +11,7 @@ from scipy.ndimage import distance_transform_edt
 from scipy.spatial import cKDTree
 
 from skills.geometry import Box2, Point2, Points
-from skills.navigation.cells import CELL_M
+from skills.obstacles.cells import CELL_M
 
 GROW_M = 0.71 * CELL_M
 """Obstacles grow by half a cell's diagonal before they are drawn, so that none slips between cell centers."""

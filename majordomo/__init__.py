@@ -48,6 +48,7 @@ from simulation.process.client import SimulatedRobot
 from skills.action import Action, RobotContext
 from skills.doubles import Rehearsal
 from skills.errors import BodySilent
+from skills.facts import read_state
 from skills.failures import Evidence, Failure, FailureCode
 from skills.goto.journeys import visit
 from skills.ports import ArmGeometry, ArmTarget, BodyLimits, BodyPort, BodyState
@@ -116,6 +117,7 @@ __all__ = [
     "find_service",
     "load_graph",
     "ray_directions_base",
+    "read_state",
     "unknown_arguments",
     "visit",
 ]

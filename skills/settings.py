@@ -27,4 +27,4 @@ class SkillSettings:
     obstacles: ObstacleSettings = field(default_factory=ObstacleSettings)
     place: PlaceSettings = field(default_factory=PlaceSettings)
     blocked_s: float = 120.0
-    """So long what stopped base or arm is expected to be there; chosen: people clear a way within minutes."""
+    """So long what stopped base or arm is expected to be there. Chosen."""

@@ -73,9 +73,8 @@ class ApproachForReach(DriveTo):
 
     def step(self) -> Status:
         """Stay when the arm already reaches from here without passing over anything, else drive on."""
-        if self.context.stamp_s == self.started_s and self._reaches_from_here(
-            self.context.settings.reach.in_the_way_cost_m
-        ):
+        least_m = self.context.settings.reach.in_the_way_cost_m
+        if self.context.stamp_s == self.started_s and self._reaches_from_here(least_m):
             return Status.SUCCESS
         return super().step()
 

@@ -33,11 +33,10 @@ class CloseGripper(Action):
         """Remember the opening, to see when it stops changing, and pose and size while the object still stands."""
         self.context.grip, self._standing, self._arm = None, None, self.context.body.arm
         self._moved_m = self._along_m = 0.0
-        room_m, half_m = (
-            palm_room_m(self.context.snapshot, self.object_id, self.context.hand),
-            self.context.geometry.hand_half_width_m,
-        )
-        self._follows = room_m is None or min(room_m) >= half_m + self._settings.follow_m
+        hand = self.context.hand
+        room_m = palm_room_m(self.context.snapshot, self.object_id, hand)
+        needed_m = hand.geometry.hand_half_width_m + self._settings.follow_m
+        self._follows = room_m is None or min(room_m) >= needed_m
         if self.object_id in self.context.snapshot:
             self._standing = in_base(self.context, self.object_id), self._standing_size_m()
         self._last_m = self._open_m = self.context.body.gripper_opening_m
@@ -51,15 +50,12 @@ class CloseGripper(Action):
         self.context.commands.grip, self.context.commands.drive = (0.0, settings.close_effort_n), (0.0, 0.0)
         if abs(body.gripper_opening_m - self._last_m) > settings.still_m:
             self._last_m, self._still_s = body.gripper_opening_m, self.context.stamp_s
-        late = self.elapsed_s > settings.give_up_s
-        if not late and (
-            self.context.stamp_s - self._still_s < settings.settle_s or self.elapsed_s < 2 * settings.settle_s
-        ):
+        late, waited_s = self.elapsed_s > settings.give_up_s, self.context.stamp_s - self._still_s
+        if not late and (waited_s < settings.settle_s or self.elapsed_s < 2 * settings.settle_s):
             return self._go_on()
         if is_firm(self.context):
             self._hold()
             return Status.SUCCESS
-        waited_s = self.context.stamp_s - self._still_s
         if not late and body.gripper_opening_m > settings.empty_opening_m and waited_s < 3 * settings.settle_s:
             return self._go_on()
         self.context.commands.grip = (self._open_m, settings.close_effort_n)

@@ -42,7 +42,7 @@ class HandSettings:
     hover_m: float = 0.08
     """How far over a thing's top the pads are while the arm extends."""
     level_clearance_m: float = 0.06
-    """The pads of a level hand stay so high over what a thing stands on: what hand and arm need below them."""
+    """The pads of a level hand stay so high over what a thing stands on."""
     level_standoff_m: float = 0.06
     """How far before a thing a level hand is, before it comes straight in."""
     level_share: float = 0.5
@@ -60,9 +60,9 @@ class HandSettings:
     square_share: float = 0.15
     """What is wider than deep by no more than this share is taken from where the wrist turns less."""
     highest_m: float = 1.15
-    """On what is higher than this above the floor, the arm puts nothing: the lift with a thing in the hand."""
+    """On what is higher than this above the floor, the arm puts nothing."""
     lowest_m: float = 0.15
-    """Nor on a top lower than this: the hand's pads would have to go where the arm does not."""
+    """Nor on a top lower than this."""
     lowest_board_m: float = 0.28
     """Nor on a board below another lower than this: what the hand holds passes over the base on its way in."""
     headroom_m: float = 0.03
@@ -80,7 +80,7 @@ class HandSettings:
     thicker_m: float = 0.01
     """What back and arms of a seat may be thicker than believed: that is known of the kind only."""
     sweep_m: float = 0.03
-    """How finely the hand's way over furniture is looked at: narrower than a back or an arm."""
+    """How finely the hand's way over furniture is looked at."""
     beyond_m: float = 0.05
     """So far beyond a thing a level hand sweeps what stands there."""
     nameless_m: float = 0.35
@@ -88,13 +88,11 @@ class HandSettings:
     stand_m: float = 0.4
     """So far before a shelf the middle of the base is, at least."""
     unknown_size_m: Size3 = (0.1, 0.1, 0.2)
-    """Taken for the extent of what is held where nobody knows it: that of most things."""
+    """Taken for the extent of what is held where nobody knows it."""
     unknown_grip: float = 0.6
     """At which share of its height it is held then."""
     roof_m: tuple[float, float] = (0.05, 0.6)
-    """What is between these heights over a thing's top is over it: nearer, it is taken for the thing, as both are
-    measured; farther, the hand has room in between.
-    """
+    """What is between these heights over a thing's top is over it."""
 
 
 @dataclass(frozen=True, kw_only=True)

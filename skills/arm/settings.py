@@ -20,15 +20,15 @@ class ArmSettings:
     carry_lift_m: float = 0.95
     """How high things are carried: over tables and counters."""
     highest_carry_m: float = 1.1
-    """As high they stay if they are higher already: the camera sees over them."""
+    """As high they stay if they are higher already."""
     carry_extension_m: float = 0.05
-    """How far the arm is out then, with the hand pointing down: what it holds stays off the mast."""
+    """How far the arm is out then, with the hand pointing down."""
     lift_m: float = 0.12
     """By so much what was taken is raised at least."""
     off_board_m: float = 0.02
     """What is taken from below a board is raised by this before it is drawn out."""
     length_tolerance_m: float = 0.008
-    """As near to a target lift and extension are there: a few times what the drives are off at rest."""
+    """As near to a target lift and extension are there."""
     angle_tolerance_rad: float = 0.05
     """The same for the wrist."""
     moving_m: float = 0.004
@@ -42,13 +42,13 @@ class ArmSettings:
     extended_m: float = 0.05
     """An arm that is out farther than this is raised before it is drawn back."""
     empty_opening_m: float = 0.004
-    """Fingers as near to each other hold nothing: what they leave of their gap when they meet."""
+    """Fingers as near to each other hold nothing."""
     slip_s: float = 0.3
-    """Fingers without contact for so long have lost what they held: contacts flicker while the arm starts and stops."""
+    """Fingers without contact for so long have lost what they held."""
     person_away_s: float = 20.0
     """Who was not seen for so long where the robot looks to reach is there no more."""
     hand_tolerance_m: float = 0.02
-    """How far the pads may be from where they should be: what the opening's margin allows."""
+    """How far the pads may be from where they should be."""
     side_tolerance_m: float = 0.015
     """How far beside the arm's plane a thing may be for the narrowest opening, and ..."""
     side_from_m: float = 0.06
@@ -94,7 +94,7 @@ class ReachSettings:
     barred_cost_m: float = 20.0
     """More than any other: the arm would meet furniture that is higher than the hand, or the end of a shelf."""
     sample_m: float = 0.06
-    """How finely the arm's way is looked at: half of how thick the least furniture is."""
+    """How finely the arm's way is looked at."""
     surely_met_m: float = 0.06
     """So near to the middle of its way, the hand meets what is higher, however well that was measured."""
     at_target_m: float = 0.12
@@ -122,13 +122,13 @@ class ApproachSettings:
     """Where to stand so that the arm reaches, and what places cost."""
 
     nearest_m: float = 0.40
-    """Nearest that the base's axis comes to what is reached for: its radius and what stands out of a table's top."""
+    """Nearest that the base's axis comes to what is reached for."""
     radius_step_m: float = 0.05
     """Between the rings of places around it."""
     angles: int = 36
     """How many places are on a ring."""
     spare_m: float = 0.05
-    """What the arm keeps of its reach: the drive's tolerance."""
+    """What the arm keeps of its reach."""
     best_m: float = 0.52
     """The best distance: the arm neither drawn in nor stretched."""
     easy_m: float = 0.70
@@ -160,6 +160,4 @@ class ApproachSettings:
     between them.
     """
     position_m: float = 0.04
-    """How near to its place the base must come, and so what a place may be missed by: the arm reaches straight ahead,
-    and has only so much to spare.
-    """
+    """How near to its place the base must come, and so what a place may be missed by."""

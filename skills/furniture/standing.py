@@ -21,9 +21,9 @@ class StandingSettings:
     """What is taken to stand on a surface though no relation says so."""
 
     around_m: float = 0.1
-    """So far beside the furniture its middle may seem to be; chosen: what is measured of both is centimeters off."""
+    """So far beside the furniture its middle may seem to be. Chosen."""
     tolerance_m: float = 0.12
-    """So far over or below the surface its bottom may seem to be; chosen for the same reason."""
+    """So far over or below the surface its bottom may seem to be. Chosen."""
 
 
 @dataclass(frozen=True, kw_only=True)

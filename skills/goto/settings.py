@@ -16,7 +16,7 @@ class NearnessSettings:
     graspable_m: float = 1.05
     """To that of a thing to be grasped: the arm's span."""
     person_m: float = 1.50
-    """To the middle of a person: two arms' lengths."""
+    """To the middle of a person."""
     door_m: float = 1.50
     """To the middle of a door."""
 
@@ -26,13 +26,13 @@ class LaneSettings:
     """Which straight ways through a gap are tried."""
 
     wall_m: float = 0.2
-    """How thick a wall is: what houses are built with inside, and more than most."""
+    """How thick a wall is taken to be."""
     beyond_m: float = 0.9
     """So far beyond the wall a crossing ends: the base stands free in the far room."""
     front_m: float = 0.7
     """So far before the wall it begins."""
     most_aslant_rad: float = 0.79
-    """Lanes are at most so far from straight: beyond, no body fits between the jambs."""
+    """Lanes are at most so far from straight."""
     steps: tuple[tuple[float, float], ...] = ((0.03, 0.26), (0.015, 0.065))
     """How far apart the lanes that are tried are, aside in meters and in bearing: close to each other only at last."""
     same_m: float = 0.02
@@ -63,7 +63,7 @@ class CrossingSettings:
     turn_in_place_rad: float = 0.5
     """Farther off than this the base turns first."""
     closed_s: float = 1.5
-    """So long a panel must be seen: it may be swinging."""
+    """So long a panel must be seen."""
     patience_s: float = 8.0
     """So long anything else is given to move away."""
     panel_share: float = 0.8
@@ -93,7 +93,7 @@ class GotoSettings:
     unknown_way_m: float = 10.0
     """Assumed where the way is not known."""
     person_standoff_m: float = 0.65
-    """How near to a person the robot stands: within reach, and not at their feet."""
+    """How near to a person the robot stands."""
     standoff_m: float = 0.9
     """How near to a door."""
     least_standoff_m: float = 0.42

@@ -17,7 +17,7 @@ class LookSettings:
     settled_rad: float = 0.02
     """As near to where it should point a camera is there."""
     drift_rad: float = 0.06
-    """By less than this it is not pointed anew: the noise of the pose estimate, seen from an arm's length."""
+    """By less than this it is not pointed anew: the noise of the pose estimate."""
     dwell_s: float = 0.5
     """Long enough for two still frames."""
     rows: tuple[Row, ...] = ((-0.38, 8), (0.15, 8), (-0.98, 6))
@@ -36,9 +36,9 @@ class LookSettings:
     noticeable: float = 0.02
     """By so much the probability falls that a thing is there while one looks and does not find it."""
     moved_m: float = 0.15
-    """Farther than this from where it was planned to be a thing was moved: more than it is measured anew."""
+    """Farther than this from where it was planned to be a thing was moved."""
     glances_rad: tuple[tuple[float, float], ...] = ((0.0, 0.0), (0.12, 0.0), (-0.12, 0.0), (0.0, -0.1))
-    """Pan and tilt that are added in turn: a thing may be cut off, or hide behind the hand."""
+    """Pan and tilt that are added in turn while one waits to see a thing."""
     glance_s: float = 2.0
     """For how long each."""
     past_edge_m: float = 0.05

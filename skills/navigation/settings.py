@@ -24,7 +24,7 @@ class SafetySettings:
     """The last check before a velocity is sent."""
 
     reaction_s: float = 0.30
-    """So long passes from a scan until the base begins to brake: a revolution and two control ticks."""
+    """So long passes from a scan until the base begins to brake."""
     shares: tuple[float, ...] = (1.0, 0.75, 0.5, 0.3, 0.15)
     """Of the wanted velocity, tried in turn."""
     steps: int = 8
@@ -34,7 +34,7 @@ class SafetySettings:
     far_m: float = 2.0
     """What is farther away cannot be reached before the next tick."""
     closer_m: float = 0.002
-    """By so much the base may come closer to what is too close already: noise."""
+    """By so much the base may come closer to what is too close already."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -88,7 +88,7 @@ class DriverSettings:
     patience_s: float = 8.0
     """So long somebody in the way is given to move on."""
     no_way_s: float = 4.0
-    """So long there may be no way: what was hit may fade."""
+    """So long there may be no way."""
     step_m: float = 0.04
     """By so much the way left must get shorter to count."""
     detour_m: float = 0.3
@@ -96,23 +96,29 @@ class DriverSettings:
     most_detours: int = 3
     """More than so many without coming nearer are none."""
     person_near_m: float = 0.7
-    """As near to what blocks the way is the person who does: legs are seen beside the middle."""
+    """As near to what blocks the way is the person who does."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class PursuitSettings:
-    """Shares of the body's limits, look-ahead, and the clearances between which the speed is scaled (Macenski et al.,
-    section III; values for a base of 0.6 m/s).
-    """
+    """How a path is followed; shares are of the body's limits."""
 
     cruise: float = 0.85
+    """Of the speed, where there is room."""
     creep_mps: float = 0.10
+    """Speed where there is none."""
     brake: float = 0.5
+    """Of the deceleration, towards the goal."""
     turn: float = 0.8
+    """Of the angular velocity."""
     look_ahead_m: tuple[float, float] = (0.25, 0.50)
+    """How far along the path the point is that is driven to, when slow and when fast."""
     clearance_m: tuple[float, float] = (0.30, 0.60)
+    """Between these distances from the nearest obstacle the speed is scaled."""
     turn_in_place_rad: float = 0.7
+    """Farther off its heading than this the base turns in place, until it is off by no more than ..."""
     aligned_rad: float = 0.15
+    """... this."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -28,11 +28,11 @@ class SpotSettings:
     ways: int = 4
     """In so many ways a thing is laid at most: turned anyhow or so that it fits, in coarse or fine steps."""
     handover_m: float = 1.8
-    """Something is within a person's reach when it is at most this far from where they stand: two steps."""
+    """Something is within a person's reach when it is at most this far from where they stand."""
     handover_spare_m: float = 0.3
-    """By so much nearer it is put, as people move."""
+    """By so much nearer it is put."""
     floor_radii_m: tuple[float, ...] = (0.55, 0.75, 0.95)
-    """How far from a person, or from the robot, it is put on the floor: not at their feet, and near."""
+    """How far from a person, or from the robot, it is put on the floor."""
     floor_angles: int = 24
     """In how many directions."""
     floor_gap_m: float = 0.10
@@ -76,9 +76,9 @@ class PutDownSettings:
     deep_m: float = 0.015
     """What reaches less far into the way counts for nothing: it is a little off, as everything that is measured."""
     over_m: float = 0.03
-    """What is seen lower over the surface than this is the surface: the depth camera's noise at an arm's length."""
+    """What is seen lower over the surface than this is the surface."""
     hand_height_m: float = 0.15
-    """How high over the pads the hand and the arm behind it reach, its turns included."""
+    """How high over the pads the hand and the arm behind it reach."""
     arm_half_width_m: float = 0.05
     """Half of how wide they are, at most, where nothing wider is held."""
     least_points: int = 15

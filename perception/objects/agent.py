@@ -12,7 +12,6 @@ from numpy.random import Generator
 from perception.errors import PerceptionError
 from perception.objects.holding.grip import GripSettings
 from perception.objects.holding.hand import Hand
-from perception.objects.identity.pieces import is_of_furniture
 from perception.objects.inspection import AGENT, Inspection, InspectionSettings
 from perception.objects.publishing.people import People, PeopleSettings
 from perception.objects.publishing.publication import (
@@ -37,7 +36,6 @@ from perception.objects.tracking.relations import RelationMemory, RelationSettin
 from perception.panoptic import PanopticModel, PanopticScene
 from perception.ports import JointState, RgbdFrame
 from perception.sensing import SensorBuffer
-from perception.vocabulary import category_of
 from scene_graph.edges import EdgeKey
 from scene_graph.edits import Edit
 from scene_graph.errors import TransactionRejected
@@ -46,7 +44,6 @@ from scene_graph.nodes import ObjectState
 from scene_graph.snapshot import Snapshot
 
 logger = logging.getLogger(__name__)
-_SPARSE = 4
 _REACHING_M = 0.1
 """An arm that is stretched out by more is not in a pose to travel in."""
 
@@ -56,8 +53,7 @@ class ObjectMemorySettings:
     """Settings of every stage.
 
     ``silent_s``: age of the newest frame from which on the camera counts as silent. ``late_s``: so much older than the
-    newest a frame may be that waits for its turn. ``wall_share``: of the points of
-    furniture; where so many are of walls, it is one. ``sure_rad``: standard deviation of the robot's heading from which
+    newest a frame may be that waits for its turn. ``sure_rad``: standard deviation of the robot's heading from which
     on nothing is placed by it.
     """
 
@@ -67,7 +63,6 @@ class ObjectMemorySettings:
     inference_timeout_s: float = 10.0
     depth_share_min: float = 0.05
     in_hand_m: float = 0.12
-    wall_share: float = 0.85
     sure_rad: float = 0.008
     detection: DetectionSettings = field(default_factory=DetectionSettings)
     tracker: TrackerSettings = field(default_factory=TrackerSettings)
@@ -186,16 +181,13 @@ class ObjectMemory:
         )
         self._held_in = frozenset(thing.index for thing in things if self._in_hand(thing, view, joints))
         turning = turning_radps(self._buffer)
-        persons = [each for each in persons if not is_of_furniture(each, self._tracker.tracks, surroundings)]
+        T_here_room = surroundings.T_here_room
+        persons = [each for each in persons if self._tracker.is_somebody(each, view.room, T_here_room)]
         self._people.update(persons, view, surroundings)
         self._tracker.update(
             Sight(
                 view=view,
-                detections=[
-                    thing
-                    for thing in things
-                    if thing.index not in self._held_in and not self._is_wall(thing, surroundings)
-                ],
+                detections=[thing for thing in things if thing.index not in self._held_in],
                 surroundings=surroundings,
                 turning_radps=turning,
                 looked_before=self._inspection.looked(snapshot, stamp_s),
@@ -222,15 +214,6 @@ class ObjectMemory:
         in_room = (view.T_room_base @ joints.T_base_gripper @ self._hand.held.T_gripper_object).translation_m
         near = np.linalg.norm(thing.cloud.points - in_room, axis=1) < self._settings.in_hand_m
         return float(near.mean()) > 0.5
-
-    def _is_wall(self, thing: Detection, surroundings: Surroundings) -> bool:
-        """Whether what the network takes for furniture is a stretch of a wall that is known: what stands on the floor
-        stands before it.
-        """
-        category = category_of(thing.label, thing.shape.size_m)
-        if not (category.furniture and (category.floor or not category.known)):
-            return False
-        return surroundings.in_walls(thing.cloud.points[::_SPARSE]) > self._settings.wall_share
 
     def _relate(self, surroundings: Surroundings, placed: frozenset[int], scene: PanopticScene | None) -> None:
         seen = frozenset(track.number for track in self._tracker.matches.values()) if scene is not None else frozenset()

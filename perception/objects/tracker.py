@@ -2,38 +2,21 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
 import cv2
 import numpy as np
 from numpy.random import Generator
 from numpy.typing import NDArray
 
-from perception.objects.beliefs import agreement
 from perception.objects.furniture.surface import Box, SurfaceBelief
-from perception.objects.identity.association import AssociationSettings, MaskMemory, assign, cost_matrix
-from perception.objects.identity.confirmation import (
-    is_double,
-    is_fragment,
-    known_as,
-    may_prove_built_in,
-    turned_up,
-    undecided,
-)
-from perception.objects.identity.identity import IdentitySettings
-from perception.objects.identity.pieces import (
-    PieceSettings,
-    has_no_name,
-    is_at_hand,
-    is_of_somebody,
-    is_part,
-    is_piece,
-    is_side,
-    is_under_arm,
-    lies_within,
-    without_pieces,
-)
-from perception.objects.identity.probation import ProbationSettings, is_beyond_doubt, is_stable, may_come_true
+from perception.objects.identity.association import MaskMemory, assign
+from perception.objects.identity.evidence import sharers
+from perception.objects.identity.hypotheses import Asked, Hypothesis
+from perception.objects.identity.identity import Identity, IdentitySettings
+from perception.objects.identity.pair import Moment, Subject
+from perception.objects.identity.probation import ProbationSettings, is_stable, may_come_true
 from perception.objects.seeing.detection import Detection
 from perception.objects.seeing.sight import Sight
 from perception.objects.tracking.existence import (
@@ -46,6 +29,7 @@ from perception.objects.tracking.existence import (
 from perception.objects.tracking.taken_names import TakenNames
 from perception.objects.tracking.track import Track, TrackSettings
 from perception.vocabulary import category_of
+from scene_graph.geometry.se3 import SE3
 from scene_graph.identifiers import next_id
 from scene_graph.nodes import ObjectState
 
@@ -56,20 +40,12 @@ _BORDER = np.ones((7, 7), np.uint8)
 
 @dataclass(frozen=True, kw_only=True)
 class TrackerSettings:
-    """``patience_hits``: how many sightings to wait for a look-alike that is just being missed, or until it is clear
-    whether what lies in a row of furniture is a piece of its own. ``wall_share``: of the points of a thing seen through
-    a door that are in its room's walls, from which on furniture was one of them. ``furniture_min_px``: how large it
-    must show to be begun with.
-    """
+    """``furniture_min_px``: how large furniture must show to be begun with."""
 
-    association: AssociationSettings = field(default_factory=AssociationSettings)
     existence: ExistenceSettings = field(default_factory=ExistenceSettings)
     identity: IdentitySettings = field(default_factory=IdentitySettings)
-    pieces: PieceSettings = field(default_factory=PieceSettings)
     probation: ProbationSettings = field(default_factory=ProbationSettings)
     track: TrackSettings = field(default_factory=TrackSettings)
-    patience_hits: int = 15
-    wall_share: float = 0.85
     furniture_min_px: int = 150
 
 
@@ -79,7 +55,6 @@ class Tracker:
     Attributes:
         tracks: all things, tentative ones included, in order of birth.
         taken: every identifier ever seen; none is given twice.
-        places_before: where things in the hand were taken from.
         matches: instance index -> track, of the newest frame.
         united: number of a track that turned out to be another, or a part of it -> that other; ``removed``: their
             nodes, and those of what turned out to be nothing (``None``), until they are gone from the graph.
@@ -90,12 +65,12 @@ class Tracker:
         self._random = random
         self._born = 0
         self._masks = MaskMemory()
+        self._identity = Identity(settings.identity)
         self.tracks: list[Track] = []
         self.taken = TakenNames()
         self.matches: dict[int, Track] = {}
         self.united: dict[int, Track] = {}
         self.removed: dict[str, Track | None] = {}
-        self.places_before: dict[int, tuple[str, Array]] = {}
 
     def new_track(self, room: str) -> Track:
         """A track without any observation, kept."""
@@ -112,18 +87,20 @@ class Tracker:
         """Forget a track altogether."""
         self.tracks = [other for other in self.tracks if other is not track]
 
+    def is_somebody(self, person: Detection, room: str, T_here_room: Mapping[str, SE3]) -> bool:
+        """Whether who is taken for a person, in the frame of ``room``, is not a piece of furniture that is known."""
+        known = [track for track in self.tracks if track.room in T_here_room]
+        decision = self._identity.decide(
+            Asked.PERSON, Subject(person, room), Moment(known=known, T_here_room=T_here_room)
+        )
+        return decision.best.hypothesis is Hypothesis.NEW
+
     def update(self, sight: Sight) -> None:
         """One frame."""
-        sight, in_one = without_pieces(sight, self._near(sight), self._settings.pieces)
-        scope = [t for t in self._near(sight) if t.state is not ObjectState.HELD]
-        iou = self._masks.overlap([track.number for track in scope], sight.detections, sight.view)
-        costs = cost_matrix(scope, sight.detections, iou, sight.surroundings.T_here_room, self._settings.association)
-        pairs = assign(costs, self._settings.association.limit)
         self.matches = {}
-        for i, j in pairs:
-            self._observe(scope[i], sight.detections[j], sight)
-        matched = {j for _, j in pairs}
-        unmatched = [d for j, d in enumerate(sight.detections) if j not in matched]
+        sight, in_one = self._things_of_their_own(sight)
+        scope = [t for t in self._near(sight) if t.state is not ObjectState.HELD]
+        unmatched = self._associate(scope, sight)
         unmatched = [d for d in unmatched if not self._absorb(d, scope, sight)]
         self._settle(scope, sight)
         self._doubt_unseen([track for track in scope if track.number not in in_one], sight)
@@ -131,12 +108,50 @@ class Tracker:
         for detection in unmatched:
             self._found(detection, sight)
         self._confirm(sight)
-        self._let_go_of_somebody(sight)
+        self._reconsider(sight)
         self._find_missing_again(sight)
-        self._unite()
         self._forget_tentative(sight.view.stamp_s)
         seen = [(d.mask, self.matches[d.index].number) for d in sight.detections if d.index in self.matches]
         self._masks.remember(seen, sight.view)
+
+    def _near(self, sight: Sight) -> list[Track]:
+        """Everything in the robot's room and its neighbors: of the others, nobody knows here where they are."""
+        return [t for t in self.tracks if t.room in sight.surroundings.T_here_room]
+
+    def _moment(
+        self, sight: Sight, known: Sequence[Track], iou: Mapping[tuple[int, int], float] | None = None
+    ) -> Moment:
+        return Moment(
+            known=known,
+            sight=sight,
+            T_here_room=sight.surroundings.T_here_room,
+            matches=self.matches,
+            looked_before=sight.looked_before,
+            iou=iou or {},
+            scales=self._settings.identity.scales,
+        )
+
+    def _things_of_their_own(self, sight: Sight) -> tuple[Sight, set[int]]:
+        """Without what is a piece of something or nothing at all; numbers of the tracks that are in one mask."""
+        told, in_one, moment = list[Detection](), set[int](), self._moment(sight, self._near(sight))
+        for detection in sight.detections:
+            it = Subject(detection, sight.view.room)
+            best = self._identity.decide(Asked.MASK, it, moment).best
+            if best.hypothesis is Hypothesis.NEW:
+                told.append(detection)
+            elif best.hypothesis is Hypothesis.PART and best.known is None:
+                in_one |= {track.number for track, _ in sharers(it, moment)}
+        return (replace(sight, detections=told) if len(told) < len(sight.detections) else sight), in_one
+
+    def _associate(self, scope: list[Track], sight: Sight) -> list[Detection]:
+        """Observe what is seen again; the detections that are nothing that is known."""
+        moment = self._moment(sight, scope, self._masks.overlap(sight.detections, sight.view))
+        its = [Subject(detection, sight.view.room) for detection in sight.detections]
+        pairs = assign(self._identity.scores(Asked.FRAME, its, moment))
+        for i, j in pairs:
+            self._observe(scope[i], sight.detections[j], sight)
+        matched = {j for _, j in pairs}
+        return [d for j, d in enumerate(sight.detections) if j not in matched]
 
     def _observe(self, track: Track, detection: Detection, sight: Sight) -> None:
         others = [
@@ -157,22 +172,12 @@ class Tracker:
             track.change_room(home, T_here_room[home].inverse() @ T_here_room[track.room])
 
     def _absorb(self, detection: Detection, scope: list[Track], sight: Sight) -> bool:
-        """Whether the detection is a further part of a piece of furniture that something in front cuts in two, or of a
-        small thing that is seen whole: two cannot be in one place.
-        """
-        seen = {track.number for track in self.matches.values()}
-        for track in scope:
-            if agreement(track.label.distribution, detection.distribution) < 0.5:
-                continue
-            T_room_view = sight.surroundings.T_here_room[track.room].inverse()
-            if not track.is_furniture:
-                center = T_room_view.apply(detection.shape.center[None])
-                if track.number in seen and not track.category.container and bool(track.box.contains(center)[0]):
-                    return True
-            elif float(track.box.contains(T_room_view.apply(detection.cloud.points), 0.1).mean()) > 0.6:
-                self._observe(track, detection, sight)
-                return True
-        return False
+        """Whether the detection is none of its own; a further part of a piece of furniture is taken in."""
+        it = Subject(detection, sight.view.room)
+        best = self._identity.decide(Asked.LEFT, it, self._moment(sight, scope)).best
+        if best.known is not None and best.known.is_furniture:
+            self._observe(best.known, detection, sight)
+        return best.hypothesis is not Hypothesis.NEW
 
     def _doubt_surfaces(self, sight: Sight) -> None:
         """Of furniture that is seen, doubt what lies in plain sight outside of its masks."""
@@ -204,37 +209,32 @@ class Tracker:
                 track.state = ObjectState.MISSING
 
     def _absence(self, track: Track, sight: Sight) -> float:
-        T_here_room = sight.surroundings.T_here_room[track.room]
-        settings = self._settings.existence
-        if has_no_name(track) and is_of_somebody(track, sight, self._settings.pieces):
+        T_here_room, settings = sight.surroundings.T_here_room[track.room], self._settings.existence
+        moment = self._moment(sight, list({seen.number: seen for seen in self.matches.values()}.values()))
+        best = self._identity.decide(Asked.UNSEEN, Subject.of(track), moment).best
+        if best.hypothesis is Hypothesis.PART and best.known is None:
             return -settings.through_limit
+        if best.hypothesis is Hypothesis.NOTHING:
+            return 0.0
         if track.is_furniture:
             points = T_here_room.apply(track.surface_points)
             share = surface_absent(points, sight.view, settings)
             return -settings.through_limit * share if share > 0.6 else 0.0
         box = Box(T_here_room.apply(track.position), track.box.size_m, track.box.yaw_rad + T_here_room.yaw_rad)
-        if is_under_arm(box.center, sight, self._settings.pieces):
-            return 0.0
-        seen = visibility(box, sight.view, settings)
-        replaced = any(
+        replaced = best.hypothesis is Hypothesis.PART or any(
             detection.index in self.matches
             and not self.matches[detection.index].is_furniture
             and not self.matches[detection.index].category.container
             and bool(box.contains(detection.shape.center[None])[0])
             for detection in sight.detections
         )
-        replaced = replaced or (has_no_name(track) and is_part(track, sight, self.matches, seen.center_px))
-        return absence_evidence(seen, replaced=replaced, settings=settings)
+        return absence_evidence(visibility(box, sight.view, settings), replaced=replaced, settings=settings)
 
     def _found(self, detection: Detection, sight: Sight) -> None:
         """Start a new, tentative thing."""
         furniture = category_of(detection.label, detection.shape.size_m).furniture
         enough = detection.cloud.pixels >= self._settings.furniture_min_px if furniture else detection.measurable
-        if (
-            not detection.in_range
-            or not enough
-            or (not furniture and is_at_hand(detection, sight, self._settings.pieces))
-        ):
+        if not (detection.in_range and enough):
             return
         seen_at = np.median(detection.cloud.points, axis=0) if furniture else detection.shape.center
         room = sight.surroundings.room_of(seen_at)  # how deep furniture is, and so its center, is a guess at first
@@ -253,90 +253,79 @@ class Tracker:
             if room != track.room:
                 track.change_room(room, T_here_room[room].inverse() @ T_here_room[track.room])
             track.homeless = home is None
-            points = T_here_room[room].apply(track.surface_points)
-            walls = sight.surroundings.in_walls(points) if home is not None and track.category.floor else 0.0
-            if walls > self._settings.wall_share:
-                self.drop(track)
+            if home is not None:
+                it, moment = Subject.of(track), self._moment(sight, [])
+                if self._identity.decide(Asked.HOME, it, moment).best.hypothesis is Hypothesis.NOTHING:
+                    self.drop(track)
 
     def _confirm(self, sight: Sight) -> None:
         """Name what has been seen often enough, or recognize it; of a room that is far from here, when that is near."""
-        identity, probation = self._settings.identity, self._settings.probation
         unnamed = [t for t in self._near(sight) if t.node_id is None and not t.homeless]
-        for track in [t for t in unnamed if is_stable(t, probation)]:
-            known = [t for t in self.tracks if t.node_id is not None]
-            if is_piece(track, sight, self.matches, known, self._settings.pieces) or is_side(track, known):
-                self.drop(track)
+        for track in [t for t in unnamed if is_stable(t, self._settings.probation)]:
+            decision = self._identity.decide(Asked.TENTATIVE, Subject.of(track), self._moment(sight, self._named()))
+            best = decision.best
+            if decision.waits and track.hits < self._settings.identity.patience_hits:
                 continue
-            same = known_as(
-                track,
-                known,
-                taken_from=self.places_before,
-                looked_before=sight.looked_before,
-                settings=identity,
-            )
-            unseen = same is None or same.state is ObjectState.MISSING
-            if unseen and lies_within(track, known) and not is_beyond_doubt(track, probation):
-                track.hits = 0  # were it a piece of that, it would be gone with it: it must be seen anew then
-                continue
-            doubtful = undecided(track, known, identity) if same is None else may_prove_built_in(track, same)
-            if doubtful and track.hits < self._settings.patience_hits:
-                continue
-            if same is not None:
-                self._recognize(track, same)
-            else:
+            if best.hypothesis in {Hypothesis.NEW, Hypothesis.LOOK_ALIKE}:
                 track.node_id = next_id(self.taken, track.label.best)
                 self.taken.add(track.node_id)
+            elif best.known is None or (best.hypothesis is Hypothesis.PART and not track.is_furniture):
+                track.hits = 0  # were it a piece of that, it would be gone with it: it must be seen anew then
+            else:
+                self._recognize(track, best.known, part=best.hypothesis is Hypothesis.PART)
 
-    def _let_go_of_somebody(self, sight: Sight) -> None:
-        """Forget what was given a node before it was known that somebody stands there: furniture without a name."""
-        for track in [t for t in self._near(sight) if t.node_id is not None and t.is_furniture and has_no_name(t)]:
-            if is_of_somebody(track, sight, self._settings.pieces):
-                self.removed.update({track.node_id: None} if track.node_id is not None else {})
-                self.matches = {index: other for index, other in self.matches.items() if other is not track}
-                self.drop(track)
+    def _named(self) -> list[Track]:
+        return [track for track in self.tracks if track.node_id is not None]
 
-    def _near(self, sight: Sight) -> list[Track]:
-        """Everything in the robot's room and its neighbors: of the others, nobody knows here where they are."""
-        return [t for t in self.tracks if t.room in sight.surroundings.T_here_room]
-
-    def _recognize(self, sighting: Track, known: Track) -> None:
-        """The sighting is a thing we know: it goes on under that name."""
-        self.places_before.pop(known.number, None)
-        if is_fragment(sighting, known):
+    def _recognize(self, sighting: Track, known: Track, *, part: bool = False) -> None:
+        """The sighting is a thing we know, or a part of it: it goes on under that name."""
+        if part:
             known.absorb(sighting)
         else:
             known.become(sighting)
         self.matches = {index: known if t is sighting else t for index, t in self.matches.items()}
         self.drop(sighting)
 
+    def _unite(self, older: Track, newer: Track) -> None:
+        """Two nodes are one: the older name stays."""
+        self.united[newer.number] = older
+        self.removed.update({newer.node_id: older} if newer.node_id is not None else {})
+
+    def _reconsider(self, sight: Sight) -> None:
+        """Furniture that turned out to be one with another, or somebody's legs, when it was seen to be so."""
+        named = [track for track in self._named() if track.is_furniture]
+        seen = [track for track in named if track in self.matches.values()]
+        for track in [track for track in named if track.room in sight.surroundings.T_here_room]:
+            known = [t for t in (named if track in seen else seen) if t in self.tracks]
+            best = self._identity.decide(Asked.NODE, Subject.of(track), self._moment(sight, known)).best
+            if best.hypothesis is not Hypothesis.PART or track not in self.tracks:
+                continue
+            if best.known is None:
+                self.removed.update({track.node_id: None} if track.node_id is not None else {})
+                self.matches = {index: other for index, other in self.matches.items() if other is not track}
+                self.drop(track)
+            else:
+                older, newer = sorted((track, best.known), key=lambda t: t.number)
+                self._unite(older, newer)
+                self._recognize(newer, older, part=True)
+
     def _find_missing_again(self, sight: Sight) -> None:
         """A thing that is missed at its place may have been seen at another already, under a name of its own; or what
         is seen there now is another that is said to be in the very same place, and both are one: the older name stays.
         """
-        named = [track for track in self.tracks if track.node_id is not None]
-        for missing in [track for track in named if track.state is ObjectState.MISSING and not track.is_furniture]:
-            moved = turned_up(missing, named, looked_before=sight.looked_before, settings=self._settings.identity)
-            if moved is not None and moved in self.tracks and moved.node_id is not None:
-                older, newer = sorted((missing, moved), key=lambda track: (track.first_seen_s, track.number))
-                self.united[newer.number] = older
-                self.removed.update({newer.node_id: older} if newer.node_id is not None else {})
+        small = [track for track in self._named() if not track.is_furniture]
+        for missing in [track for track in small if track.state is ObjectState.MISSING]:
+            moment = self._moment(sight, self._named())
+            others = [t for t in small if t in self.tracks and t.state is ObjectState.PRESENT]
+            found = [(self._identity.decide(Asked.MISSED, Subject.of(t), moment, [missing]).best, t) for t in others]
+            moved = max(found, key=lambda pair: (pair[0].score, -pair[1].number), default=None)
+            if moved is not None and moved[0].known is missing:
+                older, newer = sorted((missing, moved[1]), key=lambda track: (track.first_seen_s, track.number))
+                self._unite(older, newer)
                 if older is missing:
-                    self._recognize(moved, missing)
+                    self._recognize(newer, missing)
                 else:
                     self.drop(missing)
-
-    def _unite(self) -> None:
-        """Two nodes that turned out to be one piece of furniture become one; the older name stays."""
-        seen = list({t.number: t for t in self.matches.values() if t.node_id is not None and t.is_furniture}.values())
-        for track in seen:
-            for other in [t for t in self.tracks if t.node_id is not None and t is not track and is_double(track, t)]:
-                older, newer = sorted((track, other), key=lambda t: t.number)
-                if older in self.tracks and newer in self.tracks:
-                    older.absorb(newer)
-                    self.united[newer.number] = older
-                    self.removed.update({newer.node_id: older} if newer.node_id is not None else {})
-                    self.matches = {index: older if t is newer else t for index, t in self.matches.items()}
-                    self.drop(newer)
 
     def _forget_tentative(self, stamp_s: float) -> None:
         probation = self._settings.probation

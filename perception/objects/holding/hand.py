@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from perception.objects.holding.grip import Grip, GripChange, GripEvent, GripSettings
 from perception.objects.tracker import Tracker
+from perception.objects.tracking.handled import HandDid
 from perception.objects.tracking.track import Track
 from perception.ports import JointState
 from scene_graph.geometry.se3 import SE3
@@ -51,26 +52,28 @@ class Hand:
             return frozenset()
         before, self.T_base_gripper = self.T_base_gripper, joints.T_base_gripper
         self._agree_with_graph(snapshot, robot.holding)
-        self._note_touch(self._grip.closing_on(robot.status))
+        self._note_touch(self._grip.closing_on(robot.status), joints.stamp_s)
         holding = self.held.track.node_id if self.held is not None else None
         event = self._grip.update(joints, robot.status, holding)
         if event is None:
             return frozenset()
         if event.change is GripChange.TAKEN:
-            self._take(snapshot, room, event.object_id)
+            self._take(snapshot, room, event.object_id, joints.stamp_s)
             return frozenset()
         held, self.held = self.held, None
-        return self._let_go(snapshot, room, held, event, before) if held is not None else frozenset()
+        if held is None:
+            return frozenset()
+        return self._let_go(snapshot, room, held, event, before, joints.stamp_s)
 
     def T_robot_object(self, held: Held) -> SE3:
         """Pose of the held thing in the robot's base."""
         return self.T_base_gripper @ held.T_gripper_object
 
-    def _note_touch(self, object_id: str | None) -> None:
+    def _note_touch(self, object_id: str | None, stamp_s: float) -> None:
         """What the hand closes on may be gone from there afterwards, be it held or not."""
         track = self._tracker.of_node(object_id) if object_id is not None else None
-        if track is not None:
-            track.touched = True
+        if track is not None and track.state is not ObjectState.HELD:
+            track.note_hand(HandDid.TOUCHED, stamp_s)
 
     def _agree_with_graph(self, snapshot: Snapshot, holding: str | None) -> None:
         """Sight may have shown that the hand is empty, and a restart may find it full."""
@@ -82,12 +85,12 @@ class Hand:
                 T_robot_object = snapshot.transform(ROBOT_ID, holding)
                 self.held = Held(track=track, T_gripper_object=self.T_base_gripper.inverse() @ T_robot_object)
 
-    def _take(self, snapshot: Snapshot, room: str, object_id: str) -> None:
+    def _take(self, snapshot: Snapshot, room: str, object_id: str, stamp_s: float) -> None:
         track = self._tracker.of_node(object_id)
         if track is None or object_id not in snapshot:
             return
         T_base_object = snapshot.transform(ROBOT_ID, object_id)
-        self._tracker.places_before[track.number] = (track.room, track.position.copy())
+        track.note_hand(HandDid.TAKEN, stamp_s)
         T_gripper_object = self.T_base_gripper.inverse() @ T_base_object
         offset = np.clip(T_gripper_object.translation_m, -_OFF_CENTER_M, _OFF_CENTER_M)
         offset[1] = 0.0  # the fingers have centered it
@@ -97,22 +100,22 @@ class Hand:
         track.log_odds = max(track.log_odds, 2.0)
 
     def _let_go(
-        self, snapshot: Snapshot, room: str, held: Held, event: GripEvent, T_base_gripper: SE3
+        self, snapshot: Snapshot, room: str, held: Held, event: GripEvent, T_base_gripper: SE3, stamp_s: float
     ) -> frozenset[int]:
         """Place the thing where the hand was when it still felt it."""
         track = held.track
         T_room_object = snapshot.transform(room, ROBOT_ID) @ T_base_gripper @ held.T_gripper_object
         position = np.array(T_room_object.translation_m)
-        self._tracker.places_before.pop(track.number, None)
         if event.change is GripChange.RELEASED:
             track.state, track.log_odds = ObjectState.PRESENT, 2.0
             position[2] = _resting_height(position[2], track, event.place, self._tracker)
             track.put_at(room, position, _RELEASED_SIGMA_M, T_room_object.yaw_rad)
-            track.awaited = track.carried = True
+            track.note_hand(HandDid.PUT, stamp_s)
             return frozenset({track.number})
-        track.state, track.log_odds, track.fell = ObjectState.MISSING, -2.0, True
+        track.state, track.log_odds = ObjectState.MISSING, -2.0
         position[2] = track.box.size_m[2] / 2.0
         track.put_at(room, position, _LOST_SIGMA_M)
+        track.note_hand(HandDid.DROPPED, stamp_s)
         return frozenset()
 
 

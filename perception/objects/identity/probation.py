@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from perception.objects.identity.pieces import has_no_name
 from perception.objects.tracking.track import Track
-from scene_graph.nodes import ObjectState
+from scene_graph.nodes import UNKNOWN_LABEL, ObjectState
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -15,7 +14,6 @@ class ProbationSettings:
     remains doubtful, of a small thing from ``confirm_places`` different places, or from ``nameless_places`` if it has
     no name: from one place, a part of a thing or of the clutter may look like anything for long.
 
-    ``beyond_doubt``: what is seen where another thing is must be as sure as that, and seen from as many places.
     ``tentative_life_s``: how long what was seen only now and then is remembered; ``doubtful_life_s``: how long what was
     seen often enough waits to be seen from another place; ``homeless_life_s``: how long a thing seen through a door
     waits for its room to become known.
@@ -23,7 +21,6 @@ class ProbationSettings:
 
     confirm_hits: int = 3
     confirm_label: float = 0.6
-    beyond_doubt: float = 0.9
     confirm_places: int = 2
     nameless_places: int = 3
     tentative_life_s: float = 2.0
@@ -36,13 +33,8 @@ def is_stable(track: Track, settings: ProbationSettings) -> bool:
     sure = track.label.confidence >= settings.confirm_label
     if track.is_furniture or sure:
         return track.hits >= (settings.confirm_hits if sure else 2 * settings.confirm_hits)
-    places = settings.nameless_places if has_no_name(track) else settings.confirm_places
+    places = settings.nameless_places if track.label.best == UNKNOWN_LABEL else settings.confirm_places
     return _was_seen_often(track, settings) and len(track.seen_from) >= places
-
-
-def is_beyond_doubt(track: Track, settings: ProbationSettings) -> bool:
-    """Whether it is known for sure, from more than one place: two cannot be in one place, but one on the other."""
-    return track.label.confidence >= settings.beyond_doubt and len(track.seen_from) >= settings.confirm_places
 
 
 def may_come_true(track: Track, stamp_s: float, settings: ProbationSettings) -> bool:

@@ -21,6 +21,7 @@ from perception.objects.seeing.detection import Detection
 from perception.objects.seeing.projection import View
 from perception.objects.seeing.shape import measure_shape, point_covariance
 from perception.objects.tracking.center import CenterBelief, CenterSettings
+from perception.objects.tracking.handled import HandDid, Handled
 from perception.vocabulary import Category, category_of, has_back, is_of_one_size, may_grow_m, spans_its_kind
 from scene_graph.geometry.se3 import SE3
 from scene_graph.nodes import ObjectNode, ObjectState
@@ -57,9 +58,7 @@ class Track:
             from the thing along its room's axes: a few places that are well apart as the thing sees them.
             seen_whole: whether one of them showed all of it; ``misses``: frames in a row that should have and did not.
             homeless: whether it is in none of the rooms known so far; ``room`` then is the one it was seen from.
-            awaited: whether the hand has put it down and it was not seen since; carried: whether it is where it is
-            because the hand has put it there; fell: whether it slipped from the hand
-            and was not seen since; touched: whether the hand has closed where it was, and it was not seen since.
+            handled: what the hand did to it last, unless it turned out to be elsewhere since.
     """
 
     def __init__(self, number: int, room: str, *, settings: TrackSettings, random: Generator) -> None:
@@ -76,10 +75,7 @@ class Track:
         self.state = ObjectState.PRESENT
         self.log_odds = settings.log_odds
         self.homeless = False
-        self.awaited = False
-        self.carried = False
-        self.fell = False
-        self.touched = False
+        self.handled: Handled | None = None
         self.hits = 0
         self.seen_whole = False
         self.misses = 0
@@ -102,6 +98,14 @@ class Track:
     def existence(self) -> float:
         """Probability that it is where it is said to be."""
         return float(1.0 / (1.0 + np.exp(-self.log_odds)))
+
+    def note_hand(self, did: HandDid, stamp_s: float) -> None:
+        """Remember what the hand has just done to it, and where it was then."""
+        self.handled = Handled(did=did, stamp_s=stamp_s, room=self.room, position=self.position.copy())
+
+    def unseen_since(self, *did: HandDid) -> bool:
+        """Whether the hand did that to it last, and it was not seen since."""
+        return self.handled is not None and self.handled.did in did and self.last_seen_s < self.handled.stamp_s
 
     @property
     def box(self) -> Box:
@@ -143,7 +147,6 @@ class Track:
         """
         side, trust = self._side_of(detection, view, T_room_view), _trust_in(detection)
         self.label.update(detection.distribution, detection.weight, (*side, trust), trust=trust)
-        self.awaited = self.fell = self.touched = False
         self.color.update(detection.colors, detection.weight)
         self.accents.update(detection.accents, detection.weight)
         self._note_place(T_room_view.apply(view.T_room_camera.translation_m), detection, T_room_view)
@@ -259,7 +262,7 @@ class Track:
         self.back = other.back
         self.color, self.accents = other.color, other.accents
         self.state, self.log_odds = ObjectState.PRESENT, other.log_odds
-        self.awaited = self.carried = self.fell = self.touched = False
+        self.handled = None
         self.label.start_from(self.label.distribution, self.hits)
         self.label.update(other.label.distribution, view=other.number)
         self.seen_from = [*self.seen_from, *other.seen_from][-_PLACES:]

@@ -15,9 +15,10 @@ from perception.objects.doubles.raycast import Solid, look_at, render, rgbd_fram
 from perception.objects.doubles.scripted import furnished_memory
 from perception.objects.furniture.back import back_of
 from perception.objects.furniture.surface import Box, SurfaceBelief, SurfaceMemory, furniture_box, turned_like
-from perception.objects.identity.confirmation import is_double, is_fragment, known_as, turned_up
-from perception.objects.identity.identity import IdentitySettings, departed, likeness, same_thing_moved
-from perception.objects.identity.pieces import is_of_several
+from perception.objects.identity.evidence import alike, left, likeness
+from perception.objects.identity.hypotheses import Asked, Hypothesis
+from perception.objects.identity.identity import Identity, IdentitySettings
+from perception.objects.identity.pair import Moment, Pair, Subject
 from perception.objects.publishing.publication import node_of
 from perception.objects.seeing.color import PALETTE, colors_of, named_color
 from perception.objects.seeing.detection import DetectionSettings, detections_of
@@ -27,6 +28,7 @@ from perception.objects.seeing.shape import Shape
 from perception.objects.seeing.sight import Sight
 from perception.objects.tracker import Tracker, TrackerSettings
 from perception.objects.tracking.center import CenterBelief, CenterSettings
+from perception.objects.tracking.handled import HandDid
 from perception.objects.tracking.track import Track, TrackSettings
 from perception.panoptic import Instance, PanopticScene
 from perception.vocabulary import category_of, oversize
@@ -121,6 +123,38 @@ def test_what_looks_like_nothing_known_stays_unknown_and_one_lucky_frame_does_no
     assert belief.best == "unknown"
 
 
+IDENTITY = Identity(IdentitySettings())
+
+
+def decision(sighting, known, asked=Asked.TENTATIVE, looked_before=None):
+    """What a sighting is taken for, among the things that are known."""
+    moment = Moment(known=known, looked_before=looked_before or {})
+    return IDENTITY.decide(asked, Subject.of(sighting), moment)
+
+
+def taken_for(sighting, known, looked_before=None):
+    """The known thing that it is, or is a part of, if that is clear by now."""
+    decided = decision(sighting, known, looked_before=looked_before)
+    return None if decided.waits else decided.best.known
+
+
+def turned_up(missing, others, looked_before=None):
+    """The other thing that a missing one is."""
+    moment = Moment(known=others, looked_before=looked_before or {})
+    present = [Subject.of(other) for other in others if other.state is ObjectState.PRESENT]
+    best = max((IDENTITY.decide(Asked.MISSED, it, moment, [missing]).best for it in present), key=lambda c: c.score)
+    return best.it.track if best.known is missing else None
+
+
+def is_part(sighting, known):
+    return decision(sighting, [known]).best.hypothesis is Hypothesis.PART
+
+
+def are_one(one, other):
+    decided = [decision(a, [b], Asked.NODE).best.hypothesis is Hypothesis.PART for a, b in ((one, other), (other, one))]
+    return any(decided)
+
+
 def seen(label, size_m, number):
     track = Track(number, "room_1", settings=TrackSettings(), random=np.random.default_rng(0))
     for view in range(3):
@@ -133,32 +167,31 @@ def seen(label, size_m, number):
 def test_a_part_that_looks_like_something_else_from_near_is_a_part_until_it_is_seen_as_a_whole():
     toilet, part = seen("toilet", (0.7, 0.4, 0.8), 1), seen("bin", (0.3, 0.3, 0.5), 2)
     part.seen_whole = False
-    assert is_fragment(part, toilet)
+    assert is_part(part, toilet)
     part.seen_whole = True
-    assert not is_fragment(part, toilet)
+    assert not is_part(part, toilet)
 
 
 def test_the_same_cupboard_under_two_names_is_one_and_a_chair_under_a_table_is_not():
     cabinet, sideboard = seen("cabinet", (0.9, 0.5, 0.9), 1), seen("sideboard", (0.95, 0.48, 0.85), 2)
-    assert is_double(cabinet, sideboard)
-    assert is_fragment(sideboard, cabinet)
+    assert are_one(cabinet, sideboard)
+    assert is_part(sideboard, cabinet)
     table, chair = seen("table", (1.4, 0.9, 0.75), 3), seen("chair", (0.45, 0.45, 0.7), 4)
-    assert not is_double(table, chair)
-    assert not is_fragment(chair, table)
+    assert not are_one(table, chair)
+    assert not is_part(chair, table)
 
 
 @pytest.mark.parametrize(
-    ("looks_like", "is_part"),
+    ("looks_like", "part"),
     [((("shelf", 0.97),), False), ((("unknown", 0.9),), True), ((("shelf", 0.45), ("cabinet", 0.4)), True)],
 )
-def test_the_side_of_a_desk_that_nobody_can_name_for_sure_is_of_the_desk(looks_like, is_part):
+def test_the_side_of_a_desk_that_nobody_can_name_for_sure_is_of_the_desk(looks_like, part):
     desk, side = seen("desk", (1.2, 0.7, 0.75), 1), seen("shelf", (0.66, 0.17, 0.7), 2)
     side.label = LabelBelief()
     for view in range(2):
         side.label.update(looks_like, view=view)
-    assert is_double(desk, side) is is_part
-    assert is_double(side, desk) is is_part
-    assert is_fragment(side, desk) is is_part
+    assert are_one(desk, side) is part
+    assert is_part(side, desk) is part
 
 
 @pytest.mark.parametrize(
@@ -173,8 +206,11 @@ def test_what_spans_two_pieces_of_a_row_is_no_third_unless_it_reaches_beyond_or_
     low = seen("counter", (long_m, 0.5, 0.5), 3)
     low.place = SurfaceBelief.of(Box(np.array((middle_x_m, 0.0, 0.3)), (long_m, 0.5, 0.5), 0.0))
     low.seen_whole = whole
-    assert is_of_several(low, [stove, fridge]) is several
-    assert not is_of_several(low, [])
+    low.label = LabelBelief()
+    low.label.update((("counter", 0.5),))
+    stove.node_id, fridge.node_id = "stove_1", "fridge_1"
+    assert ("several" in decision(low, [stove, fridge]).best.way) is several
+    assert decision(low, []).best.hypothesis is Hypothesis.NEW
 
 
 @given(st.lists(st.tuples(st.sampled_from(LABELS), st.floats(0.0, 1.0)), min_size=1, max_size=20))
@@ -409,7 +445,9 @@ def test_what_hides_a_part_of_a_bottle_does_not_shift_it_but_what_lifts_it_does(
 
 
 def moved(sighting, known, *, place_known=True):
-    return same_thing_moved(sighting, known, place_known=place_known, settings=IdentitySettings())
+    if not sighting.position.any():
+        sighting.put_at("room_1", np.array((3.0, 1.0, 0.0)), 0.01)
+    return taken_for(sighting, known, looked_before={"room_1": 0.0} if place_known else {})
 
 
 def test_a_missing_thing_is_recognized_elsewhere():
@@ -428,7 +466,7 @@ def test_two_things_seen_at_the_same_time_are_two():
 
 def test_the_longer_unseen_the_likelier_it_has_moved():
     ages = [0.0, 10.0, 100.0, 1000.0, 10_000.0]
-    chances = [departed(thing(1), 10.0 + age, IdentitySettings()) for age in ages]
+    chances = [left(Pair(Subject.of(thing(2, seen=(10.0 + age, 1e6))), thing(1), Moment())) for age in ages]
     assert chances == sorted(chances)
     assert chances[0] < 0.02
     assert chances[-1] > 0.99
@@ -480,9 +518,9 @@ def test_one_of_several_present_look_alikes_is_never_taken_for_the_moved_one():
 
 def test_what_the_hand_has_put_there_is_not_the_missing_thing_that_turned_up():
     missing, other = thing(1, state=ObjectState.MISSING), thing(2, seen=(20.0, 21.0))
-    known = {"looked_before": {"room_1": 0.0}, "settings": IdentitySettings()}
+    known = {"looked_before": {"room_1": 0.0}}
     assert turned_up(missing, [other], **known) is other
-    other.carried = True
+    other.note_hand(HandDid.PUT, 15.0)
     assert turned_up(missing, [other], **known) is None
 
 
@@ -491,7 +529,7 @@ def test_where_such_things_come_in_numbers_one_that_was_hidden_so_far_is_not_the
     hidden_so_far.put_at("room_1", np.array((0.3, 0.0, 0.0)), 0.01)
     beside = thing(3, seen=(0.0, 21.0))
     beside.put_at("room_1", np.array((0.4, 0.0, 0.0)), 0.01)
-    known = {"looked_before": {"room_1": 0.0}, "settings": IdentitySettings()}
+    known = {"looked_before": {"room_1": 0.0}}
     assert turned_up(missing, [hidden_so_far], **known) is hidden_so_far
     assert turned_up(missing, [beside, hidden_so_far], **known) is None
     gone_too = thing(3, seen=(0.0, 5.0), state=ObjectState.MISSING)
@@ -507,10 +545,9 @@ def test_a_missing_thing_is_the_one_like_it_that_is_seen_in_its_very_place_since
     seen.put_at("room_1", np.array((apart_m, 0.0, 0.0)), 0.01)
     elsewhere = thing(3, seen=(0.0, 5.0))
     elsewhere.put_at("room_1", np.array((1.0, 0.0, 0.0)), 0.01)
-    known = {"looked_before": {}, "settings": IdentitySettings()}
-    assert (turned_up(missing, [elsewhere, seen], **known) is seen) is one
-    seen.carried = True
-    assert turned_up(missing, [elsewhere, seen], **known) is None
+    assert (turned_up(missing, [elsewhere, seen]) is seen) is one
+    seen.note_hand(HandDid.PUT, 15.0)
+    assert turned_up(missing, [elsewhere, seen]) is None
 
 
 def nothing_seen(room, snapshot):
@@ -558,10 +595,10 @@ def test_what_is_missing_may_be_carried_if_things_of_that_name_are(label, size_m
 def test_what_fell_from_the_hand_lies_near_there_or_on_the_floor_and_a_look_alike_on_another_table_is_another(at, same):
     fallen, sighting = thing(1, state=ObjectState.MISSING), thing(2, seen=(20.0, 21.0))
     sighting.put_at("room_1", np.array(at), 0.01)
-    known = {"looked_before": {"room_1": 0.0}, "settings": IdentitySettings()}
+    known = {"looked_before": {"room_1": 0.0}}
     assert moved(sighting, [fallen]) is fallen, "somebody may have put it anywhere"
     assert turned_up(fallen, [sighting], **known) is sighting
-    fallen.fell = True
+    fallen.note_hand(HandDid.DROPPED, 15.0)
     assert (moved(sighting, [fallen]) is fallen) is same
     assert (turned_up(fallen, [sighting], **known) is sighting) is same
 
@@ -586,11 +623,9 @@ def test_what_looks_the_same_in_the_very_place_of_a_thing_is_that_thing_whatever
     book = thing(1, "book", state=state)
     sighting = banana_like(2, seen=(20.0, 21.0), **look)
     sighting.put_at("room_1", np.array((at_x_m, 0.0, 0.0)), 0.01)
-    known = known_as(sighting, [book], taken_from={}, looked_before={}, settings=IdentitySettings())
-    assert (known is book) is same
+    assert (taken_for(sighting, [book]) is book) is same
     if state is ObjectState.MISSING:
-        found = turned_up(book, [sighting], looked_before={"room_1": 0.0}, settings=IdentitySettings())
-        assert (found is sighting) is same
+        assert (turned_up(book, [sighting], looked_before={"room_1": 0.0}) is sighting) is same
 
 
 @pytest.mark.parametrize(
@@ -607,11 +642,11 @@ def test_what_slipped_is_known_by_its_looks_where_it_lies_even_if_it_is_called_o
     far.put_at("room_1", np.array((3.0, 0.0, 0.0)), 0.01)
     slipped.put_at("room_1", np.array((0.5, 0.0, 0.0)), 0.01)
     sighting = banana_like(3, **{"seen": (20.0, 21.0), **look})
-    known = {"taken_from": {}, "looked_before": {}, "settings": IdentitySettings()}
-    assert likeness(sighting, slipped) < IdentitySettings().likeness_min
-    assert known_as(sighting, [far, slipped], **known) is None
-    far.fell = slipped.fell = True
-    assert (known_as(sighting, [far, slipped], **known) is slipped) is same
+    assert not alike(Pair(Subject.of(sighting), slipped, Moment()))
+    assert taken_for(sighting, [far, slipped]) is None
+    for track in (far, slipped):
+        track.note_hand(HandDid.DROPPED, 15.0)
+    assert (taken_for(sighting, [far, slipped]) is slipped) is same
 
 
 def nameless(number, size_m, color, at, **fields):
@@ -635,22 +670,20 @@ def test_a_can_that_was_knocked_down_is_what_lies_below_as_large_and_as_red_thou
     can.put_at("room_1", np.array((0.0, 0.0, 0.96)), 0.03)
     lying = {"size_m": (0.12, 0.068, 0.066), "color": "red", "at": (0.2, 0.3, 0.04), "seen": (20.0, 21.0)}
     sighting = nameless(2, **{**lying, **look})
-    settings = IdentitySettings()
-    assert (known_as(sighting, [can], taken_from={}, looked_before={}, settings=settings) is can) is same
-    assert (turned_up(can, [sighting], looked_before={"room_1": 0.0}, settings=settings) is sighting) is same
+    assert (taken_for(sighting, [can]) is can) is same
+    assert (turned_up(can, [sighting], looked_before={"room_1": 0.0}) is sighting) is same
     can.state = ObjectState.PRESENT
-    assert known_as(sighting, [can], taken_from={}, looked_before={}, settings=settings) is None
+    assert taken_for(sighting, [can]) is None
 
 
 @pytest.mark.parametrize(("long_m", "same"), [(0.2, True), (0.14, False)])
 def test_a_book_that_fell_on_its_edge_is_the_book_though_the_network_is_sure_that_it_is_a_banana(long_m, same):
     book = thing(1, "book", "yellow", (0.2, 0.09, 0.036), state=ObjectState.MISSING)
     book.put_at("room_1", np.array((0.0, 0.0, 0.02)), 0.5)
-    book.fell = True
+    book.note_hand(HandDid.DROPPED, 15.0)
     sighting = thing(2, "banana", "yellow", (long_m, 0.039, 0.086), seen=(20.0, 21.0))
     sighting.put_at("room_1", np.array((0.05, -0.03, 0.49)), 0.01)
-    known = known_as(sighting, [book], taken_from={}, looked_before={}, settings=IdentitySettings())
-    assert (known is book) is same
+    assert (taken_for(sighting, [book]) is book) is same
 
 
 @pytest.mark.parametrize(
@@ -667,11 +700,11 @@ def test_what_the_hand_has_knocked_off_a_desk_is_what_lies_near_below_though_sur
 ):
     book = thing(1, "book", "yellow", (0.2, 0.085, 0.035), state=ObjectState.MISSING)
     book.put_at("room_1", np.array((0.0, 0.0, 0.77)), 0.01)
-    book.touched = touched
+    if touched:
+        book.note_hand(HandDid.TOUCHED, 15.0)
     sighting = thing(2, "banana", color, (0.195, 0.088, 0.02), seen=(20.0, 21.0))
     sighting.put_at("room_1", np.array(at), 0.01)
-    known = known_as(sighting, [book], taken_from={}, looked_before={}, settings=IdentitySettings())
-    assert (known is book) is same
+    assert (taken_for(sighting, [book]) is book) is same
 
 
 @pytest.mark.parametrize(
@@ -691,10 +724,14 @@ def test_what_is_built_in_is_not_taken_for_moved_as_long_as_it_may_be_in_its_pla
     assert (moved(sighting, [known]) is known) is same
 
 
+def agree(one, other):
+    return likeness(Pair(Subject.of(one), other, Moment()))
+
+
 def test_likeness_is_symmetric():
     a, b = thing(1), thing(2, label="vase", size_m=(0.1, 0.1, 0.2))
-    assert likeness(a, b) == pytest.approx(likeness(b, a))
-    assert likeness(a, thing(3)) == pytest.approx(1.0, abs=0.01)
+    assert agree(a, b) == pytest.approx(agree(b, a))
+    assert agree(a, thing(3)) == pytest.approx(1.0, abs=0.01)
 
 
 SQUARE = ((-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0))
@@ -882,7 +919,7 @@ def test_a_known_book_and_cup_seen_as_one_or_in_bits_make_no_third_thing_but_a_t
 def test_a_book_that_nobody_can_name_for_once_is_seen_unless_only_bits_of_it_show(put_there, shown, seen_again):
     def given(stamp_s, tracker, book, cup, toy):
         if stamp_s == 48 and put_there:
-            tracker.of_node("book_1").awaited = True
+            tracker.of_node("book_1").note_hand(HandDid.PUT, stamp_s)
         return {"book": [book], "cup": [cup]} if stamp_s < 48 else {"unknown": shown(book), "cup": [cup]}
 
     tracker = look_from_all_sides(given, frames=52)
@@ -946,15 +983,15 @@ def test_what_is_seen_where_the_hand_has_just_put_something_is_that(awaited, at,
     book = thing(1, "book", "yellow", (0.2, 0.09, 0.03), seen=(0.0, 19.9))
     lost = thing(2, color="yellow", state=ObjectState.MISSING, **nameless)
     part = thing(3, color=color, seen=(20.0, 21.0), **nameless)
-    book.awaited = awaited
+    if awaited:
+        book.note_hand(HandDid.PUT, 20.0)
     book.put_at("room_1", np.array((0.0, 0.0, 0.46)), 0.03)
     part.put_at("room_1", np.array(at), 0.01)
-    found = known_as(part, [lost, book], taken_from={}, looked_before={}, settings=IdentitySettings())
-    assert (found is book) is same
+    assert (taken_for(part, [lost, book]) is book) is same
 
 
 @pytest.mark.parametrize(
-    ("label", "size_m", "known_as", "known_m", "is_part"),
+    ("label", "size_m", "known_as", "known_m", "part_of_it"),
     [
         ("stove", (0.62, 0.6, 0.9), "counter", (2.05, 0.6, 0.9), False),  # what is left is a counter still
         ("washing machine", (0.6, 0.6, 0.85), "counter", (1.7, 0.6, 0.9), False),
@@ -965,7 +1002,7 @@ def test_what_is_seen_where_the_hand_has_just_put_something_is_that(awaited, at,
     ],
 )
 def test_an_appliance_in_a_row_is_a_piece_of_its_own_though_never_seen_as_a_whole(
-    label, size_m, known_as, known_m, is_part
+    label, size_m, known_as, known_m, part_of_it
 ):
     known, part = seen(known_as, known_m, 1), seen(label, size_m, 2)
     at_the_end = np.array(((known_m[0] - size_m[0]) / 2, 0.0, size_m[2] / 2))
@@ -973,7 +1010,7 @@ def test_an_appliance_in_a_row_is_a_piece_of_its_own_though_never_seen_as_a_whol
         part.label.update(((label, 0.97),), view=view)
     part.place = SurfaceBelief.of(Box(at_the_end, size_m, 0.0))
     part.seen_whole = False
-    assert is_fragment(part, known) is is_part
+    assert is_part(part, known) is part_of_it
 
 
 def test_fruits_are_not_as_broad_as_a_book():

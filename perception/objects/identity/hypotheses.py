@@ -1,0 +1,157 @@
+"""What a thing that is seen may be, as hypotheses that are scored alike: the best one is believed.
+
+The score of a hypothesis is a log likelihood ratio against "something new that nobody knows", in nats:
+
+    score = prior + sum over its evidence of  weight x ln(max(e, floor))
+
+where e is an agreement or a share from 0 to 1. No evidence can be certain to be wrong (``floor``), and nothing counts
+outside the gates of a hypothesis. Where the best one leads by too little, one waits for more frames.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from enum import StrEnum
+from functools import cached_property
+
+from perception.objects.identity.pair import Moment, Pair, Subject
+from perception.objects.tracking.track import Track
+
+Evidence = Callable[[Pair], float]
+
+
+class Hypothesis(StrEnum):
+    """It is the known thing; a part of it; that, moved here; one like it; something new; no thing at all."""
+
+    SAME = "same"
+    PART = "part"
+    MOVED = "moved"
+    LOOK_ALIKE = "look-alike"
+    NEW = "new"
+    NOTHING = "nothing"
+
+
+class Asked(StrEnum):
+    """About what it is asked, in the order of a frame."""
+
+    MASK = "mask"
+    """A detection, before it is compared with what is known: is it a thing of its own?"""
+    FRAME = "frame"
+    """A detection: is it a thing that is known?"""
+    LEFT = "left"
+    """A detection that is none of these."""
+    UNSEEN = "unseen"
+    """A known thing that no detection is: does that tell anything?"""
+    HOME = "home"
+    """A thing whose room has just become known."""
+    TENTATIVE = "tentative"
+    """A thing that was seen often enough to be given a name."""
+    NODE = "node"
+    """Two things that have names: are they one?"""
+    MISSED = "missed"
+    """A thing with a name: is it one that is missed?"""
+    PERSON = "person"
+    """Who is taken for somebody."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Row:
+    """One way in which a hypothesis may be true.
+
+    ``prior``: log odds against something new when all evidence agrees, in nats. ``weights``: how much each evidence
+    counts. Gates: what must be so (``yes``) and must not (``no``), at least (``least``) and at most (``most``).
+    ``alone``: whether it is about no known thing in particular.
+    """
+
+    asked: tuple[Asked, ...]
+    hypothesis: Hypothesis
+    way: str
+    prior: float
+    yes: tuple[Evidence, ...] = ()
+    no: tuple[Evidence, ...] = ()
+    least: Mapping[Evidence, float] = field(default_factory=dict)
+    most: Mapping[Evidence, float] = field(default_factory=dict)
+    weights: Mapping[Evidence, float] = field(default_factory=dict)
+    alone: bool = False
+
+    @cached_property
+    def gates(self) -> tuple[tuple[Evidence, float, float], ...]:
+        """Each evidence with the least and the most that it may be."""
+        most = [(each, -math.inf, most) for each, most in self.most.items()]
+        yes = [(each, 1.0, math.inf) for each in self.yes]
+        no = [(each, -math.inf, 0.0) for each in self.no]
+        return (*most, *yes, *no, *((each, least, math.inf) for each, least in self.least.items()))
+
+    def admits(self, pair: Pair) -> bool:
+        """Whether the pair is within all gates."""
+        for each, low, high in self.gates:  # the hottest loop of a frame: a generator costs as much again
+            if not low <= pair.measure(each) <= high:
+                return False
+        return True
+
+    def score(self, pair: Pair, floor: float) -> float:
+        """Log likelihood ratio against something new."""
+        return self.prior + sum(w * math.log(max(pair.measure(each), floor)) for each, w in self.weights.items())
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Claim:
+    """A hypothesis about a subject, with its score and all evidence that was measured for it."""
+
+    hypothesis: Hypothesis
+    way: str
+    score: float
+    it: Subject
+    known: Track | None = None
+    evidence: Mapping[str, float] = field(default_factory=dict)
+
+    def __str__(self) -> str:
+        about = f" {self.known.node_id or self.known.number}" if self.known is not None else ""
+        evidence = ", ".join(f"{name} {value:.3g}" for name, value in self.evidence.items())
+        return f"{self.hypothesis}{about} ({self.way}) {self.score:.2f} [{evidence}]"
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Decision:
+    """All hypotheses that are within their gates, the best one first; ``waits``: whether it leads by too little."""
+
+    claims: tuple[Claim, ...]
+    waits: bool
+
+    @property
+    def best(self) -> Claim:
+        return self.claims[0]
+
+    def __str__(self) -> str:
+        return ("wait: " if self.waits else "") + "; ".join(str(claim) for claim in self.claims)
+
+
+def claims(rows: Iterable[Row], it: Subject, known: Sequence[Track], moment: Moment, floor: float) -> list[Claim]:
+    """What speaks for any of ``rows`` about ``it`` and each of the ``known`` things."""
+    alone, found = Pair(it, None, moment), list[Claim]()
+    pairs = [Pair(it, track, moment) for track in known if track is not it.track]
+    for row in rows:
+        for pair in (alone,) if row.alone else pairs:
+            if row.admits(pair):
+                found.append(
+                    Claim(
+                        hypothesis=row.hypothesis,
+                        way=row.way,
+                        score=row.score(pair, floor),
+                        it=it,
+                        known=None if row.alone else pair.known,
+                        evidence={each.__name__: value for each, value in pair.measured.items()},
+                    )
+                )
+    return found
+
+
+def decide(found: Iterable[Claim], it: Subject, *, margin: float) -> Decision:
+    """The best of what was found, or that it is something new. Of equals, that of the thing known for longest."""
+    new = Claim(hypothesis=Hypothesis.NEW, way="nothing speaks for another", score=0.0, it=it)
+    ranked = sorted((*found, new), key=lambda c: (-c.score, c.known.number if c.known is not None else 0, c.way))
+    best = ranked[0]
+    others = [c for c in ranked if (c.hypothesis, c.known) != (best.hypothesis, best.known)]
+    return Decision(claims=tuple(ranked), waits=bool(others) and best.score - others[0].score < margin)

@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 
 from perception.objects.furniture.surface import Box, SurfaceBelief
 from perception.objects.identity.association import MaskMemory, assign
-from perception.objects.identity.evidence import sharers
 from perception.objects.identity.hypotheses import Asked, Hypothesis
 from perception.objects.identity.identity import Identity, IdentitySettings
 from perception.objects.identity.pair import Moment, Subject
@@ -140,7 +139,7 @@ class Tracker:
             if best.hypothesis is Hypothesis.NEW:
                 told.append(detection)
             elif best.hypothesis is Hypothesis.PART and best.known is None:
-                in_one |= {track.number for track, _ in sharers(it, moment)}
+                in_one |= {track.number for track, _ in moment.sharers(it)}
         return (replace(sight, detections=told) if len(told) < len(sight.detections) else sight), in_one
 
     def _associate(self, scope: list[Track], sight: Sight) -> list[Detection]:

@@ -11,15 +11,13 @@ outside the gates of a hypothesis. Where the best one leads by too little, one w
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Mapping
+from dataclasses import KW_ONLY, dataclass, field
 from enum import StrEnum
 from functools import cached_property
 
-from perception.objects.identity.pair import Moment, Pair, Subject
+from perception.objects.identity.pair import Evidence, Pair
 from perception.objects.tracking.track import Track
-
-Evidence = Callable[[Pair], float]
 
 
 class Hypothesis(StrEnum):
@@ -56,7 +54,7 @@ class Asked(StrEnum):
     """Who is taken for somebody."""
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class Row:
     """One way in which a hypothesis may be true.
 
@@ -69,6 +67,7 @@ class Row:
     hypothesis: Hypothesis
     way: str
     prior: float
+    _: KW_ONLY
     yes: tuple[Evidence, ...] = ()
     no: tuple[Evidence, ...] = ()
     least: Mapping[Evidence, float] = field(default_factory=dict)
@@ -86,24 +85,27 @@ class Row:
 
     def admits(self, pair: Pair) -> bool:
         """Whether the pair is within all gates."""
-        for each, low, high in self.gates:  # the hottest loop of a frame: a generator costs as much again
-            if not low <= pair.measure(each) <= high:
-                return False
-        return True
+        return all(low <= pair.measure(each) <= high for each, low, high in self.gates)
 
-    def score(self, pair: Pair, floor: float) -> float:
-        """Log likelihood ratio against something new."""
-        return self.prior + sum(w * math.log(max(pair.measure(each), floor)) for each, w in self.weights.items())
+    def claim(self, pair: Pair, floor: float) -> Claim:
+        """The hypothesis about a pair that is within all gates."""
+        terms = (weight * math.log(max(pair.measure(each), floor)) for each, weight in self.weights.items())
+        return Claim(
+            hypothesis=self.hypothesis,
+            way=self.way,
+            score=self.prior + sum(terms),
+            known=None if self.alone else pair.known,
+            evidence={each.__name__: value for each, value in pair.measured.items()},
+        )
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Claim:
-    """A hypothesis about a subject, with its score and all evidence that was measured for it."""
+    """A hypothesis about a subject and what is known, with its score and all evidence that was measured by then."""
 
     hypothesis: Hypothesis
     way: str
     score: float
-    it: Subject
     known: Track | None = None
     evidence: Mapping[str, float] = field(default_factory=dict)
 
@@ -126,32 +128,3 @@ class Decision:
 
     def __str__(self) -> str:
         return ("wait: " if self.waits else "") + "; ".join(str(claim) for claim in self.claims)
-
-
-def claims(rows: Iterable[Row], it: Subject, known: Sequence[Track], moment: Moment, floor: float) -> list[Claim]:
-    """What speaks for any of ``rows`` about ``it`` and each of the ``known`` things."""
-    alone, found = Pair(it, None, moment), list[Claim]()
-    pairs = [Pair(it, track, moment) for track in known if track is not it.track]
-    for row in rows:
-        for pair in (alone,) if row.alone else pairs:
-            if row.admits(pair):
-                found.append(
-                    Claim(
-                        hypothesis=row.hypothesis,
-                        way=row.way,
-                        score=row.score(pair, floor),
-                        it=it,
-                        known=None if row.alone else pair.known,
-                        evidence={each.__name__: value for each, value in pair.measured.items()},
-                    )
-                )
-    return found
-
-
-def decide(found: Iterable[Claim], it: Subject, *, margin: float) -> Decision:
-    """The best of what was found, or that it is something new. Of equals, that of the thing known for longest."""
-    new = Claim(hypothesis=Hypothesis.NEW, way="nothing speaks for another", score=0.0, it=it)
-    ranked = sorted((*found, new), key=lambda c: (-c.score, c.known.number if c.known is not None else 0, c.way))
-    best = ranked[0]
-    others = [c for c in ranked if (c.hypothesis, c.known) != (best.hypothesis, best.known)]
-    return Decision(claims=tuple(ranked), waits=bool(others) and best.score - others[0].score < margin)

@@ -9,8 +9,8 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from perception.objects.identity.hypotheses import Asked, Claim, Decision, Row, claims, decide
-from perception.objects.identity.pair import Moment, Subject
+from perception.objects.identity.hypotheses import Asked, Claim, Decision, Hypothesis, Row
+from perception.objects.identity.pair import Moment, Pair, Subject
 from perception.objects.identity.scales import Scales
 from perception.objects.identity.table import TABLE
 from perception.objects.tracking.track import Track
@@ -43,12 +43,23 @@ class Identity:
 
     def claims(self, asked: Asked, it: Subject, moment: Moment, known: Sequence[Track]) -> list[Claim]:
         """What speaks for it being any of the ``known`` things, or a part of one, or nothing."""
-        return claims(self._rows[asked], it, known, moment, self._settings.floor)
+        alone, pairs = [Pair(it, None, moment)], [Pair(it, track, moment) for track in known if track is not it.track]
+        admitted = [
+            (row, pair) for row in self._rows[asked] for pair in (alone if row.alone else pairs) if row.admits(pair)
+        ]
+        return [row.claim(pair, self._settings.floor) for row, pair in admitted]
 
     def decide(self, asked: Asked, it: Subject, moment: Moment, known: Sequence[Track] | None = None) -> Decision:
-        """What it is; of the ``known`` things, those of the moment if nothing else is said."""
+        """What it is; of the ``known`` things, those of the moment if nothing else is said. Of two that are as likely,
+        it is the one known for longer.
+        """
         found = self.claims(asked, it, moment, moment.known if known is None else known)
-        decision = decide(found, it, margin=self._settings.margin)
+        new = Claim(hypothesis=Hypothesis.NEW, way="nothing speaks for another", score=0.0)
+        ranked = sorted((*found, new), key=lambda c: (-c.score, c.known.number if c.known is not None else 0, c.way))
+        others = [c for c in ranked if (c.hypothesis, c.known) != (ranked[0].hypothesis, ranked[0].known)]
+        decision = Decision(
+            claims=tuple(ranked), waits=bool(others) and ranked[0].score - others[0].score < self._settings.margin
+        )
         if found:
             logger.debug("objects: %s is %s", it, decision, extra={"asked": asked.value})
         return decision

@@ -13,9 +13,11 @@ from perception.objects.furniture.surface import Box
 from perception.objects.identity.scales import Scales
 from perception.objects.seeing.detection import Detection
 from perception.objects.seeing.sight import Sight
+from perception.objects.tracking.relations import support_probability
 from perception.objects.tracking.track import Track
-from perception.vocabulary import Category, category_of
+from perception.vocabulary import Category, carries_things, category_of
 from scene_graph.geometry.se3 import SE3
+from scene_graph.nodes import ObjectState
 
 Array = NDArray[np.float64]
 _FAR_M = 1e9
@@ -43,6 +45,9 @@ class Subject:
             self.first_seen_s = self.last_seen_s = np.inf
         self.sureness = dict(self.distribution).get(self.name, 0.0)
         self._in: dict[str, tuple[Array, Array]] = {}
+
+    def __str__(self) -> str:
+        return f"{self.name} {self.track.number if self.track is not None else ''}".strip()
 
     @classmethod
     def of(cls, track: Track) -> Subject:
@@ -114,6 +119,25 @@ class Moment:
             self._spreads_m2[track.number] = float(np.trace(track.covariance)) / 3.0
         return self._spreads_m2[track.number]
 
+    def sharers(self, it: Subject) -> list[tuple[Track, NDArray[np.bool_]]]:
+        """Known things of its kind where it is, and which of its points, (N,), each of them has."""
+        found = list[tuple[Track, NDArray[np.bool_]]]()
+        for known in self.known:
+            solid = known.state is ObjectState.PRESENT if it.furniture else known.impenetrable
+            if solid and known.is_furniture == it.furniture and known is not it.track and known.node_id is not None:
+                margin_m = self.scales.margin_m(furniture=it.furniture)
+                within = known.box.contains(it.seen_from(known.room, self)[1], margin_m)
+                found += [(known, within)] if within.any() else []
+        return found
+
+    def carrier(self, it: Subject) -> str | None:
+        """The node of what carries it, ``None`` for what lies on the floor."""
+        carriers = [t for t in self.known if t.room == it.room and carries_things(t.label.best, t.box.size_m)]
+        gap = {"sigma_m": self.scales.contact_sigma_m, "rim_m": self.scales.rim_m}
+        chances = [(support_probability(it.box, t.box, t.category, **gap)[1], -t.number, t.node_id) for t in carriers]
+        best = max(chances, default=None)
+        return best[2] if best is not None and best[0] > self.scales.carries else None
+
 
 class Pair:
     """A subject and a thing that is known, if it is about one; every evidence is computed at most once."""
@@ -121,7 +145,7 @@ class Pair:
     def __init__(self, it: Subject, known: Track | None, moment: Moment) -> None:
         self.it, self.moment, self.scales = it, moment, moment.scales
         self._known = known
-        self.measured: dict[Callable[[Pair], float], float] = {}
+        self.measured: dict[Evidence, float] = {}
 
     @property
     def alone(self) -> bool:
@@ -135,7 +159,7 @@ class Pair:
             raise LookupError("it is compared with no thing in particular")
         return self._known
 
-    def measure(self, evidence: Callable[[Pair], float]) -> float:
+    def measure(self, evidence: Evidence) -> float:
         """The value of an evidence."""
         if evidence not in self.measured:
             self.measured[evidence] = float(evidence(self))
@@ -151,8 +175,12 @@ class Pair:
         """(N, 3) points of the subject in the room of what is known."""
         return self.it.seen_from(self.known.room, self.moment)[1]
 
-    def here(self, points: Array) -> Array | None:
-        """Points of the subject's room in the robot's; ``None`` where the way is not known."""
-        room = self.moment.sight.view.room if self.moment.sight is not None else None
-        T_here_room = self.moment.transform(room, self.it.room) if room is not None else None
-        return T_here_room.apply(points) if T_here_room is not None else None
+    def here(self, points: Array) -> Array:
+        """Points of the subject's room in the robot's; far away where the way is not known."""
+        sight = self.moment.sight
+        T_here_room = self.moment.transform(sight.view.room, self.it.room) if sight is not None else None
+        return T_here_room.apply(points) if T_here_room is not None else np.full_like(points, _FAR_M)
+
+
+Evidence = Callable[[Pair], float]
+"""A measure of what speaks for or against that the subject of a pair is what is known, or a part of it."""

@@ -57,3 +57,7 @@ class Scales:
     """What rises no higher over a table may be what stands on it; nobody does."""
     seat_height_m: float = 0.1
     """Who sits rises by more over the back of a seat."""
+
+    def margin_m(self, *, furniture: bool) -> float:
+        """How far outside the box of a known thing a point of it may be."""
+        return self.furniture_margin_m if furniture else self.thing_margin_m

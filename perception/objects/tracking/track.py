@@ -24,7 +24,7 @@ from perception.objects.tracking.center import CenterBelief, CenterSettings
 from perception.objects.tracking.handled import HandDid, Handled
 from perception.vocabulary import Category, category_of, has_back, is_of_one_size, may_grow_m, spans_its_kind
 from scene_graph.geometry.se3 import SE3
-from scene_graph.nodes import ObjectNode, ObjectState
+from scene_graph.nodes import UNKNOWN_LABEL, ObjectNode, ObjectState
 
 Array = NDArray[np.float64]
 _SIDE_RAD = math.pi / 4.0
@@ -215,6 +215,14 @@ class Track:
         """
         known = self.hits >= _KNOWN_HITS and self.label.confidence >= _KNOWN_LABEL
         return known and self.is_furniture and is_of_one_size(self.label.best)
+
+    @property
+    def impenetrable(self) -> bool:
+        """Whether nothing else can be where it is: it is a node with a name, small and not a container. What the hand
+        has just put down is not known to be there before it is seen.
+        """
+        known = self.node_id is not None and self.state is ObjectState.PRESENT and self.label.best != UNKNOWN_LABEL
+        return known and not (self.is_furniture or self.unseen_since(HandDid.PUT) or self.category.container)
 
     def _vaguer(self, detection: Detection) -> bool:
         """Whether a thing of known name was seen as something without one: such masks show more than the thing."""

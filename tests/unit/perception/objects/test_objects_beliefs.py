@@ -142,8 +142,9 @@ def turned_up(missing, others, looked_before=None):
     """The other thing that a missing one is."""
     moment = Moment(known=others, looked_before=looked_before or {})
     present = [Subject.of(other) for other in others if other.state is ObjectState.PRESENT]
-    best = max((IDENTITY.decide(Asked.MISSED, it, moment, [missing]).best for it in present), key=lambda c: c.score)
-    return best.it.track if best.known is missing else None
+    found = [(IDENTITY.decide(Asked.MISSED, it, moment, [missing]).best, it.track) for it in present]
+    best, other = max(found, key=lambda pair: pair[0].score)
+    return other if best.known is missing else None
 
 
 def is_part(sighting, known):

@@ -12,7 +12,7 @@ from scene_graph.geometry.se3 import SE3
 from scene_graph.long_term.long_term_store import LongTermStore
 from scene_graph.memory import WorkingMemory
 from scene_graph.nodes import ObjectNode, ObjectState
-from unit.perception.objects.test_objects_agent import BLUE_BOTTLE, TABLE, Story, finish
+from unit.perception.objects.story import BLUE_BOTTLE, TABLE, Story, finish
 
 ELSEWHERE = ObjectNode(
     id="bottle_1",

@@ -27,7 +27,7 @@ from perception.objects.publishing.recollection import Recollection
 from perception.objects.seeing.body import OwnBody
 from perception.objects.seeing.detection import Detection, DetectionSettings, detections_of
 from perception.objects.seeing.look import Look
-from perception.objects.seeing.membership import Surroundings
+from perception.objects.seeing.membership import MembershipSettings, Surroundings
 from perception.objects.seeing.projection import View
 from perception.objects.seeing.sight import Sight
 from perception.objects.seeing.viewpoint import turning_radps, view_of
@@ -44,8 +44,6 @@ from scene_graph.nodes import ObjectState
 from scene_graph.snapshot import Snapshot
 
 logger = logging.getLogger(__name__)
-_REACHING_M = 0.1
-"""An arm that is stretched out by more is not in a pose to travel in."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -63,7 +61,10 @@ class ObjectMemorySettings:
     inference_timeout_s: float = 10.0
     depth_share_min: float = 0.05
     in_hand_m: float = 0.12
+    reaching_m: float = 0.1
+    """An arm that is stretched out by more is not in a pose to travel in."""
     sure_rad: float = 0.008
+    membership: MembershipSettings = field(default_factory=MembershipSettings)
     detection: DetectionSettings = field(default_factory=DetectionSettings)
     tracker: TrackerSettings = field(default_factory=TrackerSettings)
     people: PeopleSettings = field(default_factory=PeopleSettings)
@@ -124,7 +125,7 @@ class ObjectMemory:
         if frame is not None and scene is not None and sight is not None:
             await asyncio.to_thread(self._see, frame, scene, sight, snapshot, placed, stamp_s)
         elif placed and snapshot.current_room is not None:
-            self._relate(Surroundings(snapshot, snapshot.current_room), placed, None)
+            self._relate(Surroundings(snapshot, snapshot.current_room, self._settings.membership), placed, None)
         self._publish(stamp_s)
         if frame is not None and scene is not None:
             self.look = Look(frame=frame, scene=scene, nodes=self._recognized() if sight is not None else {})
@@ -172,7 +173,7 @@ class ObjectMemory:
         stamp_s: float,
     ) -> None:
         """Everything that takes time; runs in a worker thread while nobody else touches the tracks."""
-        surroundings = Surroundings(snapshot, view.room)
+        surroundings = Surroundings(snapshot, view.room, self._settings.membership)
         joints = self._buffer.joints_at(frame.stamp_s)
         held_m = self._hand.held.track.box.size_m if self._hand.held is not None else None
         body = OwnBody(joints, held_m=held_m) if joints is not None else None
@@ -192,7 +193,7 @@ class ObjectMemory:
                 turning_radps=turning,
                 looked_before=self._inspection.looked(snapshot, stamp_s),
                 hand=view.T_room_base.apply(body.grip) if body is not None else None,
-                reaching=joints is not None and joints.extension_m > _REACHING_M,
+                reaching=joints is not None and joints.extension_m > self._settings.reaching_m,
                 persons=self._people.spots(surroundings),
             )
         )

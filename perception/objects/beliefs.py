@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Hashable, Mapping
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -12,35 +13,54 @@ from scene_graph.nodes import UNKNOWN_LABEL, Point3
 LabelDistribution = tuple[tuple[str, float], ...]
 
 
-_FRAMES = 12.0
-"""So many of the newest frames of a view make its mean."""
-_FIRST = 0.6
-_BEFORE, _FRAMES_BEFORE = "before", 5
-"""What was found out earlier counts as much as so many frames of a view that say the same."""
-_OBSERVATIONS_OF_VIEW, _VIEWS_BEFORE = 12.0, (0.5, 3.0)
-"""Of so many observations it counts as one view: what was seen time and again, from more sides than one, is not
-overturned by the first look after a restart, or where the thing was put.
-"""
-_LEAST_LEFT = 0.1
-"""So much of a frame counts as all of it when the rest is out of the question; less is noise."""
-_SIZE_SPREAD = 0.25
-"""Standard deviation of the logarithm of the size of what comes in one size: a stove two meters long is more likely a
-stove and a counter, which go by the counter's name.
-"""
+_BEFORE = "before"
+
+
+@dataclass(frozen=True, kw_only=True)
+class LabelSettings:
+    """``noise``: probability that the network is wrong altogether. ``evidence_of_view``: as how many independent frames
+    one view counts at most, ``views``: how many of them are kept. ``bound``: by how many nats a label falls behind the
+    best at most. ``nameless``: how likely it is in every frame that a thing has none of the known names.
+    """
+
+    noise: float = 0.1
+    evidence_of_view: float = 2.4
+    views: int = 5
+    bound: float = 9.0
+    nameless: float = 0.2
+    frames: float = 12.0
+    """So many of the newest frames of a view make its mean."""
+    first: float = 0.6
+    """As how many independent frames the first of a view counts."""
+    frames_before: int = 5
+    """What was found out earlier counts as much as so many frames of a view that say the same."""
+    observations_of_view: float = 12.0
+    """Of so many observations it counts as one view: what was seen time and again, from more sides than one, is not
+    overturned by the first look after a restart, or where the thing was put;
+    """
+    views_before: tuple[float, float] = (0.5, 3.0)
+    """as so many views at least and at most."""
+    least_left: float = 0.1
+    """So much of a frame counts as all of it when the rest is out of the question; less is noise."""
+    size_spread: float = 0.25
+    """Standard deviation of the logarithm of the size of what comes in one size: a stove two meters long is more likely
+    a stove and a counter, which go by the counter's name.
+    """
 
 
 class _Look:
     """What the frames of one view say: sums of log likelihoods, of labels not heard under None."""
 
-    def __init__(self, trust: float) -> None:
-        self.trust = trust
+    def __init__(self, trust: float, settings: LabelSettings) -> None:
+        self.trust, self._settings = trust, settings
         self.weight = self._frames = 0.0
         self.log: dict[str | None, float] = {None: 0.0}
 
-    def add(self, likelihood: Mapping[str, float], weight: float, noise: float) -> None:
+    def add(self, likelihood: Mapping[str, float], weight: float) -> None:
         """One frame more; older ones fade."""
+        noise = self._settings.noise
         floor = noise / 10.0
-        keep = min(1.0, (_FRAMES - weight) / self.weight) if self.weight > 0.0 else 1.0
+        keep = min(1.0, (self._settings.frames - weight) / self.weight) if self.weight > 0.0 else 1.0
         before = self.log[None]
         for label in dict.fromkeys((*self.log, *likelihood)):
             probability = floor if label is None else (1.0 - noise) * likelihood.get(label, 0.0) + floor
@@ -53,12 +73,13 @@ class _Look:
         """How good its frames are, 0 to 1."""
         return self.weight / self._frames
 
-    def evidence(self, most: float, best: float) -> float:
-        """As how many independent frames they count: the first as ``_FIRST``, all of them together as ``most``; less
-        where the view is not trusted, or is not as good as the ``best`` one.
+    def evidence(self, best: float) -> float:
+        """As how many independent frames they count: less than that where the view is not trusted, or is not as good as
+        the ``best`` one.
         """
+        first, most = self._settings.first, self._settings.evidence_of_view
         share = self.trust * min(self.quality / best, 1.0)
-        return share * most * float(-np.expm1(-_FIRST * self.weight / most))
+        return share * most * float(-np.expm1(-first * self.weight / most))
 
 
 class LabelBelief:
@@ -81,20 +102,8 @@ class LabelBelief:
             after a person's word.
     """
 
-    def __init__(
-        self,
-        *,
-        noise: float = 0.1,
-        evidence_of_view: float = 2.4,
-        views: int = 5,
-        bound: float = 9.0,
-        nameless: float = 0.2,
-    ) -> None:
-        self._noise = noise
-        self._nameless = nameless
-        self._evidence_of_view = evidence_of_view
-        self._views = views
-        self._bound = bound
+    def __init__(self, settings: LabelSettings = LabelSettings()) -> None:
+        self._settings = settings
         self._looks: dict[Hashable, _Look] = {}
         self._taught = False
         self._size_m: Point3 = (0.0, 0.0, 0.0)
@@ -108,10 +117,10 @@ class LabelBelief:
         """
         if self._taught:
             return
-        look = self._looks.pop(view, None) or _Look(trust)
-        look.add(self._likelihood(distribution), weight, self._noise)
+        look = self._looks.pop(view, None) or _Look(trust, self._settings)
+        look.add(self._likelihood(distribution), weight)
         self._looks[view] = look
-        while len(self._looks) > self._views:
+        while len(self._looks) > self._settings.views:
             evidence = self._evidence()
             del self._looks[min((key for key in evidence if key != view), key=lambda key: round(evidence[key], 1))]
         self.distribution = self._ranked(self._fused())
@@ -121,8 +130,8 @@ class LabelBelief:
         of its own, the more of them the oftener the thing was seen, and no look at the new place takes its place.
         """
         self._looks = {}
-        trust = float(np.clip(observations / _OBSERVATIONS_OF_VIEW, *_VIEWS_BEFORE))
-        for _ in range(_FRAMES_BEFORE):
+        trust = float(np.clip(observations / self._settings.observations_of_view, *self._settings.views_before))
+        for _ in range(self._settings.frames_before):
             self.update(distribution, view=_BEFORE, trust=trust)
 
     def measure(self, size_m: Point3) -> None:
@@ -134,9 +143,9 @@ class LabelBelief:
     def _size_costs(self) -> dict[str, float]:
         """How much less likely, in log likelihood to one digit, its size makes the labels that were heard."""
         heard = [label for label in self._heard() if label is not None]
-        over = {label: float(np.log(oversize(label, self._size_m))) / _SIZE_SPREAD for label in heard}
+        over = {label: float(np.log(oversize(label, self._size_m))) / self._settings.size_spread for label in heard}
         costs = {label: round(spreads**2 / 2.0, 1) for label, spreads in over.items() if spreads > 0.0}
-        return costs | {label: self._bound for label in heard if is_too_large(label, self._size_m)}
+        return costs | {label: self._settings.bound for label in heard if is_too_large(label, self._size_m)}
 
     def _likelihood(self, distribution: LabelDistribution) -> dict[str, float]:
         """Of each label, given that it is right; classes of a frame that is unsure share everything among them, and so
@@ -145,13 +154,16 @@ class LabelBelief:
         likelihood = {label: max(probability, 0.0) for label, probability in distribution}
         possible = {label: p for label, p in likelihood.items() if not is_too_large(label, self._size_m)}
         if len(possible) < len(likelihood):
-            left = max(1.0 - sum(likelihood.values()) + sum(possible.values()), _LEAST_LEFT)
+            left = max(1.0 - sum(likelihood.values()) + sum(possible.values()), self._settings.least_left)
             likelihood = {label: probability / left for label, probability in possible.items()}
         known = 1.0 - likelihood.pop(UNKNOWN_LABEL, 0.0)
         if known < 1.0 and likelihood:
             likelihood = {label: probability / max(known, 1e-6) for label, probability in likelihood.items()}
         top = max(likelihood.values(), default=0.0)
-        return {**likelihood, UNKNOWN_LABEL: 1.0 if not likelihood else min(self._nameless, 1.0 - min(top, 1.0))}
+        return {
+            **likelihood,
+            UNKNOWN_LABEL: 1.0 if not likelihood else min(self._settings.nameless, 1.0 - min(top, 1.0)),
+        }
 
     def teach(self, label: str) -> None:
         """Take a person's word; what the network says no longer counts."""
@@ -161,7 +173,7 @@ class LabelBelief:
     def _evidence(self) -> dict[Hashable, float]:
         """As how many independent frames each view counts, oldest first."""
         best = max(min(look.trust, 1.0) * look.quality for look in self._looks.values())
-        return {key: look.evidence(self._evidence_of_view, best) for key, look in self._looks.items()}
+        return {key: look.evidence(best) for key, look in self._looks.items()}
 
     def _heard(self) -> dict[str | None, float]:
         """Zero for every label of any look, in the order of hearing: with that of a set, sums would round by chance."""
@@ -178,7 +190,7 @@ class LabelBelief:
         for label, cost in self._size_costs().items():
             log[label] -= cost
         top = max(log.values())
-        return {label: max(value - top, -self._bound) for label, value in log.items()}
+        return {label: max(value - top, -self._settings.bound) for label, value in log.items()}
 
     @staticmethod
     def _ranked(log: Mapping[str | None, float]) -> LabelDistribution:

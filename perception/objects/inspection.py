@@ -7,9 +7,9 @@ own look shows too little, such as a chair from behind, is looked at once more f
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
-from perception.objects.furniture.coverage import Coverage, SeenSurface
+from perception.objects.furniture.coverage import Coverage, CoverageSettings, SeenSurface
 from perception.objects.furniture.surface import Box
 from perception.objects.seeing.membership import Surroundings
 from perception.objects.seeing.projection import View
@@ -22,29 +22,27 @@ from scene_graph.snapshot import Snapshot
 
 AGENT = "objects"
 _GIVEN_UP = "given up"
-_ABOVE_M = 0.05
-"""So far above a top the camera must be to see what is on it."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class InspectionSettings:
-    """``pixels_per_m2``: with so many pixels by its area something flat is recognized: a remote control has a hundred.
-    ``covered``: share of a support that must have been seen so in passing, in so many ``frames``; after a look of its
-    own of which ``enough`` came, none follows from another side.
+    """``covered``: share of a support that must have been seen in passing; after a look of its own of which ``enough``
+    came, none follows from another side.
 
     ``standoff_m`` is what stays between the robot's axis and the edge of a support, ``over_rim_m`` of one that things
     are put into; ``settled_hits``: sightings before a support's size is trusted.
     """
 
-    pixels_per_m2: float = 12500.0
+    coverage: CoverageSettings = field(default_factory=CoverageSettings)
     covered: float = 0.85
     enough: float = 0.7
-    frames: int = 2
     standoff_m: float = 0.6
     over_rim_m: float = 0.45
     settled_hits: int = 5
     tries: int = 2
     turning_limit_radps: float = 0.6
+    above_m: float = 0.05
+    """So far above a top the camera must be to see what is on it."""
 
     def standoff_from(self, node: ObjectNode) -> float:
         """Meters from the edge of a support: over the rim of a container one looks from nearer."""
@@ -86,9 +84,12 @@ class Inspection:
             node = snapshot.get(track.node_id) if track.node_id is not None else None
             if not isinstance(node, ObjectNode) or not _worth_a_look(node) or node.id in self.inspected:
                 continue
-            if track.room not in surroundings.T_here_room or node.size_m[2] > view.T_room_camera.z_m - _ABOVE_M:
+            if (
+                track.room not in surroundings.T_here_room
+                or node.size_m[2] > view.T_room_camera.z_m - self._settings.above_m
+            ):
                 continue
-            seen = seen or SeenSurface.of(view, pixels_per_m2=self._settings.pixels_per_m2)
+            seen = seen or SeenSurface.of(view, self._settings.coverage)
             if self._covered(node.id, track, seen, surroundings):
                 self.inspected[node.id] = view.stamp_s
 
@@ -99,7 +100,7 @@ class Inspection:
         settings = self._settings
         coverage = self._coverage.get(node_id)
         if coverage is None:
-            coverage = Coverage(frames=settings.frames)
+            coverage = Coverage(settings.coverage)
             self._coverage[node_id] = coverage
         coverage.add(box, seen, inside=track.category.container)
         self._sides[node_id] = coverage.hidden_side_rad(box)

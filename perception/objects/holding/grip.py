@@ -11,9 +11,6 @@ from enum import StrEnum
 
 from perception.ports import JointState
 
-_CLOSED_M = 0.004
-"""Fingers that are closer together by more than this than when they last felt something have closed on nothing."""
-
 
 class GripChange(StrEnum):
     """What has just happened to the thing in the hand."""
@@ -42,6 +39,16 @@ class GripSettings:
     steady_s: float = 0.15
     memory_s: float = 4.0
     opening_m: tuple[float, float] = (0.003, 0.117)
+    closed_m: float = 0.004
+    """Fingers that are closer together by more than this than when they last felt something have closed on nothing."""
+    off_center_m: float = 0.08
+    """How far from the middle of the grip the middle of a thing may be that is held at its end."""
+    released_sigma_m: float = 0.03
+    """How well the place of a thing is known that was let go and not seen yet."""
+    lost_sigma_m: float = 0.5
+    """The same of what slipped: it may have rolled."""
+    support_m: float = 0.12
+    """What is let go this near above a support or in it stands on that."""
 
 
 class Grip:
@@ -106,7 +113,7 @@ class Grip:
     def _let_go(self, holding: str, joints: JointState) -> GripEvent:
         """Fingers that release something open; where they have closed further, it slipped before it stood."""
         announced = self._recent("releasing", joints.stamp_s)
-        slipped = joints.gripper_opening_m < self._held_open_m - _CLOSED_M
+        slipped = joints.gripper_opening_m < self._held_open_m - self._settings.closed_m
         if announced is not None and announced[0] == holding and not slipped:
             return GripEvent(change=GripChange.RELEASED, object_id=holding, place=announced[1])
         return GripEvent(change=GripChange.LOST, object_id=holding)

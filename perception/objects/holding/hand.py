@@ -17,9 +17,6 @@ from scene_graph.nodes import ROBOT_ID, ObjectState
 from scene_graph.snapshot import Snapshot
 
 Array = NDArray[np.float64]
-_OFF_CENTER_M = 0.08
-_RELEASED_SIGMA_M = 0.03
-_LOST_SIGMA_M = 0.5
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -41,6 +38,7 @@ class Hand:
     def __init__(self, tracker: Tracker, settings: GripSettings, held_before: str | None = None) -> None:
         """``held_before``: what was in the hand when the robot was switched off."""
         self._tracker = tracker
+        self._settings = settings
         self._grip = Grip(settings, held_before)
         self.held: Held | None = None
         self.T_base_gripper = SE3.identity()
@@ -92,7 +90,8 @@ class Hand:
         T_base_object = snapshot.transform(ROBOT_ID, object_id)
         track.note_hand(HandDid.TAKEN, stamp_s)
         T_gripper_object = self.T_base_gripper.inverse() @ T_base_object
-        offset = np.clip(T_gripper_object.translation_m, -_OFF_CENTER_M, _OFF_CENTER_M)
+        most_m = self._settings.off_center_m
+        offset = np.clip(T_gripper_object.translation_m, -most_m, most_m)
         offset[1] = 0.0  # the fingers have centered it
         self.held = Held(track=track, T_gripper_object=SE3(T_gripper_object.quat_wxyz, offset))
         track.state = ObjectState.HELD
@@ -108,25 +107,24 @@ class Hand:
         position = np.array(T_room_object.translation_m)
         if event.change is GripChange.RELEASED:
             track.state, track.log_odds = ObjectState.PRESENT, 2.0
-            position[2] = _resting_height(position[2], track, event.place, self._tracker)
-            track.put_at(room, position, _RELEASED_SIGMA_M, T_room_object.yaw_rad)
+            position[2] = self._resting_height(position[2], track, event.place)
+            track.put_at(room, position, self._settings.released_sigma_m, T_room_object.yaw_rad)
             track.note_hand(HandDid.PUT, stamp_s)
             return frozenset({track.number})
         track.state, track.log_odds = ObjectState.MISSING, -2.0
         position[2] = track.box.size_m[2] / 2.0
-        track.put_at(room, position, _LOST_SIGMA_M)
+        track.put_at(room, position, self._settings.lost_sigma_m)
         track.note_hand(HandDid.DROPPED, stamp_s)
         return frozenset()
 
-
-def _resting_height(z_m: float, track: Track, place: str | None, tracker: Tracker) -> float:
-    """Height of the center of a thing put down: on the top of its support, if that is near; as it was let go
-    otherwise.
-    """
-    support = tracker.of_node(place) if place is not None else None
-    half_m = track.box.size_m[2] / 2.0
-    if support is None:
-        return z_m
-    top_m = float(support.position[2]) + support.box.size_m[2] / 2.0
-    on_top_m = top_m + half_m
-    return on_top_m if abs(on_top_m - z_m) < 0.12 and not support.category.levels else z_m
+    def _resting_height(self, z_m: float, track: Track, place: str | None) -> float:
+        """Height of the center of a thing put down: on the top of its support, if that is near; as it was let go
+        otherwise.
+        """
+        support = self._tracker.of_node(place) if place is not None else None
+        half_m = track.box.size_m[2] / 2.0
+        if support is None:
+            return z_m
+        top_m = float(support.position[2]) + support.box.size_m[2] / 2.0
+        on_top_m = top_m + half_m
+        return on_top_m if abs(on_top_m - z_m) < self._settings.support_m and not support.category.levels else z_m

@@ -15,12 +15,10 @@ from perception.objects.seeing.projection import View
 from perception.objects.tracking.existence import ExistenceSettings, Visibility, absence_evidence, visibility
 from perception.objects.tracking.taken_names import TakenNames
 from scene_graph.identifiers import next_id
-from scene_graph.nodes import PersonNode
+from scene_graph.nodes import PersonNode, Point3
 from scene_graph.snapshot import Snapshot
 
 Array = NDArray[np.float64]
-_BODY_RADIUS_M = 0.2
-_BODY_SIZE_M = (0.4, 0.4, 1.7)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -40,6 +38,8 @@ class PeopleSettings:
     upright_m: float = 0.8
     likely: float = 0.6
     sure: float = 0.9
+    body_m: Point3 = (0.4, 0.4, 1.7)
+    """A grown-up, standing: breadth, depth, height."""
 
     def convinces(self, detection: Detection) -> bool:
         """Whether a detection is enough to believe in a person where nobody was."""
@@ -103,11 +103,11 @@ class People:
         """
         in_range = sorted((d for d in detections if d.in_range), key=lambda d: -d.cloud.pixels)
         unseen = [t for t in self.tracks if t.room in surroundings.T_here_room]
-        taken: list[Array] = []
+        taken, broad_m = list[Array](), self._settings.body_m[0]
         self.matches = {}
         for detection in in_range:
-            spot, convinces = _feet(detection, view), self._settings.convinces(detection)
-            if any(float(np.linalg.norm(spot - other)) < 2.0 * _BODY_RADIUS_M for other in taken):
+            spot, convinces = _feet(detection, view, broad_m / 2.0), self._settings.convinces(detection)
+            if any(float(np.linalg.norm(spot - other)) < broad_m for other in taken):
                 continue
             taken.append(spot)
             track = self._same_person(spot, unseen, surroundings, view.stamp_s, anywhere=convinces)
@@ -178,8 +178,8 @@ class People:
         track.gone = track.confidence < self._settings.gone_below and not track.named
 
     def _place(self, track: PersonTrack, view: View, surroundings: Surroundings) -> Visibility:
-        center = np.array((*_here(track, surroundings), _BODY_SIZE_M[2] / 2.0))
-        upper = Box(center + np.array((0.0, 0.0, 0.2)), (_BODY_SIZE_M[0], _BODY_SIZE_M[1], 0.9), 0.0)
+        center = np.array((*_here(track, surroundings), self._settings.body_m[2] / 2.0))
+        upper = Box(center + np.array((0.0, 0.0, 0.2)), (*self._settings.body_m[:2], 0.9), 0.0)
         return visibility(upper, view, self._existence)
 
 
@@ -187,10 +187,10 @@ def _here(track: PersonTrack, surroundings: Surroundings) -> Array:
     return surroundings.T_here_room[track.room].apply((*track.position, 0.0))[:2]
 
 
-def _feet(detection: Detection, view: View) -> Array:
+def _feet(detection: Detection, view: View, radius_m: float) -> Array:
     """(2,) axis of the body on the floor plane: behind the front that the camera sees."""
     camera = view.T_room_camera.translation_m
     middle = np.median(detection.cloud.points[:, :2], axis=0)
     direction = middle - camera[:2]
-    spot: Array = middle + direction / max(float(np.linalg.norm(direction)), 1e-6) * 0.6 * _BODY_RADIUS_M
+    spot: Array = middle + direction / max(float(np.linalg.norm(direction)), 1e-6) * 0.6 * radius_m
     return spot

@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 from perception.ports import JointState
 
 Array = NDArray[np.float64]
-HELD_MARGIN_M = 0.05
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -30,6 +29,8 @@ class BodyGeometry:
     palm_m: tuple[float, float, float] = (0.04, 0.16, 0.04)
     behind_m: float = 0.10
     margin_m: float = 0.015
+    held_margin_m: float = 0.05
+    """By how much what is held may seem larger, and be held off its middle."""
 
 
 class OwnBody:
@@ -63,8 +64,8 @@ class OwnBody:
             inside |= _distance(points_base, start, end) < self._geometry.arm_radius_m
         if self._held_m is not None:
             away = np.abs(points_base - self.grip)
-            beside = np.hypot(away[:, 0], away[:, 1]) < max(self._held_m[:2]) / 2.0 + HELD_MARGIN_M
-            inside |= beside & (away[:, 2] < self._held_m[2] / 2.0 + HELD_MARGIN_M)
+            beside = np.hypot(away[:, 0], away[:, 1]) < max(self._held_m[:2]) / 2.0 + self._geometry.held_margin_m
+            inside |= beside & (away[:, 2] < self._held_m[2] / 2.0 + self._geometry.held_margin_m)
         else:
             inside |= self._of_fingers(points_base)
         return np.asarray(inside)

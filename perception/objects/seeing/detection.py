@@ -10,15 +10,11 @@ from numpy.typing import NDArray
 
 from perception.objects.beliefs import LabelDistribution
 from perception.objects.seeing.body import OwnBody
-from perception.objects.seeing.color import colors_of
+from perception.objects.seeing.color import ColorSettings, colors_of
 from perception.objects.seeing.projection import Building, Cloud, ProjectionSettings, View, cloud_of
-from perception.objects.seeing.shape import Shape, measure_shape
+from perception.objects.seeing.shape import Shape, ShapeSettings, measure_shape
 from perception.panoptic import Instance, PanopticScene
 from perception.vocabulary import category_of, is_person
-
-_SAME_MASK_IOU = 0.6
-_OWN_BODY_SHARE = 0.5
-_HIDDEN_SHARE = 0.4
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -28,6 +24,14 @@ class DetectionSettings:
     projection: ProjectionSettings = field(default_factory=ProjectionSettings)
     range_limit_m: float = 4.5
     minimum_score: float = 0.15
+    shape: ShapeSettings = field(default_factory=ShapeSettings)
+    color: ColorSettings = field(default_factory=ColorSettings)
+    same_mask_iou: float = 0.6
+    """Of two masks that overlap as much, the surer one counts."""
+    own_body_share: float = 0.5
+    """What is the robot's own body to more than this is nothing."""
+    hidden_share: float = 0.4
+    """With so much of its rim hidden, the center of a thing does not count."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -47,11 +51,8 @@ class Detection:
     shape: Shape
     colors: Mapping[str, float]
     in_range: bool
+    measurable: bool
     accents: frozenset[str] | None = None
-
-    @property
-    def measurable(self) -> bool:
-        return self.in_range and not self.cloud.truncated and self.cloud.occluded < _HIDDEN_SHARE
 
     @property
     def weight(self) -> float:
@@ -71,7 +72,7 @@ def detections_of(
     """Things and persons of one frame; background, doubles, the building and the robot's own arm are left out."""
     things: list[Detection] = []
     persons: list[Detection] = []
-    for index in _without_doubles(scene.instances, settings.minimum_score):
+    for index in _without_doubles(scene.instances, settings):
         detection = _measure(index, scene.instances[index], rgb, view, settings, own_body, building)
         if detection is None:
             continue
@@ -91,42 +92,45 @@ def _measure(
     category = category_of(instance.label)
     before_walls = building if category.furniture and category.floor else None
     cloud = cloud_of(instance.mask, view, settings.projection, building=before_walls)
-    cloud = _without_body(cloud, view, own_body) if cloud is not None and own_body is not None else cloud
+    cloud = _without_body(cloud, view, own_body, settings) if cloud is not None and own_body is not None else cloud
     if cloud is None:
         return None
-    colors, accents = colors_of(rgb, instance.mask)
-    shape = measure_shape(cloud, view, category, depth_noise_per_m=settings.projection.depth_noise_per_m)
+    colors, accents = colors_of(rgb, instance.mask, settings.color)
+    in_range = cloud.range_m <= settings.range_limit_m
     return Detection(
         index=index,
         label=instance.label,
         distribution=instance.label_distribution or ((instance.label, 1.0),),
         mask=instance.mask,
         cloud=cloud,
-        shape=shape,
+        shape=measure_shape(cloud, view, category, settings.shape),
         colors=colors,
-        in_range=cloud.range_m <= settings.range_limit_m,
+        in_range=in_range,
+        measurable=in_range and not cloud.truncated and cloud.occluded < settings.hidden_share,
         accents=accents,
     )
 
 
-def _without_body(cloud: Cloud, view: View, own_body: OwnBody) -> Cloud | None:
+def _without_body(cloud: Cloud, view: View, own_body: OwnBody, settings: DetectionSettings) -> Cloud | None:
     """Without the robot's arm, which networks take for a part of what it reaches over, and which hides some of that;
     ``None`` if it is most of it.
     """
     own = own_body.covers(view.T_room_base.inverse().apply(cloud.points))
-    if float(own.mean()) > _OWN_BODY_SHARE:
+    if float(own.mean()) > settings.own_body_share:
         return None
     if not own.any():
         return cloud
     return replace(cloud, points=cloud.points[~own], occluded=max(cloud.occluded, float(own.mean())))
 
 
-def _without_doubles(instances: tuple[Instance, ...], minimum_score: float) -> list[int]:
+def _without_doubles(instances: tuple[Instance, ...], settings: DetectionSettings) -> list[int]:
     """Indices of instances that count; of two masks of the same pixels the surer one."""
     counted = [
         i
         for i, instance in enumerate(instances)
-        if instance.score >= minimum_score and not category_of(instance.label).background and instance.mask.any()
+        if instance.score >= settings.minimum_score
+        and not category_of(instance.label).background
+        and instance.mask.any()
     ]
     if not counted:
         return []
@@ -136,6 +140,6 @@ def _without_doubles(instances: tuple[Instance, ...], minimum_score: float) -> l
     iou = shared / np.maximum(areas[:, None] + areas[None, :] - shared, 1.0)
     kept: list[int] = []
     for a in sorted(range(len(counted)), key=lambda a: (-instances[counted[a]].score, a)):
-        if all(iou[a, b] < _SAME_MASK_IOU for b in kept):
+        if all(iou[a, b] < settings.same_mask_iou for b in kept):
             kept.append(a)
     return [counted[a] for a in sorted(kept)]

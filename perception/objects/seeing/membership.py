@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -11,15 +13,23 @@ from scene_graph.nodes import DoorNode, Point2, RoomNode, RoomStatus
 from scene_graph.snapshot import Snapshot
 
 Array = NDArray[np.float64]
-_FACE_M = 0.06
-"""How far inside a wall's face a point may be measured and still be of the wall."""
-_NEAR_FACE_M = 0.04
-"""The same for points of furniture in front of it, which would lose depth."""
-_WALL_M = 0.5
-"""What is farther behind a wall's face than this is seen past the wall, through a door, and stands in another room."""
-_FLOOR_M = 0.04
-MARGIN_M = 0.15
-"""How far outside the inner face of a wall the center of a thing may be measured and still belong to the room."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class MembershipSettings:
+    """How far walls reach for what is measured near them."""
+
+    face_m: float = 0.06
+    """How far inside a wall's face a point may be measured and still be of the wall."""
+    near_face_m: float = 0.04
+    """The same for points of furniture in front of it, which would lose depth."""
+    wall_m: float = 0.5
+    """What is farther behind a wall's face than this is seen past the wall, through a door, and stands in another room.
+    """
+    floor_m: float = 0.04
+    """How high over the floor a point may be measured and still be of the floor."""
+    margin_m: float = 0.15
+    """How far outside the inner face of a wall the center of a thing may be measured and still belong to the room."""
 
 
 class Outline:
@@ -57,8 +67,8 @@ class Surroundings:
         T_here_room: room -> ``T_here_room`` for the robot's room and each neighbor.
     """
 
-    def __init__(self, snapshot: Snapshot, room: str) -> None:
-        self.room = room
+    def __init__(self, snapshot: Snapshot, room: str, settings: MembershipSettings = MembershipSettings()) -> None:
+        self.room, self._settings = room, settings
         self.T_here_room: dict[str, SE3] = {room: SE3.identity()}
         self._outlines: dict[str, Outline] = {}
         self._T_room_here: dict[str, SE3] = {}
@@ -82,16 +92,16 @@ class Surroundings:
             return self.room
         distances = {room: self._outside_m(room, here)[0] for room in self._outlines}
         nearest = min(distances, key=lambda room: (distances[room], room))
-        return nearest if distances[nearest] <= MARGIN_M else None
+        return nearest if distances[nearest] <= self._settings.margin_m else None
 
     def in_walls(self, points_here: Array) -> float:
         """Share of points (N, 3) in the robot's room frame that lie on the faces of walls or in them."""
-        return float(np.mean(self._at_walls(points_here, _FACE_M))) if len(points_here) else 0.0
+        return float(np.mean(self._at_walls(points_here, self._settings.face_m))) if len(points_here) else 0.0
 
     def of_building(self, points_here: Array) -> NDArray[np.bool_]:
         """Which of the points (N, 3) in the robot's room frame lie on the floor, or on a wall's face or in the wall."""
-        building = points_here[:, 2] < _FLOOR_M
-        building[~building] = self._at_walls(points_here[~building], _NEAR_FACE_M)
+        building = points_here[:, 2] < self._settings.floor_m
+        building[~building] = self._at_walls(points_here[~building], self._settings.near_face_m)
         return building
 
     def _at_walls(self, points_here: Array, face_m: float) -> NDArray[np.bool_]:
@@ -104,7 +114,7 @@ class Surroundings:
         for room in self._outlines:
             depth_m[left] = np.minimum(depth_m[left], self._outside_m(room, points_here[left]))
             left = left[depth_m[left] > -face_m]  # what is clearly in one room is in no wall, wherever others are
-        at_walls[left] = depth_m[left] < _WALL_M
+        at_walls[left] = depth_m[left] < self._settings.wall_m
         return at_walls
 
     def _outside_m(self, room: str, points_here: Array) -> Array:
@@ -116,7 +126,7 @@ class Surroundings:
         outside.
         """
         outline = self._outlines.get(room)
-        if outline is None or outline.outside_m(point_room[None, :2])[0] <= MARGIN_M:
+        if outline is None or outline.outside_m(point_room[None, :2])[0] <= self._settings.margin_m:
             return room
         return self.room_of(self.T_here_room[room].apply(point_room)) or room
 

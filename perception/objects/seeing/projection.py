@@ -21,12 +21,7 @@ Array = NDArray[np.float64]
 Building = Callable[[Array], NDArray[np.bool_]]
 """Which of the points (N, 3) in a view's room frame lie on the floor or on a wall."""
 _SQUARE = np.ones((3, 3), dtype=np.uint8)
-_EDGE_M = 0.05
-_EDGE_SIGMAS = 8.0
 _TOUCHING = np.ones((3, 3, 3), dtype=np.uint8)
-_FOOT_ROWS = (3, 4, 5)
-"""So many rows below a mask its foot is looked for: what is nearer may still be the thing's."""
-_FOOT_SPREAD_M = 0.02
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -48,6 +43,14 @@ class ProjectionSettings:
     own_share: float = 0.15
     gap_m: tuple[float, float] = (0.05, 0.4)
     gap_of_width: float = 0.6
+    edge_m: float = 0.05
+    """Depths of neighbors that differ by more are of two things,"""
+    edge_sigmas: float = 8.0
+    """or by so many sigmas of depth."""
+    foot_rows: tuple[int, ...] = (3, 4, 5)
+    """So many rows below a mask its foot is looked for: what is nearer may still be the thing's."""
+    foot_spread_m: float = 0.02
+    """What is that level, there, is what it stands on: between quartiles."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -150,7 +153,7 @@ def cloud_of(
         return None
     step = max(1, int(np.sqrt(len(u) / settings.piece_points)))
     v, u = (pixels * step for pixels in np.nonzero(kept[::step, ::step]))
-    smooth_m = _smoothed(depth_m, kept, settings.depth_noise_per_m)[v, u]
+    smooth_m = _smoothed(depth_m, kept, settings)[v, u]
     points = view.T_room_camera.apply(
         back_project(u.astype(np.float64) + x, v.astype(np.float64) + y, smooth_m, view.intrinsics)
     )
@@ -168,7 +171,7 @@ def cloud_of(
         pixels=int(np.count_nonzero(inside)),
         truncated=_touches_border(x, y, width, height, view.intrinsics, settings.border_px),
         occluded=_occluded_rim(mask, view.depth_m, (x, y, width, height), interval[0]),
-        foot_m=_foot(inside, (x, y), view),
+        foot_m=_foot(inside, (x, y), view, settings),
     )
 
 
@@ -205,7 +208,7 @@ def _depth_interval(
     return near_m - slack_m, far_m + slack_m
 
 
-def _smoothed(depth_m: NDArray[np.float32], kept: NDArray[np.bool_], noise_per_m: float) -> Array:
+def _smoothed(depth_m: NDArray[np.float32], kept: NDArray[np.bool_], settings: ProjectionSettings) -> Array:
     """Mean depth over kept pixels of each 3 x 3 neighborhood: a third of the noise, and slopes stay slopes.
 
     Not across an edge: means of what is before and behind it would lie where nothing is.
@@ -215,16 +218,18 @@ def _smoothed(depth_m: NDArray[np.float32], kept: NDArray[np.bool_], noise_per_m
     count = cv2.blur(weights, (3, 3), borderType=cv2.BORDER_CONSTANT)
     nearest = cv2.erode(np.where(kept, depth_m, np.float32(np.inf)), _SQUARE)
     farthest = cv2.dilate(np.where(kept, depth_m, np.float32(0.0)), _SQUARE)
-    edge = farthest - nearest > np.maximum(_EDGE_M, _EDGE_SIGMAS * noise_per_m * depth_m**2)
+    edge = farthest - nearest > np.maximum(
+        settings.edge_m, settings.edge_sigmas * settings.depth_noise_per_m * depth_m**2
+    )
     return np.where(edge, depth_m, total / np.maximum(count, 1e-6)).astype(np.float64)
 
 
-def _foot(inside: NDArray[np.uint8], corner: tuple[int, int], view: View) -> float | None:
+def _foot(inside: NDArray[np.uint8], corner: tuple[int, int], view: View, settings: ProjectionSettings) -> float | None:
     """The height of what is seen below the mask, in every column that it has; ``None`` where that is not level."""
     columns = np.flatnonzero(inside.any(axis=0))
     lowest = inside.shape[0] - 1 - np.argmax(inside[::-1, columns], axis=0)
-    u = np.tile(columns + corner[0], len(_FOOT_ROWS))
-    v = np.concatenate([lowest + corner[1] + rows for rows in _FOOT_ROWS])
+    u = np.tile(columns + corner[0], len(settings.foot_rows))
+    v = np.concatenate([lowest + corner[1] + rows for rows in settings.foot_rows])
     in_picture = v < view.depth_m.shape[0]
     u, v = u[in_picture], v[in_picture]
     depth_m = view.depth_m[v, u].astype(np.float64)
@@ -233,7 +238,7 @@ def _foot(inside: NDArray[np.uint8], corner: tuple[int, int], view: View) -> flo
         return None
     heights_m = view.T_room_camera.apply(back_project(u, v, depth_m, view.intrinsics))[:, 2]
     low_m, middle_m, high_m = np.quantile(heights_m, (0.25, 0.5, 0.75))
-    return float(middle_m) if high_m - low_m < _FOOT_SPREAD_M else None
+    return float(middle_m) if high_m - low_m < settings.foot_spread_m else None
 
 
 def _touches_border(x: int, y: int, width: int, height: int, intrinsics: Intrinsics, border_px: int) -> bool:

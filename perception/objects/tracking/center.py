@@ -16,12 +16,6 @@ from perception.objects.tracking.particle_filter import ParticleFilter, Particle
 from scene_graph.geometry.se3 import SE3
 
 Array = NDArray[np.float64]
-_FLOOR_SIGMA_M = 0.003
-_AXIS_MEMORY = 0.95
-_INNOVATION_GAIN = 0.3
-_INNOVATION_SHARE = _INNOVATION_GAIN / (2.0 - _INNOVATION_GAIN)
-"""Variance of the smoothed innovation as a share of a single one's."""
-_BIAS_SIGMA_M = 0.008
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -30,10 +24,23 @@ class CenterSettings:
     sizes are kept that were measured from one side; ``size_sides``: from how many sides.
     """
 
+    floor_sigma_m: float = 0.003
+    """However often it is measured, a center is known no better: the camera's mounting is not."""
+    axis_memory: float = 0.95
+    """Weight of the direction so far against a new one: twenty frames count."""
+    innovation_gain: float = 0.3
+    """Weight of the newest innovation in the smoothed one: three frames must agree."""
+    bias_sigma_m: float = 0.008
+    """What all measurements from one side have in common, such as how deep the hidden half is."""
     particles: ParticleSettings = field(default_factory=ParticleSettings)
     jump_sigmas: float = 3.5
     size_memory: int = 15
     size_sides: int = 6
+
+    @property
+    def innovation_share(self) -> float:
+        """Variance of the smoothed innovation as a share of a single one's."""
+        return self.innovation_gain / (2.0 - self.innovation_gain)
 
 
 class CenterBelief:
@@ -60,7 +67,7 @@ class CenterBelief:
         """(3, 3) of the center. The robot's pose errs alike in all frames, so its share does not shrink with their
         number.
         """
-        return self._spread + self._pose_covariance + np.eye(3) * _FLOOR_SIGMA_M**2
+        return self._spread + self._pose_covariance + np.eye(3) * self._settings.floor_sigma_m**2
 
     def observe(self, shape: Shape, T_room_view: SE3, pose_covariance: Array, side: Hashable = None) -> None:
         """Take in one measurement; ``pose_covariance`` (3, 3) is the pose's share of its uncertainty, room frame,
@@ -71,7 +78,7 @@ class CenterBelief:
             self._pose_covariance = pose_covariance
         self._learn_size(shape, side)
         if shape.oriented:
-            self._axis = _AXIS_MEMORY * self._axis + _doubled(shape.yaw_rad + T_room_view.yaw_rad)
+            self._axis = self._settings.axis_memory * self._axis + _doubled(shape.yaw_rad + T_room_view.yaw_rad)
         center, hidden_m = T_room_view.apply(shape.center), self._hidden_m(shape)
         away = center - self._filter.mean
         center = center - np.clip(away, -hidden_m, hidden_m)
@@ -110,8 +117,12 @@ class CenterBelief:
         """Update the filter, or start it anew where the mean of the last innovations says that the thing was pushed,
         and may lie otherwise than it stood; whether it was.
         """
-        self._innovation += _INNOVATION_GAIN * (center - self._filter.mean - self._innovation)
-        S = self._filter.covariance + _INNOVATION_SHARE * covariance + np.eye(3) * _BIAS_SIGMA_M**2
+        self._innovation += self._settings.innovation_gain * (center - self._filter.mean - self._innovation)
+        S = (
+            self._filter.covariance
+            + self._settings.innovation_share * covariance
+            + np.eye(3) * self._settings.bias_sigma_m**2
+        )
         squared = float(self._innovation @ np.linalg.solve(S, self._innovation))
         if squared > self._settings.jump_sigmas**2:
             self._filter.restart(center, covariance)

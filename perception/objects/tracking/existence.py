@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from perception.objects.furniture.surface import Box
-from perception.objects.seeing.projection import View, project
+from perception.objects.seeing.projection import ProjectionSettings, View, project
 
 Array = NDArray[np.float64]
 
@@ -37,10 +37,10 @@ class ExistenceSettings:
     part_hidden: float = 0.2
     border_px: float = 4.0
     speed_limit_radps: float = 0.8
-
-
-_LEAST_TELLING = 6
-"""Sample points: two rows of a thing."""
+    depth_noise_per_m: float = ProjectionSettings.depth_noise_per_m
+    """Depth sigma is this times z squared, in meters: the camera's."""
+    least_telling: int = 6
+    """Sample points behind which depth must differ: two rows of a thing."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -82,7 +82,11 @@ def visibility(box: Box, view: View, settings: ExistenceSettings) -> Visibility:
         )
     if not inside.any():
         return Visibility()
-    tolerance_m = 0.02 + 3.0 * 1.5e-3 * center_m**2 + 2.0 * float(np.sqrt(np.trace(view.pose_covariance[:3, :3]) / 3.0))
+    tolerance_m = (
+        0.02
+        + 3.0 * settings.depth_noise_per_m * center_m**2
+        + 2.0 * float(np.sqrt(np.trace(view.pose_covariance[:3, :3]) / 3.0))
+    )
     measured_m = _measured(view, pixels, inside)
     known = measured_m > 0.0
     through = known & (measured_m > depth_m + half_depth_m + tolerance_m)
@@ -94,7 +98,7 @@ def visibility(box: Box, view: View, settings: ExistenceSettings) -> Visibility:
         consistent=float(consistent.mean()),
         hidden=float(hidden.mean()),
         pixels=float(np.sqrt(box.size_m[2] * max(box.size_m[:2])) * view.intrinsics.fx / center_m),
-        depth_tells=int(np.count_nonzero(telling)) >= _LEAST_TELLING,
+        depth_tells=int(np.count_nonzero(telling)) >= settings.least_telling,
         gone=float(through[telling].mean()) if telling.any() else 0.0,
         center_px=(float(center_px[0]), float(center_px[1])),
     )
@@ -145,7 +149,7 @@ def surface_absent(points: Array, view: View, settings: ExistenceSettings) -> fl
             & (depth_m < settings.range_limit_m)
         )
     measured_m = _measured(view, pixels, inside)
-    slack_m = 0.15 + 3.0 * 1.5e-3 * depth_m**2
+    slack_m = 0.15 + 3.0 * settings.depth_noise_per_m * depth_m**2
     visible = (measured_m > 0.0) & (measured_m > depth_m - slack_m)
     if np.count_nonzero(visible) < 12:
         return 0.0

@@ -16,8 +16,6 @@ from numpy.random import Generator
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
-_DEPLETED = 6.0
-"""Effective number of particles under which the cloud no longer tells a distribution."""
 
 
 class Likelihood(StrEnum):
@@ -46,6 +44,8 @@ class ParticleSettings:
     smoothing: float = 0.5
     degrees_of_freedom: float = 6.0
     resample_below: float = 0.5
+    depleted: float = 6.0
+    """Effective number of particles under which the cloud no longer tells a distribution."""
 
 
 class ParticleFilter:
@@ -98,7 +98,7 @@ class ParticleFilter:
         weights = np.exp(log_weights - log_weights.max())
         self.weights = weights / weights.sum()
         effective = 1.0 / float(self.weights @ self.weights)
-        if effective < _DEPLETED:
+        if effective < self._settings.depleted:
             self._refill(*prior, measurement, covariance)
         elif effective < self._settings.resample_below * len(weights):
             self._resample(self.mean)

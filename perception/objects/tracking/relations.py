@@ -17,8 +17,6 @@ from scene_graph.nodes import ObjectState
 Key = tuple[int, int, str]
 """Track numbers of subject and object, and the predicate."""
 SUPPORTING = ("on", "in")
-_WELL_OVER_M = 0.2
-_AT_RIM = 0.1
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -34,6 +32,10 @@ class RelationSettings:
     contact_sigma_m: float = 0.03
     rim_m: float = 0.02
     beside_m: float = 0.15
+    well_over_m: float = 0.2
+    """From the rim of a support; farther in, one is as good as another."""
+    at_rim: float = 0.1
+    """By which share a support counts less at its rim, of two of one height whose measured boxes overlap."""
 
 
 class RelationMemory:
@@ -123,7 +125,7 @@ class RelationMemory:
             key = (track.number, other.number, predicate)
             if p > 0.2:
                 p = 1.0 - (1.0 - p) * (1.0 - 0.5 * said.get(key, 0.0))
-            well_over = p * over_middle(boxes[track.number], boxes[other.number])
+            well_over = p * over_middle(boxes[track.number], boxes[other.number], self._settings)
             if best is None or well_over > best[0]:
                 best = (well_over, p, key)
         return {best[2]: best[1]} if best is not None and best[1] > 0.1 else {}
@@ -177,13 +179,13 @@ def support_probability(
     return "on", 0.98 * footprint * float(np.exp(-0.5 * (gap_m / (1.5 * sigma_m)) ** 2))
 
 
-def over_middle(thing: Box, support: Box) -> float:
+def over_middle(thing: Box, support: Box, settings: RelationSettings = RelationSettings()) -> float:
     """Factor, at most 1, that decides between supports of one height whose measured boxes overlap: it falls by a tenth
     toward the rim.
     """
     x, y, _ = np.abs(support.local(thing.center[None])[0])
     from_rim_m = min(support.size_m[0] / 2.0 - x, support.size_m[1] / 2.0 - y)
-    return 1.0 - _AT_RIM * (1.0 - float(np.clip(from_rim_m / _WELL_OVER_M, 0.0, 1.0)))
+    return 1.0 - settings.at_rim * (1.0 - float(np.clip(from_rim_m / settings.well_over_m, 0.0, 1.0)))
 
 
 def _said(triplets: Sequence[Triplet], matches: Mapping[int, Track], from_probability: float) -> dict[Key, float]:

@@ -13,13 +13,13 @@ import numpy as np
 from numpy.random import Generator
 from numpy.typing import NDArray
 
-from perception.objects.beliefs import AccentBelief, ColorBelief, LabelBelief, is_taught
-from perception.objects.furniture.back import SeatBack, back_of
-from perception.objects.furniture.levels import LevelMemory
-from perception.objects.furniture.surface import Box, SurfaceBelief
+from perception.objects.beliefs import AccentBelief, ColorBelief, LabelBelief, LabelSettings, is_taught
+from perception.objects.furniture.back import BackSettings, SeatBack, back_of
+from perception.objects.furniture.levels import LevelMemory, LevelSettings
+from perception.objects.furniture.surface import Box, SurfaceBelief, SurfaceSettings
 from perception.objects.seeing.detection import Detection
 from perception.objects.seeing.projection import View
-from perception.objects.seeing.shape import measure_shape, point_covariance
+from perception.objects.seeing.shape import ShapeSettings, measure_shape, point_covariance
 from perception.objects.tracking.center import CenterBelief, CenterSettings
 from perception.objects.tracking.handled import HandDid, Handled
 from perception.vocabulary import Category, category_of, has_back, is_of_one_size, may_grow_m, spans_its_kind
@@ -27,23 +27,39 @@ from scene_graph.geometry.se3 import SE3
 from scene_graph.nodes import UNKNOWN_LABEL, ObjectNode, ObjectState
 
 Array = NDArray[np.float64]
-_SIDE_RAD = math.pi / 4.0
-_PLACES = 4
-_APART = 0.5
-"""Two places lie apart as a thing sees them, if they are farther from each other than this share of the way to it."""
-_PART_TRUST = 0.25
-"""What a view of a part counts, cut by the picture's border or by what stands before it: networks name parts badly."""
-_STORED_ACCENTS = 2.0
-_KNOWN_HITS, _KNOWN_LABEL = 10, 0.5
-_BEYOND_M, _AT_OTHER_M = 0.05, 0.06
 
 
 @dataclass(frozen=True, kw_only=True)
 class TrackSettings:
     """``log_odds``: of existence at birth."""
 
+    label: LabelSettings = field(default_factory=LabelSettings)
     center: CenterSettings = field(default_factory=CenterSettings)
+    surface: SurfaceSettings = field(default_factory=SurfaceSettings)
+    levels: LevelSettings = field(default_factory=LevelSettings)
+    back: BackSettings = field(default_factory=BackSettings)
+    shape: ShapeSettings = field(default_factory=ShapeSettings)
     log_odds: float = 1.0
+    side_rad: float = math.pi / 4.0
+    """From within such an angle, frames repeat each other's mistakes."""
+    places: int = 4
+    """So many places from which a thing was seen are remembered: more than are ever asked for."""
+    apart: float = 0.5
+    """Two places lie apart as a thing sees them, if they are farther from each other than this share of the way to it.
+    """
+    part_trust: float = 0.25
+    """What a view of a part counts, cut by the picture's border or by what stands before it: networks name parts badly.
+    """
+    stored_accents: float = 2.0
+    """As how many frames that can tell counts what was stored of the accents."""
+    known_hits: int = 10
+    """So many frames make a piece of furniture known well."""
+    known_label: float = 0.5
+    """So sure its name must be then."""
+    beyond_m: float = 0.05
+    """What comes in one size does not reach farther than by this beyond its box."""
+    at_other_m: float = 0.06
+    """So near to the box of another piece a point is of that."""
 
 
 class Track:
@@ -65,12 +81,12 @@ class Track:
         self.number = number
         self.room = room
         self.node_id: str | None = None
-        self.label = LabelBelief()
+        self.label = LabelBelief(settings.label)
         self.color = ColorBelief()
         self.accents = AccentBelief()
         self.seen_from: list[Array] = []
         self.place: CenterBelief | SurfaceBelief | None = None
-        self.levels = LevelMemory()
+        self.levels = LevelMemory(settings=settings.levels)
         self.back: SeatBack | None = None
         self.state = ObjectState.PRESENT
         self.log_odds = settings.log_odds
@@ -145,7 +161,8 @@ class Track:
         """Take in a detection that is this thing. In the boxes ``others``, in its room frame, stand other pieces of
         furniture: what the mask shows of them is not of this one.
         """
-        side, trust = self._side_of(detection, view, T_room_view), _trust_in(detection)
+        side = self._side_of(detection, view, T_room_view)
+        trust = 1.0 if _is_whole(detection) else self._settings.part_trust
         self.label.update(detection.distribution, detection.weight, (*side, trust), trust=trust)
         self.color.update(detection.colors, detection.weight)
         self.accents.update(detection.accents, detection.weight)
@@ -167,7 +184,9 @@ class Track:
         """Remember from where it is seen, unless it was seen from much the same side and distance before."""
         thing = T_room_view.apply(detection.shape.center) if self.place is None else self.position
         place = (camera - thing)[:2]
-        if len(self.seen_from) < _PLACES and all(_lie_apart(place, other) for other in self.seen_from):
+        if len(self.seen_from) < self._settings.places and all(
+            _lie_apart(place, other, self._settings.apart) for other in self.seen_from
+        ):
             self.seen_from.append(place)
 
     def _side_of(self, detection: Detection, view: View, T_room_view: SE3) -> tuple[int, int]:
@@ -175,13 +194,13 @@ class Track:
         thing = T_room_view.apply(detection.shape.center) if self.place is None else self.position
         x_m, y_m, _ = (T_room_view.apply(view.T_room_camera.translation_m) - thing).tolist()
         octave = round(math.log2(max(math.hypot(x_m, y_m), 0.5)))
-        return math.floor(math.atan2(y_m, x_m) / _SIDE_RAD), octave
+        return math.floor(math.atan2(y_m, x_m) / self._settings.side_rad), octave
 
     def _observe_surface(
         self, detection: Detection, view: View, T_room_view: SE3, pose_covariance: Array, others: Sequence[Box]
     ) -> None:
         if not isinstance(self.place, SurfaceBelief):
-            self.place = SurfaceBelief()
+            self.place = SurfaceBelief(self._settings.surface)
         elif not detection.in_range or self._vaguer(detection):
             return
         camera = T_room_view.apply(view.T_room_camera.translation_m)
@@ -192,7 +211,7 @@ class Track:
         if self.category.levels and detection.in_range:
             self.levels.observe(detection.mask, view, T_room_view, self.box)
         if has_back(self.label.best):
-            self.back = back_of(self.surface_points, self.box) or self.back
+            self.back = back_of(self.surface_points, self.box, self._settings.back) or self.back
         self.label.measure(self.box.size_m)
 
     def _own(self, points: Array, called: str, others: Sequence[Box]) -> Array:
@@ -201,11 +220,11 @@ class Track:
         """
         own = np.ones(len(points), dtype=bool)
         for box in others:
-            own &= ~box.contains(points, _AT_OTHER_M)
+            own &= ~box.contains(points, self._settings.at_other_m)
         spare_m = may_grow_m(self.label.best, self.box.size_m)
         whole = spare_m <= 0.0 or spans_its_kind(called, self.box.size_m)
         if self.stands_by_itself and (called != self.label.best or whole):
-            own &= self.box.contains(points, min(spare_m / 2.0, _BEYOND_M))
+            own &= self.box.contains(points, min(spare_m / 2.0, self._settings.beyond_m))
         return points[own] if own.any() or len(self.surface_points) else points
 
     @property
@@ -213,7 +232,7 @@ class Track:
         """Whether it is known well to be a piece whose kind comes in one size: nothing else is where it is, and it does
         not reach farther.
         """
-        known = self.hits >= _KNOWN_HITS and self.label.confidence >= _KNOWN_LABEL
+        known = self.hits >= self._settings.known_hits and self.label.confidence >= self._settings.known_label
         return known and self.is_furniture and is_of_one_size(self.label.best)
 
     @property
@@ -235,7 +254,9 @@ class Track:
             return
         shape = detection.shape
         if detection.label != self.label.best:
-            shape = measure_shape(detection.cloud, view, category_of(self.label.best, shape.size_m))
+            shape = measure_shape(
+                detection.cloud, view, category_of(self.label.best, shape.size_m), self._settings.shape
+            )
         if not isinstance(self.place, CenterBelief):
             R = T_room_view.rotation()
             box = Box(T_room_view.apply(shape.center), shape.size_m, 0.0)
@@ -273,7 +294,7 @@ class Track:
         self.handled = None
         self.label.start_from(self.label.distribution, self.hits)
         self.label.update(other.label.distribution, view=other.number)
-        self.seen_from = [*self.seen_from, *other.seen_from][-_PLACES:]
+        self.seen_from = [*self.seen_from, *other.seen_from][-self._settings.places :]
         self.hits += other.hits
         self.seen_whole |= other.seen_whole
         self.misses = 0
@@ -284,7 +305,8 @@ class Track:
         if isinstance(self.place, SurfaceBelief) and isinstance(part.place, SurfaceBelief):
             self.place.absorb(part.place)
             self.levels.absorb(part.levels)
-        self.label.update(part.label.distribution, view=part.number, trust=1.0 if part.seen_whole else _PART_TRUST)
+        trust = 1.0 if part.seen_whole else self._settings.part_trust
+        self.label.update(part.label.distribution, view=part.number, trust=trust)
         self.hits += part.hits
         self.misses = 0
         self.last_seen_s = max(self.last_seen_s, part.last_seen_s)
@@ -297,7 +319,7 @@ class Track:
         self.label.start_from(node.label_distribution or ((node.label, 0.9),), node.observations)
         if node.color:
             self.color.update({node.color: 1.0})
-        self.accents.update(node.accents, _STORED_ACCENTS)
+        self.accents.update(node.accents, self._settings.stored_accents)
         self.state = node.state
         existence = float(np.clip(node.existence, 0.01, 0.99))
         self.log_odds = float(np.log(existence / (1.0 - existence)))
@@ -305,23 +327,24 @@ class Track:
         size_m = node.size_m if min(node.size_m) > 0.0 else (0.1, 0.1, 0.1)
         box = Box(T_room_object.translation_m, size_m, T_room_object.yaw_rad)
         if category_of(node.label, node.size_m).furniture:
-            self.place = SurfaceBelief.of(box, frames=node.observations)
+            self.place = SurfaceBelief.of(box, self._settings.surface, frames=node.observations)
             bottom_m = T_room_object.z_m - size_m[2] / 2.0
-            self.levels = LevelMemory.of(tuple(bottom_m + height_m for height_m in node.surfaces_m))
+            self.levels = LevelMemory.of(
+                tuple(bottom_m + height_m for height_m in node.surfaces_m), self._settings.levels
+            )
             if node.back_rad is not None:
                 self.back = SeatBack(toward_rad=node.back_rad + T_room_object.yaw_rad, face_m=node.back_m)
         else:
             self.place = self._center(box, covariance + np.eye(3) * 1e-6)
 
 
-def _lie_apart(one: Array, other: Array) -> bool:
+def _lie_apart(one: Array, other: Array, share: float) -> bool:
     away_m = max(float(np.linalg.norm(one)), float(np.linalg.norm(other)))
-    return float(np.linalg.norm(one - other)) > _APART * away_m
+    return float(np.linalg.norm(one - other)) > share * away_m
 
 
-def _trust_in(detection: Detection) -> float:
-    """How far the name of a detection is to be trusted. What stands in a row of furniture is never seen whole; that it
-    is as long and as deep as its kind says as much.
+def _is_whole(detection: Detection) -> bool:
+    """Whether all of it is seen. What stands in a row of furniture is never seen whole; that it is as long and as deep
+    as its kind says as much.
     """
-    whole = detection.shape.complete or spans_its_kind(detection.label, detection.shape.size_m)
-    return 1.0 if whole else _PART_TRUST
+    return detection.shape.complete or spans_its_kind(detection.label, detection.shape.size_m)

@@ -6,14 +6,13 @@ import numpy as np
 import pytest
 
 from perception.objects.doubles.raycast import Solid, look_at, render, rgbd_frame
-from perception.objects.furniture.coverage import Coverage, SeenSurface
+from perception.objects.furniture.coverage import Coverage, CoverageSettings, SeenSurface
 from perception.objects.furniture.surface import Box
-from perception.objects.inspection import InspectionSettings
 from perception.objects.seeing.projection import View
 from scene_graph.geometry.se3 import SE3
 
 EYE_M = 1.4
-FINE = InspectionSettings().pixels_per_m2
+FINE = CoverageSettings().pixels_per_m2
 
 
 def picture(solids, eye, target):
@@ -24,10 +23,12 @@ def picture(solids, eye, target):
 
 
 def coverage_of(box, solids, *eyes, target=None, inside=False):
-    coverage = Coverage(frames=1)
+    coverage = Coverage(CoverageSettings(frames=1))
     for eye in eyes:
         coverage.add(
-            box, SeenSurface.of(picture(solids, eye, target or tuple(box.center)), pixels_per_m2=FINE), inside=inside
+            box,
+            SeenSurface.of(picture(solids, eye, target or tuple(box.center)), CoverageSettings(pixels_per_m2=FINE)),
+            inside=inside,
         )
     return coverage
 
@@ -67,7 +68,7 @@ def test_the_bottom_of_a_basin_is_seen_from_over_its_rim_and_not_from_afar():
 
 def test_what_is_too_far_for_the_smallest_things_is_not_seen():
     far_edge = picture(TABLE_PARTS, (-2.6, 0.0), (0.0, 0.0, 0.75))
-    assert len(SeenSurface.of(far_edge, pixels_per_m2=FINE / 10.0).points) > 0
+    assert len(SeenSurface.of(far_edge, CoverageSettings(pixels_per_m2=FINE / 10.0)).points) > 0
     assert coverage_of(TABLE, TABLE_PARTS, (-2.6, 0.0)).share == 0.0
     assert coverage_of(TABLE, TABLE_PARTS, (0.0, -1.0), target=(0.0, 0.0, 0.75)).share > 0.85
 
@@ -89,7 +90,7 @@ def test_pixels_by_area_are_those_that_a_flat_thing_gets():
     rendering = render([*TABLE_PARTS, thing], view.T_room_camera)
     shown = np.count_nonzero(rendering.ids == 1) / (size_m[0] * size_m[1])
     assert atan2(EYE_M - 0.76, distance) > 0.5
-    seen = {share: SeenSurface.of(view, pixels_per_m2=share * shown).points for share in (0.8, 1.25)}
+    seen = {share: SeenSurface.of(view, CoverageSettings(pixels_per_m2=share * shown)).points for share in (0.8, 1.25)}
     there = {share: np.linalg.norm(points - (0.0, 0.0, 0.76), axis=1) < 0.02 for share, points in seen.items()}
     assert np.count_nonzero(there[0.8]) > 5
     assert not there[1.25].any()

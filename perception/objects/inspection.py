@@ -10,7 +10,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 from perception.objects.furniture.coverage import Coverage, CoverageSettings, SeenSurface
-from perception.objects.furniture.surface import Box
 from perception.objects.seeing.membership import Surroundings
 from perception.objects.seeing.projection import View
 from perception.objects.tracking.track import Track
@@ -95,8 +94,7 @@ class Inspection:
 
     def _covered(self, node_id: str, track: Track, seen: SeenSurface, surroundings: Surroundings) -> bool:
         """Whether all of the support has now been seen from near."""
-        T = surroundings.T_here_room[track.room]
-        box = Box(T.apply(track.position), track.box.size_m, track.box.yaw_rad + T.yaw_rad)
+        box = track.box.seen_from(surroundings.T_here_room[track.room])
         settings = self._settings
         coverage = self._coverage.get(node_id)
         if coverage is None:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.random import Generator
 from numpy.typing import NDArray
 
-from perception.objects.furniture.surface import Box, SurfaceBelief
+from perception.objects.furniture.surface import SurfaceBelief
 from perception.objects.identity.association import MaskMemory, assign
 from perception.objects.identity.hypotheses import Asked, Hypothesis
 from perception.objects.identity.identity import Identity, IdentitySettings
@@ -219,15 +219,8 @@ class Tracker:
             points = T_here_room.apply(track.surface_points)
             share = surface_absent(points, sight.view, settings)
             return -settings.through_limit * share if share > 0.6 else 0.0
-        box = Box(T_here_room.apply(track.position), track.box.size_m, track.box.yaw_rad + T_here_room.yaw_rad)
-        replaced = best.hypothesis is Hypothesis.PART or any(
-            detection.index in self.matches
-            and not self.matches[detection.index].is_furniture
-            and not self.matches[detection.index].category.container
-            and bool(box.contains(detection.shape.center[None])[0])
-            for detection in sight.detections
-        )
-        return absence_evidence(visibility(box, sight.view, settings), replaced=replaced, settings=settings)
+        seen = visibility(track.box.seen_from(T_here_room), sight.view, settings)
+        return absence_evidence(seen, replaced=best.known is not None, settings=settings)
 
     def _found(self, detection: Detection, sight: Sight) -> None:
         """Start a new, tentative thing."""

@@ -82,6 +82,10 @@ class Box:
         x, y, z = (points - self.center).T
         return np.stack((cos * x + sin * y, cos * y - sin * x, z), axis=1)
 
+    def seen_from(self, T_new_old: SE3) -> Box:
+        """The same box in another frame."""
+        return Box(T_new_old.apply(self.center), self.size_m, self.yaw_rad + T_new_old.yaw_rad)
+
     def place(self, local: Array) -> Array:
         """Inverse of ``local``."""
         cos, sin = np.cos(self.yaw_rad), np.sin(self.yaw_rad)
@@ -323,7 +327,7 @@ class SurfaceBelief:
         seen, self.memory = self.memory, SurfaceMemory(self._settings)
         self.memory.add(T_new_old.apply(seen.reliable), frames=2.0)
         self._first_camera = T_new_old.apply(self._first_camera) if self._first_camera is not None else None
-        self.box = Box(T_new_old.apply(self.box.center), self.box.size_m, self.box.yaw_rad + T_new_old.yaw_rad)
+        self.box = self.box.seen_from(T_new_old)
         self._top_m += T_new_old.z_m
 
 

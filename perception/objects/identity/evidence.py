@@ -103,6 +103,8 @@ covers = fact("covers", lambda p: _share(p.known.surface_points, p.it.box, p.sca
 """Share of the points of the known thing that are where it is."""
 middle_inside = fact("middle_inside", lambda p: bool(p.known.box.contains(p.center[None], p.scales.thing_margin_m)[0]))
 """Whether its middle is where the known thing is."""
+stands_there = fact("stands_there", lambda p: bool(p.it.box.contains(p.known.position[None])[0]))
+"""Whether the middle of the known thing is where it is."""
 length_share = fact("length_share", lambda p: max(p.it.box.size_m) / max(p.known.box.size_m))
 """How long it is, measured by the known thing."""
 shorter = fact("shorter", lambda p: _long_m(p.it.box) <= _long_m(p.known.box))

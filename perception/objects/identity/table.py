@@ -57,6 +57,8 @@ _PIECES = (
         yes=(e.small, e.same_room, e.impenetrable, e.middle_inside), most={e.surely_another: 0.9}),
     Row(_UNSEEN, PART, "of what is seen there", 4.0,
         yes=(e.small, e.nameless, e.seen_now, e.middle_shown), no=(e.container,), least={e.known_sureness: 0.01}),
+    Row(_UNSEEN, PART, "where another stands now", 4.0,
+        yes=(e.small, e.same_room, e.seen_now, e.stands_there), no=(e.container,)),
     Row((Asked.PERSON,), PART, "furniture and what stands on it", 4.0,
         yes=(e.is_node, e.present, e.of_furniture, e.supports), least={e.over: 0.85}),
 )  # fmt: skip

@@ -86,7 +86,7 @@ class RelationMemory:
             for (a, b, predicate), p in self.probability.items()
             if a in room_of and b in room_of and room_of[a] == room_of[b]
         }
-        boxes = {t.number: _box_here(t, T_here_room[t.room]) for t in present}
+        boxes = {t.number: t.box.seen_from(T_here_room[t.room]) for t in present}
         said = _said(triplets, matches, self._settings.model_from)
         observed: dict[Key, float] = {}
         for track in present:
@@ -196,10 +196,6 @@ def _said(triplets: Sequence[Triplet], matches: Mapping[int, Track], from_probab
             key = (a.number, b.number, triplet.predicate)
             said[key] = max(triplet.probability, said.get(key, 0.0))
     return {key: p for key, p in said.items() if p >= from_probability}
-
-
-def _box_here(track: Track, T_here_room: SE3) -> Box:
-    return Box(T_here_room.apply(track.box.center), track.box.size_m, track.box.yaw_rad + T_here_room.yaw_rad)
 
 
 def _gap(a: Box, b: Box) -> float:

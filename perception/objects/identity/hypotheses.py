@@ -54,6 +54,9 @@ class Asked(StrEnum):
     """Who is taken for somebody."""
 
 
+_OF_KNOWN = {Hypothesis.SAME, Hypothesis.PART, Hypothesis.MOVED}
+
+
 @dataclass(frozen=True)
 class Row:
     """One way in which a hypothesis may be true.
@@ -108,6 +111,11 @@ class Claim:
     score: float
     known: Track | None = None
     evidence: Mapping[str, float] = field(default_factory=dict)
+
+    @property
+    def outcome(self) -> tuple[Hypothesis, Track | None]:
+        """What follows if it is believed: of something new it does not matter beside what it stands."""
+        return self.hypothesis, self.known if self.hypothesis in _OF_KNOWN else None
 
     def __str__(self) -> str:
         about = f" {self.known.node_id or self.known.number}" if self.known is not None else ""

@@ -56,10 +56,8 @@ class Identity:
         found = self.claims(asked, it, moment, moment.known if known is None else known)
         new = Claim(hypothesis=Hypothesis.NEW, way="nothing speaks for another", score=0.0)
         ranked = sorted((*found, new), key=lambda c: (-c.score, c.known.number if c.known is not None else 0, c.way))
-        others = [c for c in ranked if (c.hypothesis, c.known) != (ranked[0].hypothesis, ranked[0].known)]
-        decision = Decision(
-            claims=tuple(ranked), waits=bool(others) and ranked[0].score - others[0].score < self._settings.margin
-        )
+        lead = min((ranked[0].score - c.score for c in ranked if c.outcome != ranked[0].outcome), default=np.inf)
+        decision = Decision(claims=tuple(ranked), waits=lead < self._settings.margin)
         if found:
             logger.debug("objects: %s is %s", it, decision, extra={"asked": asked.value})
         return decision

@@ -99,7 +99,7 @@ _THINGS = (
         weights={e.place: 1.44, e.label: 1.0, e.mask: 2.16}),
     Row(_FRAME, SAME, "furniture, in the next frame", 5.0,
         yes=(e.of_furniture,), least={e.kin: 0.3, e.inside: 0.35},
-        weights={e.inside: 2.0, e.label: 1.0, e.mask: 2.16}),
+        weights={e.inside: 2.5, e.label: 1.0, e.mask: 2.16}),
     # Half hidden by the hand, it may look like anything.
     Row(_TENTATIVE, SAME, "where the hand has put it", 8.0,
         yes=(e.small, e.awaited, e.touching), least={e.color: 0.4}, weights={e.color: 1.0}),

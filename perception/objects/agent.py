@@ -24,7 +24,7 @@ from perception.objects.publishing.publication import (
     united_edits,
 )
 from perception.objects.publishing.recollection import Recollection
-from perception.objects.seeing.body import OwnBody
+from perception.objects.seeing.body import BodyGeometry, OwnBody
 from perception.objects.seeing.detection import Detection, DetectionSettings, detections_of
 from perception.objects.seeing.look import Look
 from perception.objects.seeing.membership import MembershipSettings, Surroundings
@@ -64,6 +64,7 @@ class ObjectMemorySettings:
     reaching_m: float = 0.1
     """An arm that is stretched out by more is not in a pose to travel in."""
     sure_rad: float = 0.008
+    body: BodyGeometry = field(default_factory=BodyGeometry)
     membership: MembershipSettings = field(default_factory=MembershipSettings)
     detection: DetectionSettings = field(default_factory=DetectionSettings)
     tracker: TrackerSettings = field(default_factory=TrackerSettings)
@@ -176,7 +177,7 @@ class ObjectMemory:
         surroundings = Surroundings(snapshot, view.room, self._settings.membership)
         joints = self._buffer.joints_at(frame.stamp_s)
         held_m = self._hand.held.track.box.size_m if self._hand.held is not None else None
-        body = OwnBody(joints, held_m=held_m) if joints is not None else None
+        body = OwnBody(joints, self._settings.body, held_m=held_m) if joints is not None else None
         things, persons = detections_of(
             scene, frame.rgb, view, self._settings.detection, body, surroundings.of_building
         )

@@ -8,7 +8,7 @@ import pytest
 from perception.objects.agent import ObjectMemory
 from perception.objects.doubles.raycast import Solid
 from perception.objects.doubles.scripted import say
-from scene_graph.long_term.keeping import _with_empty_hand
+from scene_graph.long_term.keeping import KeepingSettings, _with_empty_hand
 from scene_graph.memory import WorkingMemory
 from scene_graph.nodes import ObjectNode, ObjectState
 from unit.perception.objects.story import BLUE_BOTTLE, RED_CUP, TABLE, Story, grasped, joints
@@ -170,7 +170,7 @@ def test_a_thing_that_slips_from_the_fingers_on_its_way_down_was_not_put_there()
 
 def switched_on_again(story, contacts, opening_m):
     """The robot after a restart, in front of the same table, with fingers that feel this."""
-    story.memory = WorkingMemory(_with_empty_hand(story.memory.snapshot()))
+    story.memory = WorkingMemory(_with_empty_hand(story.memory.snapshot(), KeepingSettings()))
     assert story.memory.snapshot().object("bottle_1").state is ObjectState.MISSING
     random = np.random.default_rng(4)
     story.agent = ObjectMemory(story.memory, story.buffer, story.room, random=random, held_before="bottle_1")

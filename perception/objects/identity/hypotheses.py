@@ -54,7 +54,7 @@ class Asked(StrEnum):
     """Who is taken for somebody."""
 
 
-_OF_KNOWN = {Hypothesis.SAME, Hypothesis.PART, Hypothesis.MOVED}
+_IS_THAT = {Hypothesis.SAME, Hypothesis.MOVED}
 
 
 @dataclass(frozen=True)
@@ -114,8 +114,10 @@ class Claim:
 
     @property
     def outcome(self) -> tuple[Hypothesis, Track | None]:
-        """What follows if it is believed: of something new it does not matter beside what it stands."""
-        return self.hypothesis, self.known if self.hypothesis in _OF_KNOWN else None
+        """What further frames may decide: which thing it is, but not of which of two it is a part, nor beside which it
+        stands as something new.
+        """
+        return self.hypothesis, self.known if self.hypothesis in _IS_THAT else None
 
     def __str__(self) -> str:
         about = f" {self.known.node_id or self.known.number}" if self.known is not None else ""

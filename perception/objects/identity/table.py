@@ -72,8 +72,9 @@ _FURNITURE = (
         yes=(e.furniture, e.same_room, e.present), no=(e.whole,), least={e.inside: 0.9}),
     Row(_TENTATIVE, PART, "of no name to rely on", 4.0,
         yes=(e.furniture, e.same_room, e.present), most={e.sureness: 0.9}, least={e.inside: 0.9}),
-    Row(_TENTATIVE, PART, "both fill one place", 4.0,
-        yes=(e.furniture, e.same_room, e.present), least={e.inside: 0.5, e.covers: 0.5}),
+    Row(_TENTATIVE, PART, "both fill one place", 5.4,
+        yes=(e.furniture, e.same_room, e.present), least={e.inside: 0.5, e.covers: 0.5},
+        weights={e.inside: 1.0, e.covers: 1.0}),
     # Further frames may show that what seems to be a part is a piece of its own: as likely as not until then.
     Row(_TENTATIVE, NEW, "perhaps a piece of a row", 3.9,
         yes=(e.furniture, e.same_room, e.present, e.fits_row), no=(e.same_name,)),

@@ -79,3 +79,14 @@ def test_an_appliance_in_a_row_is_a_piece_of_its_own_though_never_seen_as_a_whol
     part.place = SurfaceBelief.of(Box(at_the_end, size_m, 0.0))
     part.seen_whole = False
     assert is_part(part, known) is part_of_it
+
+
+def test_what_fills_the_place_of_one_and_lies_in_another_is_of_the_first_and_nobody_waits_to_tell():
+    desk, stool = seen("desk", (1.4, 0.8, 0.75), 1), seen("stool", (0.45, 0.45, 0.7), 2)
+    chair = seen("chair", (0.45, 0.45, 0.72), 3)
+    chair.seen_whole = False
+    for known in ([desk, stool], [stool, desk]):
+        decided = decision(chair, known)
+        assert {claim.known for claim in decided.claims} == {desk, stool, None}
+        assert decided.best.known is stool
+        assert not decided.waits

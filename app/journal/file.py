@@ -58,7 +58,7 @@ class JournalFile:
         """``file`` and ``lock`` (a descriptor) are ``None`` for a journal in the memory of the process alone."""
         self.connection, self._settings = connection, settings
         self._file = file
-        self._unlock = weakref.finalize(self, os.close, lock) if lock is not None else None
+        self._let_go = weakref.finalize(self, _let_go, connection, lock)
         self._commits = 0
         self._beside = ThreadPoolExecutor(max_workers=1, thread_name_prefix="journal")
 
@@ -105,9 +105,7 @@ class JournalFile:
     def close(self) -> None:
         """Let go of the file."""
         self._beside.shutdown()
-        self.connection.close()
-        if self._unlock is not None:
-            self._unlock()
+        self._let_go()
 
 
 def read_only(file: Path) -> sqlite3.Connection:
@@ -147,6 +145,13 @@ def _locked(file: Path) -> int:
         os.close(lock)
         raise _in_use(file, "it is locked") from problem
     return lock
+
+
+def _let_go(connection: sqlite3.Connection, lock: int | None) -> None:
+    """Close what a journal holds, also for one that nobody has any more and nobody closed."""
+    connection.close()
+    if lock is not None:
+        os.close(lock)
 
 
 def _opened(file: Path) -> sqlite3.Connection:

@@ -12,6 +12,8 @@ from fastapi.exceptions import RequestValidationError
 from fastapi.responses import JSONResponse
 from starlette.exceptions import HTTPException
 
+from app.http.methods import allowed
+
 logger = logging.getLogger(__name__)
 
 MEDIA_TYPE = "application/problem+json"
@@ -60,11 +62,14 @@ def install_problem_handlers(app: FastAPI) -> None:
         return problem_response(Problem(422, "invalid_request", detail, fields=fields))
 
     @app.exception_handler(HTTPException)
-    async def _http(_: Request, error: HTTPException) -> JSONResponse:
+    async def _http(request: Request, error: HTTPException) -> JSONResponse:
         status = 422 if error.status_code == 400 else error.status_code  # a body that is not even text
         codes = {404: "not_found", 405: "method_not_allowed", 422: "invalid_request"}
         code = codes.get(status, "http_error")
-        return problem_response(Problem(status, code, str(error.detail), headers=error.headers))
+        headers = dict(error.headers or {})
+        if status == 405:
+            headers["Allow"] = allowed(app.routes, request.scope, headers.get("Allow", ""))
+        return problem_response(Problem(status, code, str(error.detail), headers=headers))
 
     @app.exception_handler(Exception)
     async def _unexpected(request: Request, error: Exception) -> JSONResponse:

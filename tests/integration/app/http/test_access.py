@@ -197,6 +197,19 @@ async def test_unknown_paths_and_methods_are_problems(service):
         assert (response.status_code, response.json()["code"]) == (status, code)
 
 
+async def test_a_method_that_a_path_does_not_take_is_answered_with_all_that_it_takes(in_process, settings):
+    async with in_process(settings.model_copy(update={"simulation_api": True})) as service:
+        paths = (await service.client.get("/openapi.json")).json()["paths"]
+        allowed = {path: {method.upper() for method in operations} for path, operations in paths.items()}
+        for path, methods in (allowed | {"/": {"GET"}, "/openapi.json": {"GET", "HEAD"}}).items():
+            for method in {"GET", "HEAD", "POST", "PUT", "PATCH", "DELETE", "OPTIONS", "TRACE"} - methods:
+                response = await service.client.request(method, path.replace("{", "").replace("}", ""))
+                assert (response.status_code, method, path) == (405, method, path)
+                assert set(response.headers["allow"].split(", ")) == methods, path
+        page = await service.client.post("/page/main.js")
+        assert (page.status_code, page.headers["allow"]) == (405, "GET, HEAD")
+
+
 async def test_the_page_is_served_without_a_token_and_holds_none(service, token):
     files = sorted(path.name for path in PAGE_FOLDER.iterdir())
     assert {"index.html", "main.js", "style.css"} <= set(files)

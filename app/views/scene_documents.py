@@ -9,13 +9,9 @@ from app.http.documents.requests import SceneQuery
 from app.views.camera import Gaze
 from scene_graph.documents.interchange import to_json
 from scene_graph.nodes import ROBOT_ID, ROOT_ID, NodeType
-from scene_graph.queries.queries import Near, NodeFilter, OrderBy, Related, select
+from scene_graph.queries.queries import Near, NodeFilter, Related, select
 from scene_graph.queries.topology import path_between
 from scene_graph.snapshot import Snapshot
-
-
-class InvalidQuery(ValueError):
-    """A query that cannot be asked; says what is possible."""
 
 
 def scene_document(snapshot: Snapshot, frame: str, layers: tuple[str, ...] = ()) -> dict[str, Any]:
@@ -34,7 +30,6 @@ def query_scene(snapshot: Snapshot, query: SceneQuery) -> dict[str, Any]:
     """Nodes that pass the query, and how many there are in all.
 
     Raises:
-        InvalidQuery: unknown type, attribute or order.
         NodeNotFound, UnknownRoom, UnknownRegion: it names something that is not there.
     """
     records = {record["id"]: record for record in document_nodes(snapshot)}
@@ -46,26 +41,14 @@ def query_scene(snapshot: Snapshot, query: SceneQuery) -> dict[str, Any]:
 
 
 def _filter(query: SceneQuery) -> NodeFilter:
-    attributes = dict(query.attributes)
-    categories = attributes.pop("category", None) or attributes.pop("categories", None)
-    color, name = attributes.pop("color", None), attributes.pop("name", None)
-    if attributes:
-        raise InvalidQuery(f"unknown attribute {next(iter(attributes))!r}; there are color, name, category")
-    try:
-        types = tuple(NodeType(kind) for kind in ([query.type] if isinstance(query.type, str) else query.type or ()))
-    except ValueError as error:
-        raise InvalidQuery(f"{error}; there are {', '.join(NodeType)}") from None
-    try:
-        order = OrderBy(query.order_by)
-    except ValueError:
-        raise InvalidQuery(f"cannot order by {query.order_by!r}; there are {', '.join(OrderBy)}") from None
-    if query.near is not None and (query.near.node is None) == (query.near.point_m is None):
-        raise InvalidQuery("near takes either a node or a point_m")
+    asked = query.attributes
+    types = (query.type,) if isinstance(query.type, NodeType) else tuple(query.type or ())
+    categories = asked.category or asked.categories
     return NodeFilter(
         types=types,
         label=query.label,
-        color=color,
-        name=name,
+        color=asked.color,
+        name=asked.name,
         categories=(categories,) if categories else (),
         room=query.room,
         region=query.region,
@@ -75,7 +58,7 @@ def _filter(query: SceneQuery) -> NodeFilter:
         else None,
         state=query.state,
         max_age_s=query.max_age_s,
-        order_by=order,
+        order_by=query.order_by,
         descending=query.descending,
     )
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Mapping
+from types import MappingProxyType
 from typing import Any, Literal
 
 import numpy as np
@@ -37,6 +38,10 @@ from scene_graph.snapshot import Snapshot
 Frame = Literal["map", "room"]
 Record = dict[str, Any]
 _IDENTITY = SE3.identity()
+LAYERS: Mapping[str, NodeType] = MappingProxyType(
+    {name: kind for kind in NodeType for name in (kind.value, f"{kind}s")}
+)
+"""Node types by name, singular and plural."""
 
 
 def layers_named(layers: Collection[str] | None) -> frozenset[NodeType]:
@@ -47,11 +52,10 @@ def layers_named(layers: Collection[str] | None) -> frozenset[NodeType]:
     """
     if layers is None:
         return frozenset(NodeType)
-    names: dict[str, NodeType] = {name: kind for kind in NodeType for name in (kind.value, f"{kind}s")}
     for layer in layers:
-        if layer not in names:
+        if layer not in LAYERS:
             raise UnknownLayer(layer, [kind.value for kind in NodeType])
-    return frozenset(names[layer] for layer in layers)
+    return frozenset(LAYERS[layer] for layer in layers)
 
 
 class SceneWriter:

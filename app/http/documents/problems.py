@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import http
 import logging
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from fastapi import FastAPI, Request
@@ -12,6 +12,7 @@ from fastapi.exceptions import RequestValidationError
 from fastapi.responses import JSONResponse
 from starlette.exceptions import HTTPException
 
+from app.http.documents.codes import CODES
 from app.http.methods import allowed
 
 logger = logging.getLogger(__name__)
@@ -57,9 +58,10 @@ def install_problem_handlers(app: FastAPI) -> None:
 
     @app.exception_handler(RequestValidationError)
     async def _invalid(_: Request, error: RequestValidationError) -> JSONResponse:
-        fields = [_flaw(item) for item in error.errors()]
-        detail = "; ".join(_told(item["type"], flaw) for item, flaw in zip(error.errors(), fields, strict=True))
-        return problem_response(Problem(422, "invalid_request", detail, fields=fields))
+        kinds = [item["type"] for item in error.errors()]
+        fields = [_flaw(item, error.body) for item in error.errors()]
+        detail = "; ".join(_told(kind, flaw) for kind, flaw in zip(kinds, fields, strict=True))
+        return problem_response(Problem(422, _code(kinds), detail, fields=fields))
 
     @app.exception_handler(HTTPException)
     async def _http(request: Request, error: HTTPException) -> JSONResponse:
@@ -77,17 +79,32 @@ def install_problem_handlers(app: FastAPI) -> None:
         return problem_response(Problem(500, "internal_error", "something went wrong here; the log says what"))
 
 
-def _flaw(item: Mapping[str, Any]) -> dict[str, str]:
+def _code(kinds: Sequence[str]) -> str:
+    """The code that all flaws have for a type; what has none of its own makes the whole request invalid."""
+    return kinds[0] if kinds[0] in CODES and len(set(kinds)) == 1 else "invalid_request"
+
+
+def _flaw(item: Mapping[str, Any], body: Any) -> dict[str, str]:
     """One flaw of a request: which field, and what is wrong with it."""
     if item["type"] == "json_invalid":
         return {"field": "body", "message": f"not JSON at character {item['loc'][-1]}: {item['ctx']['error']}"}
-    return {"field": _field(item["loc"]), "message": item["msg"]}
+    return {"field": _field(item["loc"], body), "message": item["msg"]}
 
 
 def _told(kind: str, flaw: Mapping[str, str]) -> str:
     return flaw["message"] if kind == WHOLE_SENTENCE else f"{flaw['field']}: {flaw['message']}"
 
 
-def _field(location: tuple[int | str, ...]) -> str:
-    parts = [str(part) for part in location if part != "body"]
-    return ".".join(parts) or "body"
+def _field(location: Sequence[int | str], body: Any) -> str:
+    """Where a flaw is, as the client wrote it: without the tag of the variant that the document was taken for."""
+    place, *parts = location
+    if place != "body":
+        return ".".join(map(str, location))
+    path, at = [], body
+    for number, part in enumerate(parts, start=1):
+        written = part in at if isinstance(at, Mapping) else isinstance(at, list) and part in range(len(at))
+        if written or number == len(parts):
+            path.append(str(part))
+        if written:
+            at = at[part]
+    return ".".join(path) or "body"

@@ -2,77 +2,23 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal, Self
+from collections.abc import Iterable
+from typing import Annotated, Any, Literal
 
-from pydantic import (
-    AfterValidator,
-    BaseModel,
-    ConfigDict,
-    Field,
-    StrictBool,
-    StrictFloat,
-    StrictInt,
-    StringConstraints,
-    ValidationInfo,
-    WithJsonSchema,
-    model_validator,
-)
-from pydantic_core import PydanticCustomError
+from pydantic import BaseModel, ConfigDict, Field, StrictBool, StrictFloat, StrictInt, Tag
 
+from app.http.documents.choices import RefusedAs, by_the_first, by_the_only
 from app.http.documents.examples import REQUEST
-from app.http.documents.problems import WHOLE_SENTENCE
+from app.http.documents.words import RequestText, TaughtWord
 from planner.tasks.approval import Approval
 from scene_graph.nodes import NodeType
 from scene_graph.queries.queries import OrderBy
 
-MAX_REQUEST_CHARACTERS = 10_000
-_TYPE = {"type": "string", "enum": list(NodeType)}
-_TYPES = {"anyOf": [_TYPE, {"type": "array", "items": _TYPE}, {"type": "null"}]}
-_TEXT = {"type": "string"}
-_ATTRIBUTES = {
-    "type": "object",
-    "properties": {"color": _TEXT, "name": _TEXT, "category": _TEXT, "categories": _TEXT},
-    "additionalProperties": False,
-}
-_WORD = {
-    "type": ["string", "null"],
-    "minLength": 1,
-    "maxLength": 80,
-    "description": "Printable characters on one line.",
-}
+Radius = Annotated[float, Field(gt=0, strict=True)]
 
 
-def _sayable(text: str, info: ValidationInfo) -> str:
-    said = {"what": info.field_name, "length": len(text), "most": MAX_REQUEST_CHARACTERS}
-    if not text:
-        raise PydanticCustomError(WHOLE_SENTENCE, "The {what} is empty. Please say in plain words what you want.", said)
-    if len(text) > MAX_REQUEST_CHARACTERS:
-        raise PydanticCustomError(
-            WHOLE_SENTENCE,
-            "The {what} has {length} characters, and I read at most {most}. Please say it in fewer words.",
-            said,
-        )
-    return text
-
-
-RequestText = Annotated[
-    str,
-    StringConstraints(strip_whitespace=True),
-    AfterValidator(_sayable),
-    WithJsonSchema({"type": "string", "minLength": 1, "maxLength": MAX_REQUEST_CHARACTERS}),
-]
-"""What a person says to the robot; what is wrong with it is said in the robot's own words."""
-
-
-def _one_line(text: str) -> str:
-    if not text.isprintable():
-        raise ValueError("use printable characters on one line")
-    return text
-
-
-TaughtWord = Annotated[
-    str, StringConstraints(strip_whitespace=True, min_length=1, max_length=80), AfterValidator(_one_line)
-]
+def _unknown(known: Iterable[str]) -> RefusedAs:
+    return RefusedAs(code="invalid_query", sentence=f"unknown; there are {', '.join(known)}")
 
 
 class Document(BaseModel):
@@ -101,14 +47,26 @@ class Answer(Document):
     answer: RequestText = Field(examples=["cup_2"])
 
 
-class Nearness(Document):
-    """Within `radius_m` of a node, or of a point of the map; one of the two is named."""
+class NearNode(Document):
+    """Within `radius_m` of a node."""
 
-    model_config = ConfigDict(json_schema_extra={"anyOf": [{"required": ["node"]}, {"required": ["point_m"]}]})
+    node: str
+    point_m: None = None
+    radius_m: Radius
 
-    node: str | None = None
-    point_m: tuple[StrictFloat, StrictFloat] | None = None
-    radius_m: float = Field(gt=0, strict=True)
+
+class NearPoint(Document):
+    """Within `radius_m` of a point of the map, in the plane."""
+
+    node: None = None
+    point_m: tuple[StrictFloat, StrictFloat]
+    radius_m: Radius
+
+
+Nearness = Annotated[
+    Annotated[NearNode, Tag("by node")] | Annotated[NearPoint, Tag("by point_m")],
+    by_the_only(("node", "point_m"), RefusedAs(code="invalid_query", sentence="take either a node or a point_m")),
+]
 
 
 class Relation(Document):
@@ -118,38 +76,71 @@ class Relation(Document):
     target: str | None = None
 
 
+class Attributes(Document):
+    """What an object has; `categories` is another word for `category`."""
+
+    color: str | None = None
+    name: str | None = None
+    category: str | None = None
+    categories: str | None = None
+
+
+_SAID_OF_OBJECTS = RefusedAs(
+    code="invalid_query", sentence=f"unknown, or no text; there are {', '.join(Attributes.model_fields)}"
+)
+
+
 class SceneQuery(Document):
     """Conditions that a node must all meet, their order, and the page of them that is wanted."""
 
-    type: Annotated[str | list[str] | None, WithJsonSchema(_TYPES)] = None
+    type: Annotated[NodeType | list[NodeType] | None, _unknown(NodeType)] = None
     label: str | None = None
-    attributes: Annotated[dict[str, str], WithJsonSchema(_ATTRIBUTES)] = Field(default_factory=dict)
+    attributes: Annotated[Attributes, _SAID_OF_OBJECTS] = Attributes()
     room: str | None = Field(default=None, description="Identifier, or a label that several rooms may have.")
     region: str | None = Field(default=None, description="Identifier or label.")
     relation: Relation | None = None
     near: Nearness | None = None
     state: str | None = Field(default=None, description="Such as `present`, `held`, `missing`, `open`, `closed`.")
     max_age_s: float | None = Field(default=None, gt=0, strict=True, description="Seen at most so many seconds ago.")
-    order_by: Annotated[str, WithJsonSchema({"type": "string", "enum": list(OrderBy)})] = "id"
+    order_by: Annotated[OrderBy, _unknown(OrderBy)] = OrderBy.ID
     descending: StrictBool = False
     limit: int = Field(default=100, ge=1, le=1000, strict=True)
     offset: int = Field(default=0, ge=0, strict=True)
 
 
-class NodePatch(Document):
-    """What a person teaches: at least one of the three."""
+class TaughtLabel(Document):
+    """A label, and perhaps more."""
 
-    model_config = ConfigDict(json_schema_extra={"anyOf": [{"required": [one]} for one in ("label", "name", "region")]})
+    label: TaughtWord = Field(examples=["office"])
+    name: TaughtWord | None = None
+    region: TaughtWord | None = None
 
-    label: Annotated[TaughtWord | None, WithJsonSchema(_WORD)] = Field(default=None, examples=["office"])
-    name: Annotated[TaughtWord | None, WithJsonSchema(_WORD)] = None
-    region: Annotated[TaughtWord | None, WithJsonSchema(_WORD)] = None
 
-    @model_validator(mode="after")
-    def _says_something(self) -> Self:
-        if self.label is None and self.name is None and self.region is None:
-            raise ValueError("tell a label, a name or a region")
-        return self
+class TaughtName(Document):
+    """A name without a label."""
+
+    label: None = None
+    name: TaughtWord
+    region: TaughtWord | None = None
+
+
+class TaughtRegion(Document):
+    """A region and nothing else."""
+
+    label: None = None
+    name: None = None
+    region: TaughtWord
+
+
+NodePatch = Annotated[
+    Annotated[TaughtLabel, Tag("by label")]
+    | Annotated[TaughtName, Tag("by name")]
+    | Annotated[TaughtRegion, Tag("by region")],
+    by_the_first(
+        ("label", "name", "region"), RefusedAs(code="invalid_request", sentence="tell a label, a name or a region")
+    ),
+]
+"""What a person teaches: at least one of the three."""
 
 
 class Disturbance(BaseModel):

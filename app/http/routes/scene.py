@@ -5,19 +5,26 @@ from __future__ import annotations
 from typing import Annotated, Any, Literal
 
 from fastapi import APIRouter, Path, Query, Response
-from pydantic import WithJsonSchema
 
 from app.http.description import shows, shows_media
 from app.http.documents import examples
-from app.http.documents.answers import HistoryDocument, NodeDocument, NodesDocument, PathDocument, SceneDocument
+from app.http.documents.answers import (
+    HistoryDocument,
+    NodeDocument,
+    NodesDocument,
+    PathDocument,
+    SceneDocument,
+)
+from app.http.documents.choices import Among, RefusedAs
 from app.http.documents.codes import told
 from app.http.documents.problems import Problem
 from app.http.documents.requests import NodePatch, SceneQuery
 from app.runtime import Runtime
 from app.views.map_picture import map_svg
-from app.views.scene_documents import InvalidQuery, document_nodes, query_scene, scene_path
+from app.views.scene_documents import document_nodes, query_scene, scene_path
 from planner.mission.teaching import NotTeachable, teach
-from scene_graph.errors import NodeNotFound, TransactionRejected, UnknownLayer, UnknownRegion, UnknownRoom
+from scene_graph.documents.scene_writer import LAYERS
+from scene_graph.errors import NodeNotFound, TransactionRejected, UnknownRegion, UnknownRoom
 from scene_graph.nodes import NodeType
 
 Frame = Annotated[
@@ -25,7 +32,9 @@ Frame = Annotated[
     Query(description="`map`: the metric layout, a physical door one node. `room`: each node in its room's frame."),
 ]
 Layer = Annotated[
-    str, WithJsonSchema({"type": "string", "enum": [name for kind in NodeType for name in (kind.value, f"{kind}s")]})
+    str,
+    Among(names=tuple(LAYERS)),
+    RefusedAs(code="unknown_layer", sentence=f"unknown; there are {', '.join(NodeType)}"),
 ]
 NodeId = Annotated[str, Path(description="Such as `room_1`.")]
 From = Annotated[str, Query(alias="from", description="A node.")]
@@ -48,11 +57,7 @@ def scene_routes(runtime: Runtime) -> APIRouter:
         ] = None,
     ) -> Response:
         """The scene graph at its newest revision, long-term memory included."""
-        try:
-            body = runtime.views.scene.json(frame, tuple(layer or ()))
-        except UnknownLayer as error:
-            raise Problem(422, "unknown_layer", str(error)) from None
-        return Response(body, media_type="application/json")
+        return Response(runtime.views.scene.json(frame, tuple(layer or ())), media_type="application/json")
 
     @router.post(
         "/v1/scene/query",
@@ -65,7 +70,7 @@ def scene_routes(runtime: Runtime) -> APIRouter:
             return query_scene(runtime.memory.building(), body)
         except NodeNotFound as error:
             raise Problem(404, "node_not_found", str(error)) from None
-        except (InvalidQuery, UnknownRoom, UnknownRegion) as error:
+        except (UnknownRoom, UnknownRegion) as error:
             raise Problem(422, "invalid_query", str(error)) from None
 
     @router.get(

@@ -108,6 +108,8 @@ async def test_queries_by_age_know_what_was_seen_lately(service, scene):
         ({"room": "attic"}, (422, "invalid_query")),
         ({"near": {"radius_m": 1.0}}, (422, "invalid_query")),
         ({"near": {"node": "desk_1", "point_m": [0, 0], "radius_m": 1.0}}, (422, "invalid_query")),
+        ({"near": {"node": None, "point_m": None, "radius_m": 1.0}}, (422, "invalid_query")),
+        ({"near": {"point_m": [0.0], "radius_m": 1.0}}, (422, "invalid_request")),
         ({"near": {"node": "desk_9", "radius_m": 1.0}}, (404, "node_not_found")),
         ({"relation": {"target": "desk_9"}}, (404, "node_not_found")),
         ({"near": {"node": "desk_1", "radius_m": 0.0}}, (422, "invalid_request")),
@@ -122,6 +124,24 @@ async def test_impossible_queries_say_why(service, query, expected):
     response = await service.client.post("/v1/scene/query", json=query)
     assert await problem(response) == expected
     assert response.json()["detail"]
+
+
+@pytest.mark.parametrize(
+    ("near", "field"),
+    [
+        ({"radius_m": 1.0}, "near"),
+        ({"node": "desk_1", "radius_m": 0.0}, "near.radius_m"),
+        ({"point_m": [0.0, "east"], "radius_m": 1.0}, "near.point_m.1"),
+    ],
+)
+async def test_a_flaw_is_named_by_the_field_that_the_client_wrote(service, near, field):
+    response = await service.client.post("/v1/scene/query", json={"near": near})
+    assert [flaw["field"] for flaw in response.json()["fields"]] == [field]
+
+
+async def test_blanks_around_what_is_taught_are_taken_off(service):
+    taught = await service.client.patch("/v1/scene/nodes/room_1", json={"label": " music room\n", "region": None})
+    assert taught.json()["label"] == "music room"
 
 
 async def test_numbers_that_are_none_are_refused(service):
@@ -171,7 +191,9 @@ async def test_a_person_and_a_thing_take_a_name(service):
         ("door_1_1_0", {"label": "exit"}, (409, "not_teachable")),
         ("room_1", {"name": "hall"}, (409, "not_teachable")),
         ("room_1", {}, (422, "invalid_request")),
+        ("room_1", {"label": None, "name": None}, (422, "invalid_request")),
         ("room_1", {"label": ""}, (422, "invalid_request")),
+        ("room_1", {"label": " \t"}, (422, "invalid_request")),
         ("room_1", {"label": "x" * 81}, (422, "invalid_request")),
         ("room_1", {"label": "a\nb"}, (422, "invalid_request")),
         ("room_1", {"label": "bell\x07"}, (422, "invalid_request")),

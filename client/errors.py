@@ -49,11 +49,11 @@ class Forbidden(Refused):
 
 
 class NotFound(Refused):
-    """There is no such task, node, way or picture."""
+    """There is no such task, node, room, region, way or picture."""
 
 
 class NotAllowedNow(Refused):
-    """What was asked does not fit the state of things, such as approving a task that has ended."""
+    """What was asked does not fit the state of things: a task has ended, a key came with another request before."""
 
 
 class Invalid(Refused):

@@ -18,7 +18,8 @@ start, and in the file `token` of the data folder; the one in `viewer-token` onl
 parameter `token`.
 
 **Problems.** Every refusal is `application/problem+json` with a stable `code`. 401, 403, 413 and 429 may come from any
-call that needs a token; 429 says in `Retry-After` when to come back, and never meets `POST /v1/stop`.
+call that needs a token; 429 says in `Retry-After` when to come back, and never meets `POST /v1/stop`. 422: the request
+is not as this document says. 404: it names something that is not there. 409: it does not fit the state of things.
 
 **Frames and units.** Meters, radians, seconds of the robot's clock. Positions are in the map: origin where the robot
 started, x forward, z up.

@@ -16,5 +16,5 @@ def earlier_task(queue: TaskQueue, key: str | None, body: TaskRequest) -> Task |
     """
     task = next((task for task in queue.tasks if key is not None and task.key == key), None)
     if task is not None and (task.request, task.approval, task.dry_run) != (body.request, body.approval, body.dry_run):
-        raise Problem(422, "idempotency_key_reused", "this Idempotency-Key came with another request before")
+        raise Problem(409, "idempotency_key_reused", "this Idempotency-Key came with another request before")
     return task

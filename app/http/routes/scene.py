@@ -71,7 +71,7 @@ def scene_routes(runtime: Runtime) -> APIRouter:
         except NodeNotFound as error:
             raise Problem(404, "node_not_found", str(error)) from None
         except (UnknownRoom, UnknownRegion) as error:
-            raise Problem(422, "invalid_query", str(error)) from None
+            raise Problem(404, "invalid_query", str(error)) from None
 
     @router.get(
         "/v1/scene/path",

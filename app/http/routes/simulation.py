@@ -45,7 +45,7 @@ def simulation_routes(runtime: Runtime) -> APIRouter:
         try:
             await robot().disturb(body.event())
         except DisturbError as error:
-            raise Problem(422, "invalid_disturbance", str(error)) from None
+            raise Problem(409, "invalid_disturbance", str(error)) from None
         return {"done": True}
 
     return router

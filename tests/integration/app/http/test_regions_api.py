@@ -62,4 +62,4 @@ async def test_only_rooms_are_in_regions(service, node, body, expected):
 
 async def test_an_unknown_region_in_a_query_is_told(service):
     response = await service.client.post("/v1/scene/query", json={"region": "attic"})
-    assert (response.status_code, response.json()["code"]) == (422, "invalid_query")
+    assert (response.status_code, response.json()["code"]) == (404, "invalid_query")

@@ -70,7 +70,7 @@ async def test_the_same_idempotency_key_makes_one_task_and_another_body_under_it
     assert (again.status_code, again.json()["id"]) == (202, first.json()["id"])
     assert again.headers["location"] == first.headers["location"]
     other = await service.client.post("/v1/tasks", json={"request": "go to the kitchen"}, headers=headers)
-    await refused(other, 422, "idempotency_key_reused")
+    await refused(other, 409, "idempotency_key_reused")
     assert (await service.client.get("/v1/tasks")).json()["total"] == 1
 
 

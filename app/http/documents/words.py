@@ -11,10 +11,15 @@ from app.http.documents.problems import WHOLE_SENTENCE
 
 MAX_REQUEST_CHARACTERS = 10_000
 MAX_NAME_CHARACTERS = 80
-# By Unicode's categories: what \s and \w take in differs between the engines of regular expressions.
-_VISIBLE = r"\p{L}\p{M}\p{N}\p{P}\p{S}"
-SOMETHING_VISIBLE = f"[{_VISIBLE}]"
-PRINTABLE_LINE = rf"^[ \t\r\n]*[{_VISIBLE}][{_VISIBLE} ]*[ \t\r\n]*$"
+_UNSEEN = (
+    r"\u0000-\u001F\u007F-\u00A0\u00AD\u061C\u1680\u180E\u2000-\u200F\u2028-\u202F\u205F-\u206F\u3000"
+    r"\uE000-\uF8FF\uFEFF\uFFF0-\uFFFB\uFFFE\uFFFF"
+    "\U000e0000-\U0010ffff"
+)
+"""What controls text or shows nothing of its own, other than the space. Spelled out, not as classes such as ``\\s`` and
+``\\p{C}``: of these every engine of regular expressions has its own idea."""
+SOMETHING_VISIBLE = f"[^ {_UNSEEN}]"
+PRINTABLE_LINE = rf"^[ \t\r\n]*[^ {_UNSEEN}][^{_UNSEEN}]*[ \t\r\n]*$"
 _EMPTY = "The {what} is empty. Please say in plain words what you want."
 _LONG = "The {what} has {length} characters, and I read at most {most}. Please say it in fewer words."
 

@@ -48,6 +48,13 @@ def is_color(name: str) -> bool:
     return _rgb(name) is not None
 
 
+def color_problem(name: str | None) -> str | None:
+    """What is wrong with a color, if anything; none at all is right."""
+    if name is None or is_color(name):
+        return None
+    return f"unknown color '{name}'; use a name like 'light blue' or #rrggbb"
+
+
 def color_of(name: str) -> Rgb:
     """Shares of red, green and blue; KeyError for an unknown name."""
     rgb = _rgb(name)

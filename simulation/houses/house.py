@@ -15,9 +15,12 @@ OUTSIDE = "outside"
 ROBOT = "robot"
 
 Id = Annotated[str, Field(min_length=1, max_length=80)]
-Length = Annotated[float, Field(gt=0.0, le=200.0)]
-Coordinate = Annotated[float, Field(ge=-1000.0, le=1000.0)]
-Pose2 = tuple[Coordinate, Coordinate, float]
+Number = Annotated[float, Field(strict=True)]
+Length = Annotated[Number, Field(gt=0.0, le=200.0)]
+Coordinate = Annotated[Number, Field(ge=-1000.0, le=1000.0)]
+Angle = Annotated[Number, Field(ge=-1000.0, le=1000.0)]
+Pose2 = tuple[Coordinate, Coordinate, Angle]
+Pose3 = tuple[Coordinate, Coordinate, Coordinate, Angle]
 Size3 = tuple[Length, Length, Length]
 
 
@@ -72,7 +75,7 @@ class Object(_Strict):
     on: Id | None = None
     in_: Id | None = Field(default=None, alias="in")
     offset: tuple[Coordinate, Coordinate] | None = None
-    pose: tuple[Coordinate, Coordinate, Coordinate, float] | None = None
+    pose: Pose3 | None = None
 
 
 class Person(_Strict):
@@ -103,10 +106,7 @@ class Place(_Strict):
 
 
 class Disturbance(_Strict):
-    """Something that happens in the house.
-
-    ``object`` belongs to ``add``, ``to`` to ``move`` and ``walk``, ``id`` to all but ``add``.
-    """
+    """Something that happens in the house; which fields belong to what, ``disturbances`` tells."""
 
     do: Literal["move", "remove", "add", "close_door", "open_door", "walk"]
     id: Id | None = None

@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 
-from simulation.errors import HouseError
-from simulation.houses.colors import is_color
-from simulation.houses.house import OUTSIDE, ROBOT, Disturbance, Door, House, Object, Room
+from simulation.errors import DisturbError, HouseError
+from simulation.houses.colors import color_problem
+from simulation.houses.disturbances import check_object, parse_disturbance
+from simulation.houses.house import OUTSIDE, ROBOT, Door, Event, House, Object, Room
 from simulation.houses.polygons import (
     contains,
     crossing_sides,
@@ -42,45 +43,13 @@ def check_house(house: House) -> None:
         _check_color(item.color, f"furniture[{index}]")
     carriers = {item.id for item in house.furniture} | {item.id for item in house.objects}
     for index, thing in enumerate(house.objects):
-        check_object(thing, f"objects[{index}]")
+        _check_place(thing, f"objects[{index}]")
+        _check_color(thing.color, f"objects[{index}]")
         _check_carrier(thing, carriers, f"objects[{index}]")
     _check_stacks(house)
     if not any(contains(room.polygon, house.robot.pose[:2]) for room in house.rooms):
         raise HouseError("robot.pose", "is in no room")
     _check_events(house)
-
-
-def check_object(thing: Object, path: str) -> None:
-    """One place, a known look."""
-    given = [name for name, value in (("on", thing.on), ("in", thing.in_), ("pose", thing.pose)) if value is not None]
-    if len(given) != 1:
-        raise HouseError(path, f"needs exactly one of on, in and pose; it has {' and '.join(given) or 'none'}")
-    if thing.offset is not None and thing.pose is not None:
-        raise HouseError(f"{path}.offset", "belongs to on or in, not to pose")
-    _check_color(thing.color, path)
-
-
-def check_disturbance(event: Disturbance, path: str) -> None:
-    """The fields that its kind of disturbance needs are there, and no others."""
-    prefix = f"{path}." if path else ""
-    needed = {"add": {"object"}, "move": {"id", "to"}, "walk": {"id", "to"}}.get(event.do, {"id"})
-    for name in ("id", "to", "object"):
-        given = getattr(event, name) is not None
-        if name in needed and not given:
-            raise HouseError(f"{prefix}{name}", f"is required to {event.do}")
-        if given and name not in needed:
-            raise HouseError(f"{prefix}{name}", f"does not belong to {event.do}")
-    if event.object is not None:
-        check_object(event.object, f"{prefix}object")
-    if event.to is not None:
-        to = event.to
-        given_places = [name for name in ("on", "in_", "pose") if getattr(to, name) is not None]
-        if len(given_places) != 1:
-            raise HouseError(f"{prefix}to", "needs exactly one of on, in and pose")
-        if event.do == "walk" and to.pose is None:
-            raise HouseError(f"{prefix}to", "a person walks to a pose")
-        if to.offset is not None and to.pose is not None:
-            raise HouseError(f"{prefix}to.offset", "belongs to on or in, not to pose")
 
 
 def _check_ids(house: House) -> None:
@@ -157,8 +126,16 @@ def _check_door_at(door: Door, room: Room, reach_m: float, path: str) -> None:
 
 
 def _check_color(color: str | None, path: str) -> None:
-    if color is not None and not is_color(color):
-        raise HouseError(f"{path}.color", f"unknown color '{color}'; use a name like 'light blue' or #rrggbb")
+    problem = color_problem(color)
+    if problem is not None:
+        raise HouseError(f"{path}.color", problem)
+
+
+def _check_place(thing: Object, path: str) -> None:
+    try:
+        check_object(thing.model_dump(by_alias=True, exclude_none=True))
+    except HouseError as error:
+        raise HouseError(_below(path, error.path), error.problem) from error
 
 
 def _check_carrier(thing: Object, carriers: set[str], path: str) -> None:
@@ -186,7 +163,7 @@ def _check_events(house: House) -> None:
     movable = {thing.id for thing in house.objects} | {item.id for item in house.furniture} | {ROBOT}
     people, doors = {person.id for person in house.people}, {door.id for door in house.doors}
     for index, event in sorted(enumerate(house.events), key=lambda numbered: numbered[1].at_s):
-        check_disturbance(event, f"events[{index}]")
+        _check_event(event, f"events[{index}]")
         if event.object is not None:
             movable.add(event.object.id)
         known = doors if event.do.endswith("_door") else people if event.do == "walk" else movable | people
@@ -195,3 +172,15 @@ def _check_events(house: House) -> None:
                 f"events[{index}].id",
                 f"nothing there to {event.do} with id '{event.id}'; there are: {', '.join(sorted(known))}",
             )
+
+
+def _check_event(event: Event, path: str) -> None:
+    """It has what its kind needs, and nothing else."""
+    try:
+        parse_disturbance(event.model_dump(by_alias=True, exclude_none=True, exclude={"at_s"}))
+    except DisturbError as error:
+        raise HouseError(_below(path, error.path), error.problem) from error
+
+
+def _below(path: str, field: str) -> str:
+    return f"{path}.{field}" if field else path

@@ -1,18 +1,17 @@
-"""Reads houses, and what happens in them, and checks them on load."""
+"""Reads houses and checks them on load."""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
 from importlib import resources
 from pathlib import Path
-from typing import Any
 
 from pydantic import ValidationError
 
-from simulation.errors import DisturbError, HouseError
-from simulation.houses.house import Disturbance, House
-from simulation.houses.house_checks import check_disturbance, check_house
+from simulation.errors import HouseError
+from simulation.houses.findings import first_problem
+from simulation.houses.house import House
+from simulation.houses.house_checks import check_house
 
 
 def builtin_houses() -> tuple[str, ...]:
@@ -57,39 +56,6 @@ def parse_house(text: str) -> House:
     try:
         house = House.model_validate(document)
     except ValidationError as error:
-        raise HouseError(*_first_problem(error)) from error
+        raise HouseError(*first_problem(error, document)) from error
     check_house(house)
     return house
-
-
-def parse_disturbance(document: Any) -> Disturbance:
-    """Read one event without ``at_s``; whether the house allows it shows when it is carried out.
-
-    Raises:
-        DisturbError: with the path of the offending field.
-    """
-    try:
-        disturbance = Disturbance.model_validate(document)
-    except ValidationError as error:
-        raise DisturbError(*_first_problem(error)) from error
-    try:
-        check_disturbance(disturbance, "")
-    except HouseError as error:
-        raise DisturbError(error.path, error.problem) from error
-    return disturbance
-
-
-def field_path(location: Sequence[int | str]) -> str:
-    """``("doors", 1, "center")`` as ``doors[1].center``."""
-    path = ""
-    for part in location:
-        path += f"[{part}]" if isinstance(part, int) else f".{part}" if path else part
-    return path
-
-
-def _first_problem(error: ValidationError) -> tuple[str, str]:
-    """Path and problem of the first finding; how many more there are is told too."""
-    findings = error.errors(include_url=False, include_context=False)
-    more = f" (and {len(findings) - 1} more)" if len(findings) > 1 else ""
-    message = findings[0]["msg"]
-    return field_path(findings[0]["loc"]), f"{message[:1].lower()}{message[1:]}{more}"

@@ -11,8 +11,8 @@ import pybullet as p
 
 from perception.ports import JointState, LidarScan, Odometry, RgbdFrame
 from scene_graph.geometry.se3 import SE3
+from simulation.houses.disturbances import parse_disturbance
 from simulation.houses.house import House
-from simulation.houses.house_file import parse_disturbance
 from simulation.process.messages import Readings
 from simulation.robot.camera import T_base_camera, render
 from simulation.robot.description import RobotDescription

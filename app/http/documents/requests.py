@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any
 
-from pydantic import BaseModel, ConfigDict, Field, StrictBool, StrictFloat, StrictInt, Tag
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, StrictBool, StrictFloat, StrictInt, Tag
 
 from app.http.documents.choices import RefusedAs, by_the_first, by_the_only
 from app.http.documents.examples import REQUEST
@@ -14,7 +14,15 @@ from planner.tasks.approval import Approval
 from scene_graph.nodes import NodeType
 from scene_graph.queries.queries import OrderBy
 
-Radius = Annotated[float, Field(gt=0, strict=True)]
+Positive = Annotated[StrictFloat, Field(gt=0)]
+
+
+def _whole(value: Any) -> Any:
+    return int(value) if isinstance(value, float) and value.is_integer() else value
+
+
+_WHOLE = BeforeValidator(_whole)
+"""54.0 is the integer 54, as it is for JSON Schema."""
 
 
 def _unknown(known: Iterable[str]) -> RefusedAs:
@@ -38,7 +46,7 @@ class TaskRequest(Document):
 class SeenPlan(Document):
     """What is approved: the plan made on this `revision` of the graph; without it, whatever plan the task has."""
 
-    revision: StrictInt | None = Field(default=None, examples=[412])
+    revision: Annotated[StrictInt, _WHOLE] | None = Field(default=None, examples=[412])
 
 
 class Answer(Document):
@@ -52,7 +60,7 @@ class NearNode(Document):
 
     node: str
     point_m: None = None
-    radius_m: Radius
+    radius_m: Positive
 
 
 class NearPoint(Document):
@@ -60,7 +68,7 @@ class NearPoint(Document):
 
     node: None = None
     point_m: tuple[StrictFloat, StrictFloat]
-    radius_m: Radius
+    radius_m: Positive
 
 
 Nearness = Annotated[
@@ -101,11 +109,11 @@ class SceneQuery(Document):
     relation: Relation | None = None
     near: Nearness | None = None
     state: str | None = Field(default=None, description="Such as `present`, `held`, `missing`, `open`, `closed`.")
-    max_age_s: float | None = Field(default=None, gt=0, strict=True, description="Seen at most so many seconds ago.")
+    max_age_s: Positive | None = Field(default=None, description="Seen at most so many seconds ago.")
     order_by: Annotated[OrderBy, _unknown(OrderBy)] = OrderBy.ID
     descending: StrictBool = False
-    limit: int = Field(default=100, ge=1, le=1000, strict=True)
-    offset: int = Field(default=0, ge=0, strict=True)
+    limit: Annotated[StrictInt, Field(ge=1, le=1000), _WHOLE] = 100
+    offset: Annotated[StrictInt, Field(ge=0), _WHOLE] = 0
 
 
 class TaughtLabel(Document):
@@ -141,15 +149,3 @@ NodePatch = Annotated[
     ),
 ]
 """What a person teaches: at least one of the three."""
-
-
-class Disturbance(BaseModel):
-    """One event of a house file without its time: what happens, and to what. The simulator checks the rest."""
-
-    model_config = ConfigDict(extra="allow")
-
-    do: Literal["move", "remove", "add", "close_door", "open_door", "walk"]
-
-    def event(self) -> dict[str, Any]:
-        """The event as the simulator takes it."""
-        return self.model_dump()

@@ -10,9 +10,9 @@ from app.http.description import shows
 from app.http.documents.answers import DoneDocument, TruthDocument
 from app.http.documents.codes import told
 from app.http.documents.problems import Problem
-from app.http.documents.requests import Disturbance
 from app.runtime import Runtime
 from simulation.errors import DisturbError
+from simulation.houses.disturbances import Happening
 from simulation.process.client import SimulatedRobot
 
 
@@ -40,10 +40,10 @@ def simulation_routes(runtime: Runtime) -> APIRouter:
         responses=shows(DoneDocument, {"done": True})
         | told("invalid_disturbance", "invalid_request", "simulator_unavailable"),
     )
-    async def disturb(body: Disturbance) -> Any:
+    async def disturb(body: Happening) -> Any:
         """Carried out at once; the robot has to notice by itself."""
         try:
-            await robot().disturb(body.event())
+            await robot().disturb(body.model_dump(by_alias=True, exclude_none=True))
         except DisturbError as error:
             raise Problem(409, "invalid_disturbance", str(error)) from None
         return {"done": True}

@@ -7,9 +7,8 @@ import sys
 import unicodedata
 
 import pytest
-from pydantic import TypeAdapter, ValidationError
-
 from majordomo.app.http.words import PRINTABLE_LINE, RequestText, TaughtWord
+from pydantic import TypeAdapter, ValidationError
 
 VARIATION_SELECTORS = range(0xE0100, 0xE01F0)
 HIDING = {"Cc", "Co", "Zl", "Zp", "Zs"}

@@ -16,7 +16,7 @@ from evaluations.missions.ways import Ways
 from mission_scenes import CUP, CUP_ON_TABLE, FLAT, scene, task
 from planner.tasks.tasks import TaskStatus
 from simulation.furnishing.catalog import category_named
-from simulation.houses.house_file import parse_disturbance
+from simulation.houses.disturbances import parse_disturbance
 from simulation.world.blocks import Block, overlapping
 
 

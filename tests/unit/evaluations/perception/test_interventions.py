@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from evaluations.perception.interventions import KINDS, Gaze, interventions
+from simulation.houses.disturbances import parse_disturbance
 from simulation.houses.house import House
-from simulation.houses.house_file import parse_disturbance
 
 HOUSE = House.model_validate(
     {

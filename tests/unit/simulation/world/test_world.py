@@ -9,7 +9,8 @@ import pybullet as p
 import pytest
 
 from simulation.errors import DisturbError
-from simulation.houses.house_file import builtin_houses, load_house, parse_disturbance
+from simulation.houses.disturbances import parse_disturbance
+from simulation.houses.house_file import builtin_houses, load_house
 from simulation.robot.description import LidarDescription
 from simulation.robot.lidar import Lidar
 from simulation.world.world import World

@@ -12,9 +12,9 @@ from app.http.documents.problems import WHOLE_SENTENCE
 MAX_REQUEST_CHARACTERS = 10_000
 MAX_NAME_CHARACTERS = 80
 _UNSEEN = (
-    r"\u0000-\u001F\u007F-\u00A0\u00AD\u061C\u1680\u180E\u2000-\u200F\u2028-\u202F\u205F-\u206F\u3000"
-    r"\uE000-\uF8FF\uFEFF\uFFF0-\uFFFB\uFFFE\uFFFF"
-    "\U000e0000-\U0010ffff"
+    r"\u0000-\u001F\u007F-\u00A0\u00AD\u061C\u1680\u180E\u2000-\u200F\u2028-\u202F\u205F-\u206F"
+    r"\u3000\uFEFF\uFFF9-\uFFFB"
+    "\U000e0001\U000e0020-\U000e007f"
 )
 """What controls text or shows nothing of its own, other than the space. Spelled out, not as classes such as ``\\s`` and
 ``\\p{C}``: of these every engine of regular expressions has its own idea."""

@@ -1,7 +1,7 @@
 """The service does what its OpenAPI document says, on generated calls and on sequences of them (schemathesis).
 
-The calls are the same in every run; ``make test-long`` makes up others each time, for ten minutes
-(``MAJORDOMO_FUZZ_S`` seconds), on a stored graph and on a robot.
+Every check is made, in its usual setting. The calls are the same in every run; ``make test-long`` makes up others each
+time, for ten minutes (``MAJORDOMO_FUZZ_S`` seconds), on a stored graph and on a robot.
 """
 
 from __future__ import annotations
@@ -30,10 +30,17 @@ def assert_conforming(folder, arguments, *options, timeout_s):
     assert "Traceback" not in log, log[-4000:]
 
 
+SIMULATION = ("--include-tag", "simulation", "--phases", "coverage,fuzzing")  # no call of it leads to another
+
+
 @pytest.mark.slow
-def test_generated_calls_meet_no_fault_no_undocumented_status_and_no_answer_of_another_shape(tmp_path):
-    few = ("--max-examples", "12", "--generation-deterministic")
-    assert_conforming(tmp_path, GRAPH, *few, timeout_s=600.0)
+@pytest.mark.parametrize(
+    ("arguments", "chosen"),
+    [(GRAPH, ("--max-examples", "4")), (ROBOT, ("--max-examples", "20", *SIMULATION))],
+    ids=["graph", "simulation"],
+)
+def test_generated_calls_meet_nothing_that_the_document_does_not_say(tmp_path, arguments, chosen):
+    assert_conforming(tmp_path, arguments, "--generation-deterministic", *chosen, timeout_s=300.0)
 
 
 @pytest.mark.long

@@ -7,8 +7,9 @@ import sys
 import unicodedata
 
 import pytest
-from majordomo.app.http.words import PRINTABLE_LINE, RequestText, TaughtWord
 from pydantic import TypeAdapter, ValidationError
+
+from app.http.documents.words import PRINTABLE_LINE, RequestText, TaughtWord
 
 HIDING = {"Cc", "Zl", "Zp", "Zs"}
 WORD, TEXT = TypeAdapter(TaughtWord), TypeAdapter(RequestText)

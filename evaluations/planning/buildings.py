@@ -23,7 +23,7 @@ class UnknownBuilding(ValueError):
 
     def __init__(self, name: str) -> None:
         super().__init__(
-            f"there is no building {name!r}: name one of {', '.join(NODES)}, or a stored scene graph's file"
+            f"no building {name!r}: name one of {', '.join(NODES)}, or a stored scene graph's or floor plan's file"
         )
 
 
@@ -43,11 +43,13 @@ def building(name: str, folder: Path | None = None) -> Snapshot:
     Raises:
         UnknownBuilding: there is none of this name.
         SceneFormatError: a file is no scene graph.
+        LineError: a file is no floor plan.
     """
     if name in NODES:
         return from_json(building_document(name))
     file = (folder or Path()) / name
     if not file.is_file():
         raise UnknownBuilding(name)
-    document: dict[str, Any] = json.loads(file.read_text(encoding="utf-8"))
+    text = file.read_text(encoding="utf-8")
+    document: dict[str, Any] = scene_document(text, name) if file.suffix == ".txt" else json.loads(text)
     return from_json(document)

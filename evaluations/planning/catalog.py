@@ -33,6 +33,8 @@ WIDE: Size = (0.3, 0.3, 0.25)
 TABLE: Size = (1.2, 0.8, 0.75)
 CASE: Size = (1.0, 0.35, 1.0)
 BIN: Size = (0.4, 0.4, 0.4)
+SIZES = {"small": SMALL, "flat": FLAT, "long": LONG, "wide": WIDE, "table": TABLE, "case": CASE, "bin": BIN}
+"""Sizes by name, for floor plans."""
 
 _CARRIED: dict[tuple[str, Size], str] = {
     ("", SMALL): "candle soap vase sponge badge ball glue",

@@ -10,6 +10,12 @@ Rooms stand along corridors, furniture in rooms, things on or in furniture, one 
       bowl_1 yellow on table_1: apple_1 red
     room room_3 pantry beyond room_2
 
+A kind of thing that the catalog lacks is named before the first room, with what can be done with it, its size and the
+categories that the graph knows of it::
+
+    kind lemon carried small fruit food
+    kind lectern support 0.6x0.5x1.1
+
 A room has a door to the corridor above it, or to the room that it is ``beyond``; ``closed`` shuts that door. A second
 corridor is joined to the first. Labels are the identifiers without their number. After it come a color and marks:
 ``large``, ``small``, ``wide`` (as its support), ``lost`` (not where it was).
@@ -22,7 +28,7 @@ from math import ceil
 from typing import Any
 
 from app.errors import LineError
-from evaluations.planning.catalog import SORTS, Nature
+from evaluations.planning.catalog import SIZES, SORTS, Nature, Size, Sort
 from skills.furniture.kinds import is_container
 
 STAMP_S = 1000.0
@@ -66,7 +72,7 @@ def scene_document(text: str, name: str = "building") -> dict[str, Any]:
     Raises:
         LineError: naming line and field.
     """
-    rooms = _read(text, name)
+    rooms, sorts = _read(text, name)
     layout = _Layout()
     for room in rooms:
         layout.add(room)
@@ -75,16 +81,20 @@ def scene_document(text: str, name: str = "building") -> dict[str, Any]:
     for room in rooms:
         nodes.append(_room_node(room))
         for index, item in enumerate(room.items):
-            _furnish(room, item, index, nodes, edges)
+            _furnish(room, item, index, sorts, nodes, edges)
     return {"revision": 1, "stamp_s": STAMP_S, "nodes": nodes + layout.doors, "edges": edges}
 
 
-def _read(text: str, name: str) -> list[_Room]:
+def _read(text: str, name: str) -> tuple[list[_Room], dict[str, Sort]]:
     rooms: list[_Room] = []
+    sorts = dict(SORTS)
     seen: set[str] = set()
     for number, line in enumerate(text.splitlines(), 1):
         words = line.split("#")[0].split()
         if not words:
+            continue
+        if words[0] == "kind":
+            sorts[words[1]] = _read_kind(words[1:], name, number)
             continue
         if not line.startswith(" "):
             rooms.append(_read_room(words, rooms, name, number))
@@ -92,7 +102,7 @@ def _read(text: str, name: str) -> list[_Room]:
         elif not rooms:
             raise LineError(name, number, words[0], "stands in no room: begin with a corridor")
         else:
-            item = _read_item(line.split("#")[0], name, number)
+            item = _read_item(line.split("#")[0], sorts, name, number)
             if item.under and item.under not in seen:
                 raise LineError(name, number, item.under, "comes after what stands on it")
             rooms[-1].items.append(item)
@@ -101,7 +111,26 @@ def _read(text: str, name: str) -> list[_Room]:
             if node_id in seen:
                 raise LineError(name, number, node_id, "is there already")
             seen.add(node_id)
-    return rooms
+    return rooms, sorts
+
+
+def _read_kind(words: list[str], name: str, number: int) -> Sort:
+    kind, nature, size, *categories = [*words, "", ""][: max(3, len(words))]
+    natures = {each.name.lower(): each for each in Nature}
+    if not kind or nature not in natures:
+        raise LineError(name, number, kind or "kind", f"expected 'kind NAME {'|'.join(natures)} SIZE [CATEGORY ...]'")
+    return Sort(size_m=_read_size(size, name, number), nature=natures[nature], categories=tuple(categories))
+
+
+def _read_size(text: str, name: str, number: int) -> Size:
+    if text in SIZES:
+        return SIZES[text]
+    try:
+        x_m, y_m, z_m = map(float, text.split("x"))
+    except ValueError as error:
+        known = ", ".join(SIZES)
+        raise LineError(name, number, "size", f"{text!r} is none of {known}, nor meters such as 0.6x0.5x1.1") from error
+    return x_m, y_m, z_m
 
 
 def _read_room(words: list[str], rooms: list[_Room], name: str, number: int) -> _Room:
@@ -119,15 +148,15 @@ def _read_room(words: list[str], rooms: list[_Room], name: str, number: int) -> 
     return _Room(id=rest[0], label=label, corridor=kind == "corridor", beyond=beyond, closed=closed)
 
 
-def _read_item(line: str, name: str, number: int) -> _Item:
+def _read_item(line: str, sorts: dict[str, Sort], name: str, number: int) -> _Item:
     head, _, tail = line.partition(":")
     words = head.split()
     under = words[-1] if len(words) > 2 and words[-2] == "on" else ""
     item = _Item(id=words[0], words=words[1:-2] if under else words[1:], under=under)
     item.things = [_Item(id=w[0], words=w[1:]) for w in (part.split() for part in tail.split(",")) if w]
     for each in (item, *item.things):
-        if each.label not in SORTS and each.label != "person" and each.id != "robot":
-            raise LineError(name, number, each.id, f"no kind of thing {each.label!r}; there are {', '.join(SORTS)}")
+        if each.label not in sorts and each.label != "person" and each.id != "robot":
+            raise LineError(name, number, each.id, f"no kind of thing {each.label!r}; there are {', '.join(sorts)}")
     return item
 
 
@@ -196,7 +225,14 @@ def _room_node(room: _Room) -> dict[str, Any]:
     return {**node, "position_m": [room.x_m, room.y_m, 0.0], "polygon_m": corners, "label_probability": 0.9}
 
 
-def _furnish(room: _Room, item: _Item, index: int, nodes: list[dict[str, Any]], edges: list[dict[str, Any]]) -> None:
+def _furnish(
+    room: _Room,
+    item: _Item,
+    index: int,
+    sorts: dict[str, Sort],
+    nodes: list[dict[str, Any]],
+    edges: list[dict[str, Any]],
+) -> None:
     """One piece of furniture, person or robot, and what is on it."""
     x_m = room.x_m - room.width_m / 2 + PITCH_M * (index // 2) + 1.0
     y_m = room.y_m + (room.depth_m / 2 - 0.5) * (1 if index % 2 else -1)
@@ -211,11 +247,11 @@ def _furnish(room: _Room, item: _Item, index: int, nodes: list[dict[str, Any]], 
         kind = "robot" if item.id == "robot" else "person"
         nodes.append({"id": item.id, "type": kind, **place, "name": " ".join(item.words)})
         return
-    node = _object(item, (x_m, y_m), base_m, room.id)
+    node = _object(item, sorts, (x_m, y_m), base_m, room.id)
     nodes.append(node)
     for k, thing in enumerate(item.things):
         across_m = node["size_m"][0] * ((k + 0.5) / len(item.things) - 0.5)
-        nodes.append(_object(thing, (x_m + across_m, y_m), base_m + node["size_m"][2], room.id, on=node))
+        nodes.append(_object(thing, sorts, (x_m + across_m, y_m), base_m + node["size_m"][2], room.id, on=node))
         edges.append(_relation(thing.id, item))
 
 
@@ -225,9 +261,14 @@ def _relation(thing: str, holder: _Item) -> dict[str, Any]:
 
 
 def _object(
-    item: _Item, at: tuple[float, float], base_m: float, room: str, on: dict[str, Any] | None = None
+    item: _Item,
+    sorts: dict[str, Sort],
+    at: tuple[float, float],
+    base_m: float,
+    room: str,
+    on: dict[str, Any] | None = None,
 ) -> dict[str, Any]:
-    sort = SORTS[item.label]
+    sort = sorts[item.label]
     marks = [word for word in item.words if word in MARKS]
     color = " ".join(word for word in item.words if word not in MARKS)
     scale = next((SCALE[mark] for mark in marks if mark in SCALE), 1.0)

@@ -182,6 +182,8 @@ class Lexicon:
         return last or words in self.persons or self.is_noun(words) or words[1:] == ("room",)
 
     def is_noun(self, words: tuple[str, ...]) -> bool:
-        """Whether ``words`` name something here or in the vocabulary, in the singular or plural."""
+        """Whether ``words`` name something here or in the vocabulary, in the singular or plural; no word names nothing."""
+        if not words:
+            return False
         one = (*words[:-1], singular(words[-1]))
         return words in self.nouns or one in self.nouns or words in KNOWN or one in KNOWN

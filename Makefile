@@ -16,10 +16,10 @@ serve: $(STAMP)  ## start the service on the simulated flat and print the page's
 
 test: test-parts test-whole  ## all tests but the long ones
 
-test-parts: $(STAMP)  ## each part by itself, with branch coverage
-	$(BIN)/python -m pytest --numprocesses 3 --dist worksteal --cov --cov-report=term tests/unit tests/property $(ARGS)
+test-parts: $(STAMP)  ## each part by itself; COVERAGE=1 measures branch coverage, for a third more time
+	$(BIN)/python -m pytest --numprocesses 3 --dist worksteal $(if $(COVERAGE),--cov --cov-report=term) tests/unit tests/property $(ARGS)
 
-test-whole: $(STAMP)  ## parts together, in physics and from outside; without coverage, which would take them a third longer
+test-whole: $(STAMP)  ## parts together, in physics and from outside
 	$(BIN)/python -m pytest --numprocesses 3 --dist worksteal tests/integration tests/acceptance $(ARGS)
 
 test-long: $(STAMP)  ## the long drives and further variants that make test leaves out

@@ -15,9 +15,12 @@ PROGRAMS = {"majordomo": application, "training": training}
 GUIDES = sorted([ROOT / "README.md", *(ROOT / "docs").glob("*.md")])
 NAMES = [guide.name for guide in GUIDES]
 RUN = [guide for guide in GUIDES if any(block.is_run for block in blocks(guide))]
+LONG = {"README.md"}
+"""It runs the demonstration, as continuous integration does besides."""
+RUN_OF_EACH = [pytest.param(guide, marks=pytest.mark.long if guide.name in LONG else ()) for guide in RUN]
 
 
-@pytest.mark.parametrize("guide", RUN, ids=lambda guide: guide.name)
+@pytest.mark.parametrize("guide", RUN_OF_EACH, ids=lambda guide: guide.name)
 def test_what_a_guide_says_can_be_done(guide, tmp_path):
     with Reader(folder=tmp_path) as reader:
         for block in blocks(guide):

@@ -167,7 +167,7 @@ async def page(tmp_path):
     """An empty page, 1440 × 900 and light; at the end it must not have complained."""
     binary = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
     if binary is None:
-        pytest.skip("there is no browser here: install chromium")
+        pytest.skip("no browser is here; to install: chromium (apt-get install chromium), for the tests of the page")
     async with browser(binary, tmp_path / "profile") as address, websockets.connect(address, max_size=None) as socket:
         target = await _command(socket, 1, "Target.createTarget", url="about:blank")
         attached = await _command(socket, 2, "Target.attachToTarget", targetId=target["targetId"], flatten=True)

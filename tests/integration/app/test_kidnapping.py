@@ -27,7 +27,7 @@ async def until(runtime, condition, limit_s):
         await runtime.wait_for_change()
 
 
-@pytest.mark.slow
+@pytest.mark.long
 async def test_carried_into_another_room_the_robot_says_so_finds_itself_and_explores_to_the_end(tmp_path: Path):
     runtime = Runtime(Settings(house="flat", clock=ClockMode.LOCKSTEP, speed=None, data=tmp_path, camera=False))
     async with runtime.running():

@@ -57,7 +57,7 @@ async def drive(folder, **changes):
     return made[0]
 
 
-@pytest.mark.parametrize("camera", [False, True])
+@pytest.mark.parametrize("camera", [pytest.param(False, marks=pytest.mark.long), True])
 async def test_perception_over_a_recording_comes_to_the_same_graph(tmp_path, camera):
     drive_end = await drive(tmp_path, camera=camera)
     scene = drive_end.scene

@@ -53,7 +53,11 @@ def board_of(built, thing, height_m):
 
 @pytest.mark.parametrize(
     ("category", "height_m"),
-    [("bottle", 0.24), ("apple", 0.075), pytest.param("book", 0.035, marks=pytest.mark.long)],
+    [
+        ("bottle", 0.24),
+        pytest.param("apple", 0.075, marks=pytest.mark.long),
+        pytest.param("book", 0.035, marks=pytest.mark.long),
+    ],
 )
 async def test_a_thing_is_put_on_a_board_of_a_shelf(stage, make_house, category, height_m):
     built = await stage(with_shelf(make_house, category), noise_m=0.004)
@@ -72,6 +76,7 @@ async def test_where_one_board_is_crowded_another_is_taken(stage, make_house):
     assert board_of(built, "bottle_1", 0.24) == 0.4
 
 
+@pytest.mark.long
 async def test_a_bottle_is_brought_from_a_chair_to_a_board(stage, make_house):
     """Held at its neck by a hand that points down it would not get in below the board above."""
     built = await stage(with_shelf(make_house, "bottle", from_kind="chair"), noise_m=0.004)

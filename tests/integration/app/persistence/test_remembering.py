@@ -89,6 +89,7 @@ async def test_what_was_explored_so_far_is_not_explored_again(tmp_path):
         assert len(rooms(runtime)) == total
 
 
+@pytest.mark.long
 async def test_the_same_memory_and_the_same_seed_give_the_same_run(tmp_path):
     async with Runtime(settings(tmp_path / "a")).running() as runtime:
         await until(runtime, lambda: runtime.now_s > 25.0)

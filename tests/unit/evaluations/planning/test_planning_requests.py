@@ -54,7 +54,7 @@ def test_what_would_begin_another_kind_of_line_is_quoted_with_a_backslash():
     [
         ("go\n> ask", "mine, line 1, building"),
         ("@studio\ngo\n> ask", "mine, line 2, category"),
-        ("@castle\n== a\ngo\n> ask", "line 1, building: there is no building 'castle': name one of studio"),
+        ("@castle\n== a\ngo\n> ask", "line 1, building: no building 'castle': name one of studio"),
         ("@studio\n== a\n> ask", "line 3, expectation: comes before any request"),
         ("@studio\n== a\n& go\n> ask", "line 3, turn"),
         ("@studio\n== a\ngo\nstay\n> ask", "line 3, expectation: there is none for 'go'"),

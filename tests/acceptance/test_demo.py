@@ -11,7 +11,7 @@ import pytest
 
 from service_process import majordomo
 
-EXPLORE = Path(__file__).parent.parent / "explore_briefly.py"
+EXPLORE = Path(__file__).parent.parent / "helpers" / "explore_briefly.py"
 SECONDS = 12.0
 
 

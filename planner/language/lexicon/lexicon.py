@@ -182,7 +182,7 @@ class Lexicon:
         return last or words in self.persons or self.is_noun(words) or words[1:] == ("room",)
 
     def is_noun(self, words: tuple[str, ...]) -> bool:
-        """Whether ``words`` name something here or in the vocabulary, in the singular or plural; no word names nothing."""
+        """Whether ``words`` name something here or in the vocabulary, in the singular or plural; none names nothing."""
         if not words:
             return False
         one = (*words[:-1], singular(words[-1]))

@@ -26,7 +26,7 @@ from pathlib import Path
 import httpx
 from markdown_it import MarkdownIt
 
-from paths import ROOT
+from paths import HELPERS, ROOT
 
 DATA_LANGUAGES = frozenset({"json", "toml", "text"})
 RUN_LANGUAGES = frozenset({"sh", "python"})
@@ -128,7 +128,7 @@ class Reader:
         install = f'{refused}exec {shlex.quote(sys.executable)} {installing} {shlex.quote(str(packages))} "$@"\n'
         _program(programs / "pip", install)
         if shutil.which("curl") is None:
-            _program(programs / "curl", f'exec {shlex.quote(sys.executable)} {ROOT / "tests" / "curl.py"} "$@"\n')
+            _program(programs / "curl", f'exec {shlex.quote(sys.executable)} {HELPERS / "curl.py"} "$@"\n')
         lay_out(self.folder)
         python_path = os.pathsep.join(map(str, (packages, ROOT, os.environ.get("PYTHONPATH", ""))))
         self.environment = os.environ | self.environment | {

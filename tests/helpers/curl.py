@@ -1,4 +1,4 @@
-"""As much of curl as the guides use, for machines that have none: ``python tests/curl.py OPTIONS URL``."""
+"""As much of curl as the guides use, for machines that have none: ``python tests/helpers/curl.py OPTIONS URL``."""
 
 from __future__ import annotations
 

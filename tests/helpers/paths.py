@@ -2,8 +2,9 @@
 
 from pathlib import Path
 
-ROOT = Path(__file__).parents[1]
+ROOT = Path(__file__).parents[2]
 """The checkout."""
 DATA = ROOT / "tests" / "data"
+HELPERS = ROOT / "tests" / "helpers"
 PACKAGES = ROOT / "tests" / "packages"
 """Packages of others, as if installed."""

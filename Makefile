@@ -20,7 +20,7 @@ test-parts: $(STAMP)  ## each part by itself; COVERAGE=1 measures branch coverag
 	$(BIN)/python -m pytest --numprocesses 3 --dist worksteal $(if $(COVERAGE),--cov --cov-report=term) tests/unit tests/property $(ARGS)
 
 test-whole: $(STAMP)  ## parts together, in physics and from outside
-	$(BIN)/python -m pytest --numprocesses 4 --dist worksteal tests/integration tests/acceptance $(ARGS)
+	$(BIN)/python -m pytest --numprocesses 3 --dist worksteal tests/integration tests/acceptance $(ARGS)
 
 test-long: $(STAMP)  ## the long drives and further variants that make test leaves out
 	$(BIN)/python -m pytest --numprocesses 2 --dist worksteal -m long $(ARGS)

@@ -15,8 +15,8 @@ PROGRAMS = {"majordomo": application, "training": training}
 GUIDES = sorted([ROOT / "README.md", *(ROOT / "docs").glob("*.md")])
 NAMES = [guide.name for guide in GUIDES]
 RUN = [guide for guide in GUIDES if any(block.is_run for block in blocks(guide))]
-LONG = {"README.md"}
-"""It runs the demonstration, as continuous integration does besides."""
+LONG = {"README.md", "exchange.md", "network.md", "robot.md"}
+"""Those that take minutes. The README runs the demonstration, as continuous integration does besides."""
 RUN_OF_EACH = [pytest.param(guide, marks=pytest.mark.long if guide.name in LONG else ()) for guide in RUN]
 
 

@@ -30,15 +30,15 @@ def kill(killing: Killing, longest_s: float, *, starting: bool) -> None:
 
 
 @pytest.mark.slow
-def test_three_kills_lose_nothing_that_was_acknowledged(tmp_path):
+def test_two_kills_lose_nothing_that_was_acknowledged(tmp_path):
     arguments = (*FAST, "--no-camera")
     explore(tmp_path, *arguments, timeout_s=240.0)
     killing = Killing(tmp_path, arguments, GOING, seed=1)
-    for starting in (False, True, False):
+    for starting in (False, True):
         kill(killing, 6.0, starting=starting)
     killing.look_again()
     assert killing.account.flaws == []
-    assert len(killing.account.asked) >= 3
+    assert len(killing.account.asked) >= 2
     assert len(killing.account.rooms) == 2
 
 

@@ -86,7 +86,7 @@ async def test_a_map_of_500_nodes_is_dragged_at_30_frames_a_second(large):
     print(f"{told}; the page's thread used {statistics.mean(busy_ms):.1f} ms a frame, {max(busy_ms):.1f} at most")
     assert statistics.median(frames_ms) < FRAME_MS
     assert statistics.mean(busy_ms) < FRAME_MS
-    assert sum(frame > 2 * FRAME_MS for frame in frames_ms) < 0.1 * len(frames_ms)
+    assert sum(busy > 2 * FRAME_MS for busy in busy_ms) < 0.1 * len(busy_ms)
 
 
 async def where(page):

@@ -70,6 +70,7 @@ async def test_perception_over_a_recording_comes_to_the_same_graph(tmp_path, cam
     assert told(again).startswith("replayed 12.")
 
 
+@pytest.mark.long
 async def test_the_command_writes_the_graph_and_refuses_what_is_damaged(tmp_path):
     await drive(tmp_path, camera=False)
     recording, graph = tmp_path / "drive.mcap", tmp_path / "again.json"

@@ -39,6 +39,7 @@ async def test_undisturbed_it_is_done(stage):
     assert built.truth["collisions"] == 0
 
 
+@pytest.mark.long
 async def test_moved_in_view(stage):
     built = await stage(home())
     await built.ask(ON_DESK)
@@ -172,6 +173,7 @@ async def test_a_door_that_is_opened_again_lets_it_go_on(stage):
     assert task.status is TaskStatus.SUCCEEDED, task.explanation
 
 
+@pytest.mark.long
 async def test_a_person_in_the_doorway_is_waited_for(stage):
     built = await stage(home(people=[{"id": "anna", "name": "Anna", "pose": [4.2, -1.8, 0.0]}]))
     await built.ask(ON_SHELF)
@@ -185,6 +187,7 @@ async def test_a_person_in_the_doorway_is_waited_for(stage):
     assert built.truth["collisions"] == 0
 
 
+@pytest.mark.long
 async def test_the_robot_is_carried_off_within_the_room(stage):
     built = await stage(home())
     await built.ask(ON_DESK)
@@ -195,7 +198,8 @@ async def test_the_robot_is_carried_off_within_the_room(stage):
     assert task.status is TaskStatus.SUCCEEDED, task.explanation
 
 
-@pytest.mark.parametrize("sensor", ["lidar", pytest.param("camera", marks=pytest.mark.long)])
+@pytest.mark.long
+@pytest.mark.parametrize("sensor", ["lidar", "camera"])
 async def test_a_silent_sensor_is_waited_for(stage, sensor):
     built = await stage(home())
     await built.ask(ON_DESK)

@@ -106,7 +106,7 @@ async def test_a_book_is_drawn_back_over_the_bottles_that_stand_beside_its_way(s
         variant("chair", 1.57),
         variant("chair", 0.8),
         variant("chair", 3.14),
-        ("sofa", 1.57),
+        variant("sofa", 1.57),
         variant("sofa", 3.14),
         variant("sofa", 2.3),
     ],

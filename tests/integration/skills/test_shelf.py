@@ -51,14 +51,8 @@ def board_of(built, thing, height_m):
     return board_m
 
 
-@pytest.mark.parametrize(
-    ("category", "height_m"),
-    [
-        ("bottle", 0.24),
-        pytest.param("apple", 0.075, marks=pytest.mark.long),
-        pytest.param("book", 0.035, marks=pytest.mark.long),
-    ],
-)
+@pytest.mark.long
+@pytest.mark.parametrize(("category", "height_m"), [("bottle", 0.24), ("apple", 0.075), ("book", 0.035)])
 async def test_a_thing_is_put_on_a_board_of_a_shelf(stage, make_house, category, height_m):
     built = await stage(with_shelf(make_house, category), noise_m=0.004)
     built.speak = print
@@ -66,6 +60,7 @@ async def test_a_thing_is_put_on_a_board_of_a_shelf(stage, make_house, category,
     assert board_of(built, f"{category}_1", height_m) in IN_REACH_M
 
 
+@pytest.mark.long
 async def test_where_one_board_is_crowded_another_is_taken(stage, make_house):
     crowd = [
         {"id": f"box_{k + 1}", "category": "box", "on": "shelf_1", "offset": [-0.3 + 0.2 * k, -0.03]} for k in range(4)
@@ -101,15 +96,9 @@ async def test_what_was_put_on_a_board_is_fetched_from_there_again(stage, make_h
     assert (await built.robot.truth())["collisions"] == 0
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
-    ("category", "height_m"),
-    [
-        ("banana", 0.04),
-        pytest.param("book", 0.035, marks=pytest.mark.long),
-        pytest.param("apple", 0.075, marks=pytest.mark.long),
-        pytest.param("scissors", 0.015, marks=pytest.mark.long),
-        pytest.param("cup", 0.1, marks=pytest.mark.long),
-    ],
+    ("category", "height_m"), [("banana", 0.04), ("book", 0.035), ("apple", 0.075), ("scissors", 0.015), ("cup", 0.1)]
 )
 async def test_what_lies_flat_on_a_board_is_taken_from_there(stage, make_house, category, height_m):
     """With its narrow side to the front, where a level hand would close on the air above it."""

@@ -52,6 +52,7 @@ def places(runtime):
     return {node["id"]: node["position_m"] for node in nodes if node["type"] == "room"}
 
 
+@pytest.mark.long
 async def test_a_known_building_is_known_at_once_and_the_robot_finds_its_place(tmp_path):
     async with Runtime(settings(tmp_path)).running() as runtime:
         await until(runtime, lambda: explored(runtime))

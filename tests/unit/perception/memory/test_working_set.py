@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -180,15 +181,21 @@ def explore(house: House, *, long_term: LongTermStore | None) -> Exploration:
     return run
 
 
-def five_in_a_row() -> House:
-    rooms = {name: rectangle(3.6, 3.0, x=3.8 * i) for i, name in enumerate("abcde")}
-    doors = [Door(rooms=("abcde"[i], "abcde"[i + 1]), center=(3.8 * (i + 1) - 0.1, 1.3)) for i in range(4)]
+def in_a_row(names: str) -> House:
+    rooms = {name: rectangle(3.6, 3.0, x=3.8 * i) for i, name in enumerate(names)}
+    pairs = enumerate(pairwise(names), start=1)
+    doors = [Door(rooms=pair, center=(3.8 * i - 0.1, 1.3)) for i, pair in pairs]
     return House(rooms=rooms, doors=doors)
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    "house", [pytest.param(four_rooms(), id="loop", marks=pytest.mark.long), pytest.param(five_in_a_row(), id="row")]
+    "house",
+    [
+        pytest.param(in_a_row("abc"), id="three"),
+        pytest.param(in_a_row("abcde"), id="five", marks=pytest.mark.long),
+        pytest.param(four_rooms(), id="loop", marks=pytest.mark.long),
+    ],
 )
 def test_a_building_is_explored_as_if_nothing_were_ever_unloaded(house: House) -> None:
     plain, paged = explore(house, long_term=None), explore(house, long_term=LongTermStore())

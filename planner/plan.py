@@ -131,6 +131,7 @@ class QueryKind(StrEnum):
     MOST = "most"
     COMPARE = "compare"
     MORE = "more"
+    UNKNOWABLE = "unknowable"
 
 
 @dataclass(frozen=True, kw_only=True)

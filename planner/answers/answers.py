@@ -59,6 +59,8 @@ class Answers:
                 text = ABILITIES
             case QueryKind.ROOMS:
                 text, nodes = self._inventory.rooms()
+            case QueryKind.UNKNOWABLE:
+                text = f"I cannot tell that: whether something is {ask.word} is not among what I see of things."
             case QueryKind.SEEN:
                 text, nodes = self._inventory.seen()
             case QueryKind.HOLDING:
@@ -70,7 +72,8 @@ class Answers:
                 nodes = found
                 text = self._about(ask, found, context)
         query = Query(kind=ask.kind, nodes=nodes, phrase=_phrase(ask))
-        return Answer(text=text, query=query, holds=self._subjects.holds(ask, nodes, context))
+        holds = None if ask.kind is QueryKind.UNKNOWABLE else self._subjects.holds(ask, nodes, context)
+        return Answer(text=text, query=query, holds=holds)
 
     def _reported(self, ask: Ask, context: Context) -> Answer | Trouble:
         told = (self._comparison if ask.kind in COMPARING else self._reports).of(ask, context)

@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from planner.answers.answers import Answer, Answers
-from planner.dialogue.carrying import Carrying
+from planner.dialogue.carrying import Carrying, placing_predicate
 from planner.dialogue.meaning import Meaning
 from planner.dialogue.motion import Motion
 from planner.dialogue.restoring import Restoring
@@ -37,6 +37,7 @@ from planner.language.grammar.syntax import (
     Restriction,
     Several,
     Step,
+    Swap,
     Teach,
     Wanted,
     is_wish,
@@ -118,8 +119,8 @@ class Semantics:
         match step:
             case Carry():
                 return self._carrying.of(step, context)
-            case Several():
-                return self._several(step, context)
+            case Several() | Swap():
+                return self._several(step, context) if isinstance(step, Several) else self._swapped(step, context)
             case Pick():
                 return self._handle(step.things, Predicate.HOLDING, context)
             case Find():
@@ -203,6 +204,32 @@ class Semantics:
         origins = {i: place for i in things if (place := self._grounding.origin(i)) is not None}
         doubt = step.verbless and all(holds(goal, self._state, self._settings.goals) for goal in goals)
         return Meaning(goals=goals, things=things, places=places, noun=context.noun, origins=origins, doubt=doubt)
+
+    def _swapped(self, step: Swap, context: Context) -> Outcome:
+        """Each of two things where the other is now; each of two groups likewise, if each stands at one place."""
+        one = self._sets.all_of(step.things[:1], context)
+        if not isinstance(one, tuple):
+            return one
+        groups: list[tuple[str, ...]] = [(i,) for i in one] if len(step.things) == 1 else [one]
+        for reference in step.things[1:]:
+            other = self._sets.all_of((reference,), replace(context, taken=context.taken | {*one}))
+            if not isinstance(other, tuple):
+                return other
+            groups.append(other)
+        if len(groups) != 2:
+            return Ambiguous(question="Which two things should change places?", phrase="", candidates=())
+        places = [{self._grounding.origin(i) for i in group} for group in groups]
+        if any(len(place) != 1 or None in place for place in places):
+            return NoReferent(reason="I do not know where each of them is, so I cannot let them change places.")
+        goals = tuple(
+            Goal(predicate=placing_predicate("to", place, self._grounding), args=(i, place))
+            for group, where in zip(groups, reversed(places), strict=True)
+            for place in where
+            if place is not None
+            for i in group
+        )
+        things = tuple(i for group in groups for i in group)
+        return Meaning(goals=goals, things=things, noun=noun_of(step.things, context))
 
     def _taken_out(self, references: tuple[Reference, ...], context: Context) -> bool:
         """Whether things are to leave a room, which does not say where to."""

@@ -20,7 +20,7 @@ from planner.grounding.quantities import Quantities, is_many
 from planner.grounding.settings import GroundingSettings
 from planner.grounding.unlabeled import likely_named
 from planner.language.grammar.syntax import NounPhrase, Pronoun, Reference, Restriction, Spot
-from planner.language.lexicon.vocabulary import normal, singular, words_for
+from planner.language.lexicon.vocabulary import PERSON, normal, singular, words_for
 from planner.naming import name_of
 from scene_graph.nodes import RoomNode
 from scene_graph.snapshot import Snapshot
@@ -148,6 +148,10 @@ class Grounding:
         if head in ("one", "ones"):
             head = context.noun or "thing"
         found = self.names.named(head, phrase.number, widely=widely, fixed=fixed)
+        if phrase.person and not found and phrase.restrictions:
+            found = self.names.named(
+                PERSON, None, widely=True
+            )  # *the teacher in the music room*: what he is nobody sees
         if len(found) == 1 or len(head.split()) < 2:
             return found
         return self._named_in_room(phrase, widely=widely) or found or tuple(self._rooms_with(head))

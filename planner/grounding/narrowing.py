@@ -14,6 +14,8 @@ from planner.grounding.places import Places
 from planner.grounding.settings import GroundingSettings
 from planner.grounding.spatial import VIEWED, is_between, is_in_view, is_related, relation_name
 from planner.language.grammar.syntax import NounPhrase, Pronoun, Reference, Restriction
+from planner.language.lexicon.vocabulary import normal
+from planner.language.parsing.things import knowledge
 from planner.naming import name_of
 from scene_graph.nodes import DoorNode, ObjectNode, ObjectState, PersonNode, RoomNode
 from scene_graph.snapshot import Snapshot
@@ -23,7 +25,7 @@ BUILDING = frozenset({"house", "home", "building", "flat", "apartment", "place",
 """Words for all that is known, which narrow nothing."""
 KINDS_OF_BUILDING = frozenset({"school", "hospital", "office", "studio", "villa", "clinic", "ward"})
 """Words for it as well, where no room is called so."""
-_LASTING = frozenset({"color", "state", "is", "kind", "sort", "spoken", "held", "of", "of person", "with"})
+_LASTING = frozenset({"color", "state", "use", "is", "kind", "sort", "spoken", "held", "of", "of person", "with"})
 """Relations that say what a thing is or whose, not where: those hold wherever it has been put."""
 
 
@@ -141,6 +143,8 @@ class Narrowing:
                 return [i for i in candidates if self._snapshot.support_of(i) is None]
             case "is" | "kind":
                 return [i for i in candidates if i in self._alike(candidates, restriction)]
+            case "use":
+                return self._for_use(candidates, restriction.word)
             case "sort":
                 return self._of_sort(candidates, restriction)
             case "spoken" if restriction.reference is not None:
@@ -258,6 +262,13 @@ class Narrowing:
         nodes = [(i, node) for i in found if isinstance(node := self._snapshot.node(i), ObjectNode)]
         mainly = [i for i, node in nodes if has(_color(node.color) == color for color in colors)]
         return mainly or [i for i, node in nodes if has(color in _colors(node) for color in colors)]
+
+    def _for_use(self, candidates: list[str], purpose: str) -> list[str]:
+        """Those that serve a purpose best, of those that can be carried."""
+        things = [i for i in candidates if isinstance(self._snapshot.get(i), ObjectNode)]
+        labels = {i: normal(self._snapshot.node(i).label) for i in things}
+        meant = knowledge().meant(labels.values(), purpose)
+        return [i for i, label in labels.items() if label in meant]
 
     def _of_sort(self, candidates: list[str], restriction: Restriction) -> list[str]:
         """Those that a noun may name, in its widest sense."""

@@ -155,6 +155,13 @@ class PutDown:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Swap:
+    """Two things, or what two phrases name, each to where the other is."""
+
+    things: tuple[Reference, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
 class Operate:
     """*Open the door*, when an installed package has a skill for it; ``verb`` as it was typed."""
 
@@ -252,4 +259,6 @@ def is_wish(step: Step) -> bool:
     return wished and any(x.relation in ("on", "in", "at", "near") for thing in told for x in thing.restrictions)
 
 
-Step = Carry | Several | Perhaps | Wanted | Mention | Operate | PutDown | PutBack | Go | Find | Pick | Teach | Ask
+Step = (
+    Carry | Several | Swap | Perhaps | Wanted | Mention | Operate | PutDown | PutBack | Go | Find | Pick | Teach | Ask
+)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -92,13 +92,14 @@ def _end_amiss(outcome: Outcome, expected: EndState) -> str:
         return f"{_told(outcome)}, where something should be done"
     at = 0
     for stage in expected.stages:
-        came = [i for i in range(at, len(outcome.trail)) if all(_met(c, outcome, i) for c in stage)]
+        came = [i for i in range(at, len(outcome.trail)) if all(_met(c, outcome, i, stage) for c in stage)]
         if not came:
             return f"{_shown(stage)} does not come true in its turn: {_done(outcome)}"
         at = came[0]
     last = len(outcome.trail) - 1
-    for condition in _lasting(expected):
-        if not _met(condition, outcome, last):
+    lasting = _lasting(expected)
+    for condition in lasting:
+        if not _met(condition, outcome, last, lasting):
             return f"{_shown((condition,))} is not so in the end: {_done(outcome)}"
     subjects = {subject for stage in expected.stages for c in stage for subject in c.subjects} | {*expected.aside}
     moved = [i for i in _moved(outcome.trail[0], outcome.trail[last]) if i not in subjects]
@@ -108,15 +109,16 @@ def _end_amiss(outcome: Outcome, expected: EndState) -> str:
 def _lasting(expected: EndState) -> list[Condition]:
     """The last that is said of each subject; where the robot was sent before something else does not last."""
     *_, final = expected.stages
-    last: dict[tuple[str, ...], Condition] = {}
+    last: dict[tuple[str, ...], list[Condition]] = {}
     for stage in expected.stages:
-        for condition in stage:
-            if condition.subjects != (ROBOT,) or stage is final:
-                last[condition.subjects] = condition
-    return list(last.values())
+        said = [condition for condition in stage if condition.subjects != (ROBOT,) or stage is final]
+        for condition in said:
+            last[condition.subjects] = [other for other in said if other.subjects == condition.subjects]
+    return [condition for conditions in last.values() for condition in conditions]
 
 
-def _met(condition: Condition, outcome: Outcome, index: int) -> bool:
+def _met(condition: Condition, outcome: Outcome, index: int, beside: Sequence[Condition]) -> bool:
+    """``beside``: what else is to be so then; of three cups, two may go here and one there."""
     start, state = outcome.trail[0], outcome.trail[index]
     if condition.subjects == (ROBOT,):
         return any(
@@ -126,8 +128,10 @@ def _met(condition: Condition, outcome: Outcome, index: int) -> bool:
     there = [i for i in condition.subjects if _placed(i, condition.places, state)]
     if condition.count == len(condition.subjects):
         return len(there) == condition.count
+    elsewhere = {place for other in beside if other is not condition for place in other.places}
     moved = {i for i in _moved(start, state) if i in condition.subjects}
-    return len(moved) == condition.count and moved <= set(there)
+    here = moved & set(there)
+    return len(here) == condition.count and all(_placed(i, tuple(elsewhere), state) for i in moved - here)
 
 
 def _at(state: PlanState, place: str, outcome: Outcome) -> bool:

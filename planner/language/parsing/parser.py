@@ -21,7 +21,19 @@ from planner.language.grammar.parser import (
     flattened,
 )
 from planner.language.grammar.parser import Unable as UnableStep
-from planner.language.grammar.syntax import Ask, Carry, Go, NounPhrase, Perhaps, Pick, Pronoun, Reference, Step, along
+from planner.language.grammar.syntax import (
+    Ask,
+    Carry,
+    Go,
+    NounPhrase,
+    Perhaps,
+    Pick,
+    Pronoun,
+    Reference,
+    Step,
+    Wanted,
+    along,
+)
 from planner.language.lexicon.lexicon import Lexicon
 from planner.language.parsing.chart import MOST_MEANINGS, Chart, Packed, Reading
 from planner.language.parsing.lattice import Lattice
@@ -226,6 +238,8 @@ class _Assembly:
                     if (step := _completed(value, leader)) is not None
                 )
             )
+            if not full and before is None:
+                full = tuple(dict.fromkeys(Wanted(thing=v.destination.reference) for v in values if _is_whither(v)))
             return Understood(text=text, readings=full) if full else NotUnderstood(text=text)
         return Understood(text=text, readings=values)
 
@@ -256,6 +270,11 @@ class _Assembly:
             text = self._text(part.condition)
         otherwise = self._inner(part.otherwise, then)
         steps.append(Choice(text=text, condition=condition, negated=part.negated, then=then, otherwise=otherwise))
+
+
+def _is_whither(part: Elliptic) -> bool:
+    """*To the kitchen!*: a place to go to."""
+    return part.destination is not None and not part.things
 
 
 def _completed(part: Elliptic, leader: Step) -> Step | None:

@@ -41,6 +41,10 @@ class SentenceReader(Reader):
     def refrain(self, children: Children) -> Any:
         return values_of(children)[0]
 
+    def refrain_things(self, children: Children) -> Carry:
+        """*Not the red one*: whatever is done, not with these."""
+        return Carry(things=values_of(children)[0], destination=None)
+
     def refrain_unclear(self, children: Children) -> Any:
         del children
         return "unclear"
@@ -308,9 +312,6 @@ class SentenceReader(Reader):
         attribute = next(str(token) for token in tokens_of(children) if token.type == "QUALITY")
         things = tuple(value for value in values_of(children) if not isinstance(value, Restriction))
         return Ask(kind=QueryKind.UNKNOWABLE, things=things, word=attribute)
-
-    def unknowable_deed(self, children: Children) -> None:
-        del children
 
 
 def _head(reference: Reference) -> str:

@@ -51,7 +51,8 @@ class Lattice:
         elif token.kind == "quoted":
             yield from self._entry("NOUN", normal(token.text), start, start + 1)
         elif token.kind == "number":
-            yield from self._entry("NUMBER", token.text, start, start + 1)
+            whole = token.text.isdecimal()
+            yield from self._entry("NUMBER" if whole else "DECIMAL", token.text, start, start + 1)
         elif token.kind == "word":
             yield from self._phrases(start)
             yield from self._single(start)
@@ -94,8 +95,10 @@ class Lattice:
             yield from self._entry("DOOR", phrase, start, end, cost)
         if lexicon.is_noun(words) and (phrase not in self._words.closed or words in lexicon.nouns):
             yield from self._entry("NOUN", phrase, start, end, cost)
-        elif "'" in phrase and lexicon.is_noun(tuple(phrase.replace("'", "").split())):
-            yield from self._entry("NOUN", phrase.replace("'", ""), start, end, cost)
+        else:
+            plain = phrase.replace("'", "").replace("-", " ")
+            if plain != phrase and lexicon.is_noun(tuple(plain.split())):
+                yield from self._entry("NOUN", plain, start, end, cost)
 
     def _single(self, start: int) -> Iterable[Entry]:
         text = self._texts[start]

@@ -105,6 +105,11 @@ class SentenceReader(Reader):
     def unable(self, children: Children) -> Unable:
         return Unable(verb=str(tokens_of(children)[0]))
 
+    def unable_distance(self, children: Children) -> Unable:
+        """*Move forward 0.2 m*, *turn left 90 degrees*."""
+        del children
+        return Unable(verb="move or turn by a distance or an angle")
+
     def aside(self, children: Children) -> str:
         return " ".join(str(child) for child in children if isinstance(child, LarkToken))
 
@@ -226,6 +231,18 @@ class SentenceReader(Reader):
     def narrated_person(self, children: Children) -> Mention:
         """*The man in the kitchen is cold*: what follows is about him."""
         return Mention(thing=values_of(children)[0])
+
+    def narrated_need(self, children: Children) -> Mention:
+        """*Zoe wants to fly the kite*: what follows is about her and it."""
+        person, things = values_of(children)
+        return Mention(thing=things[0], more=things[1:], who=person)
+
+    def everything_like(self, children: Children) -> NounPhrase:
+        """*Everything edible on the counter*."""
+        word = next(str(token) for token in tokens_of(children) if token.type in ("TOLD", "QUALITY"))
+        phrase = self.everything([child for child in children if not isinstance(child, LarkToken)])
+        told = Restriction(relation="use", word=word)
+        return replace(phrase, restrictions=(*phrase.restrictions, told))
 
     def wants(self, children: Children) -> Carry:
         person, things = values_of(children)

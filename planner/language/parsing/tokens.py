@@ -10,7 +10,7 @@ from dataclasses import dataclass
 _TOKEN = re.compile(
     r"""
     "(?P<quoted>[^"\n]{1,80})"                                  # a name in quotation marks is one noun
-  | (?P<number>\d+(?:[.,]\d+)?(?![^\W\d_]))                      # 2, 0.2
+  | (?P<number>\d+(?:[.,]\d+)?(?![^\W\d_]|_)|\d+(?:[.,]\d+)?(?=(?:mm|cm|km|m|ft)\b))  # 2, 0.2, 20cm
   | (?P<word>[^\W_]+(?:[_'&\-][^\W_]+)*'?)                        # letters and digits, joined by _ ' -
   | (?P<stop>[.;!?…]+|\n+)
   | (?P<comma>[,:–—]|-+)

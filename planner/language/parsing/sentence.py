@@ -300,6 +300,18 @@ class SentenceReader(Reader):
         place, thing = values_of(children)
         return Mention(thing=_from(thing, place))
 
+    def each_his(self, children: Children) -> Several | None:
+        """*The cup and the bottle to the desk and the bench respectively*: one each."""
+        things, *places = values_of(children)
+        if len(things) != len(places):
+            return None
+        first = places[0]
+        whole = [
+            place if isinstance(place, Destination) else replace(first, reference=place, other=None) for place in places
+        ]
+        pairs = zip(things, whole, strict=True)
+        return Several(steps=tuple(Carry(things=(one,), destination=there, verb="put") for one, there in pairs))
+
     def carry_with(self, children: Children) -> Carry:
         """*Into the sink with them.*"""
         destination, things = values_of(children)

@@ -60,7 +60,7 @@ class Answers:
             case QueryKind.ROOMS:
                 text, nodes = self._inventory.rooms()
             case QueryKind.UNKNOWABLE:
-                text = f"I cannot tell that: whether something is {ask.word} is not among what I see of things."
+                text = _unknowable(ask)
             case QueryKind.SEEN:
                 text, nodes = self._inventory.seen()
             case QueryKind.HOLDING:
@@ -234,6 +234,12 @@ class Answers:
         if not node.color:
             return f"{thing}: I could not tell its color."
         return f"{thing} is {node.color}{f', and partly {listed(list(node.accents))}' if node.accents else ''}."
+
+
+def _unknowable(ask: Ask) -> str:
+    named = [phrase_text(thing) for thing in ask.things if isinstance(thing, NounPhrase)]
+    what = f"the {named[0]}" if named else "it"
+    return f"I cannot tell whether {what} {ask.word}: of things I know what they are, their color, size and place."
 
 
 def _also(told: str, more: str) -> str:

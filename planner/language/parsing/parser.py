@@ -44,7 +44,7 @@ from planner.language.parsing.tokens import Token, sentences, tokens_of, typed
 from planner.language.parsing.words import english
 
 MAX_TOKENS = 60
-PACKED = ("clause", "refrain", "elliptic", "unable", "aside", "condition")
+PACKED = ("clause", "done", "refrain", "elliptic", "unable", "aside", "condition")
 """Rules whose meanings stay side by side until the graph settles them."""
 
 

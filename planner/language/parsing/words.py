@@ -133,9 +133,9 @@ def _nouns_and_adjectives() -> Iterator[tuple[str, str, str]]:
     for phrase in phrases("roles"):
         yield phrase, "PERSON", phrase
         yield f"{phrase}s", "PERSON", phrase
-    for attribute, listed in _entries("qualities"):
+    for _, listed in _entries("qualities"):
         for phrase in listed:
-            yield phrase, "QUALITY", attribute
+            yield phrase, "QUALITY", phrase
     for number, listed in _entries("numbers"):
         for phrase in listed:
             yield phrase, "NUMBER", number

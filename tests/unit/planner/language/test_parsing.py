@@ -101,7 +101,7 @@ def test_who_gets_something_may_be_told_by_where_he_is():
 
 def test_what_cannot_be_seen_is_asked_about_as_such():
     (reading,) = only("is the bottle empty?")
-    assert (reading.kind, reading.word) == (QueryKind.UNKNOWABLE, "full")
+    assert (reading.kind, reading.word) == (QueryKind.UNKNOWABLE, "is empty")
 
 
 def test_a_thing_may_be_named_by_what_it_is_for():

@@ -139,7 +139,7 @@ def _ways_straight(
 def _meets_wall(context: RobotContext, target: Points, way: Points) -> NDArray[np.bool_]:
     """On which of the ways (S, N, 2) to a target a wall stands before the target; (N,)."""
     walls, settings = (
-        Walls.of(context.snapshot, robot_frame(context.snapshot), context.settings.obstacles.map).tree,
+        Walls.known(context.snapshot, robot_frame(context.snapshot), context.settings.obstacles.map).tree,
         context.settings.reach,
     )
     if walls is None or not way.size:

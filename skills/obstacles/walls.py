@@ -8,7 +8,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from scene_graph.errors import FramesNotConnected
-from scene_graph.nodes import ROBOT_ID, DoorNode, DoorState, RoomNode, RoomStatus
+from scene_graph.nodes import ROBOT_ID, DoorNode, DoorState, RoomNode, RoomStatus, WallNode
 from scene_graph.snapshot import Snapshot
 from skills.geometry import Box2, Points, Pose2, boundary_distance_m, inside_polygon
 from skills.obstacles.settings import MapSettings
@@ -39,12 +39,33 @@ class Walls:
             points = points[~gap.contains(points)]
         return cls(points=points, tree=cKDTree(points) if len(points) else None, skin_m=settings.skin_m)
 
+    @classmethod
+    def known(cls, snapshot: Snapshot, frame: str, settings: MapSettings = MapSettings()) -> Walls:
+        """As ``of``; of a room that was not seen whole, the walls that are known, to which an arm must keep."""
+        if whole_room(snapshot, frame) is not None:
+            return cls.of(snapshot, frame, settings)
+        lines = [
+            Pose2.of(snapshot.transform(frame, wall.id)).apply(_along(wall.length_m, settings))
+            for wall in snapshot.of_type(WallNode)
+            if wall.parent_room == frame
+        ]
+        points = np.concatenate(lines) if lines else np.zeros((0, 2))
+        for gap in door_gaps(snapshot, frame, settings):
+            points = points[~gap.contains(points)]
+        return cls(points=points, tree=cKDTree(points) if len(points) else None, skin_m=settings.skin_m)
+
     def explain(self, points: Points) -> Points:
         """``points`` (N, 2) without those that are a known wall, and the walls themselves."""
         if self.tree is None or not len(points):
             return points
         far, _ = self.tree.query(points, distance_upper_bound=self.skin_m)
         return np.concatenate([points[np.isinf(far)], self.points])
+
+
+def _along(length_m: float, settings: MapSettings) -> Points:
+    """Points (N, 2) along a wall, in its frame."""
+    x_m = np.linspace(-length_m / 2, length_m / 2, int(length_m / settings.wall_step_m) + 2)
+    return np.stack([x_m, np.zeros_like(x_m)], axis=1)
 
 
 def whole_room(snapshot: Snapshot, frame: str) -> RoomNode | None:

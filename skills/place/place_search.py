@@ -13,8 +13,9 @@ from skills.action import RobotContext
 from skills.anchor import Anchor
 from skills.arm.held import held_size_m
 from skills.furniture.furniture import Furniture
+from skills.geometry import inside_polygon
 from skills.navigation.plan import map_of
-from skills.obstacles.walls import Walls, door_gaps
+from skills.obstacles.walls import MIN_CORNERS, Walls, door_gaps
 from skills.outline import disc
 from skills.place.place_spot import Spot, spots_on
 
@@ -109,10 +110,12 @@ def _floor_spots(context: RobotContext, center: str, size_m: tuple[float, float,
     room_m = grid.clearance_at(points) - disc(size_m).radius_m
     gaps = [gap.grown(settings.doorway_m) for gap in door_gaps(snapshot, room, around)]
     clear = [not any(gap.contains(points[i : i + 1])[0] for gap in gaps) for i in range(len(points))]
+    outline = snapshot.room(room).polygon_m
+    within = inside_polygon(outline, points) if len(outline) >= MIN_CORNERS else np.ones(len(points), np.bool_)
     return [
         Spot(anchor=Anchor(room, (*spot, 0.0)), room_m=float(free_m))
-        for spot, free_m, is_clear in zip(spots, room_m, clear, strict=True)
-        if free_m > settings.floor_gap_m and is_clear
+        for spot, free_m, is_clear, is_within in zip(spots, room_m, clear, within, strict=True)
+        if free_m > settings.floor_gap_m and is_clear and is_within
     ]
 
 

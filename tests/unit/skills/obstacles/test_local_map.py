@@ -99,3 +99,14 @@ def test_no_way_between_two_places_of_a_room_leads_through_another(flat):
     in_the_gap, behind = (2.95, 0.0), (3.9, 1.0)
     assert grid.clearance_at(np.array([behind])) == 0.0
     assert grid.clearance_at(np.array([in_the_gap])) > 0.0
+
+
+def test_of_a_room_that_was_not_seen_whole_an_arm_keeps_to_the_walls_that_are_known(flat):
+    memory = flat().memory
+    with memory.edit("test", 0.0) as tx:
+        tx.put(replace(tx.snapshot.room("room_1"), status=RoomStatus.PARTIAL))
+    assert Walls.of(memory.snapshot(), "room_1").tree is None
+    known = Walls.known(memory.snapshot(), "room_1").points
+    np.testing.assert_allclose(known[:, 0], 3.0, atol=1e-9)  # the one with the door
+    assert np.ptp(known[:, 1]) > 4.5
+    assert not (np.abs(known[:, 1]) < 0.4).any()

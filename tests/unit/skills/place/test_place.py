@@ -7,9 +7,11 @@ from math import cos, pi, sin
 
 import pytest
 
+from scene_graph.nodes import RoomStatus
 from skills.doubles import FakeBody, Rehearsal
 from skills.failures import FailureCode
 from skills.geometry import Pose2
+from skills.place.place_search import ranked_spots
 from skills.place.put_down import LowerToPlace
 from skills.registry import load_registry
 
@@ -43,6 +45,19 @@ async def test_who_is_handed_something_stands_where_the_arm_does_not_go(kitchen,
     x_m, y_m, _ = rehearsal.memory.snapshot().position("table_1", "room_1")
     built[0].person(float(x_m + 0.5 * cos(bearing_rad)), float(y_m + 0.5 * sin(bearing_rad)), stamp_s=1e6)
     assert await carry_out(rehearsal, ("GOTO", "person_1"), ("PLACE", "bottle_1", "person_1")) is None
+
+
+async def test_beside_somebody_at_a_wall_nothing_is_put_down_behind_the_wall(kitchen):
+    """Also where a part of the room was only guessed: beyond an outline nobody has seen the floor."""
+    rehearsal = kitchen(lambda built: built.person(-2.85, 2.3))
+    with rehearsal.memory.edit("test", 0.0) as tx:
+        tx.put(replace(tx.snapshot.room("room_1"), status=RoomStatus.PARTIAL))
+        tx.remove("table_2")
+    context = await rehearsal.prepare()
+    spots = [spot.anchor for spots in ranked_spots(context, "bottle_1", "person_1") for spot in spots]
+    floor = [anchor.point_m for anchor in spots if anchor.node_id == "room_1"]
+    assert floor
+    assert all(abs(x_m) < 3.0 and abs(y_m) < 2.5 for x_m, y_m, _ in floor)
 
 
 async def test_a_full_table_is_told_before_anything_moves(kitchen, carry_out):

@@ -13,6 +13,7 @@ from planner.language.grammar.syntax import (
     Carry,
     Destination,
     NounPhrase,
+    Pick,
     Pronoun,
     Quantity,
     Reference,
@@ -214,6 +215,27 @@ class DeedReader(Reader):
         """*Once you have taken the cup to Ben*."""
         things, *where = values_of(children)
         return Carry(things=things, destination=where[0] if where else None, verb="bring")
+
+    def taken_up(self, children: Children) -> Pick:
+        """*A red bell take*, as learners say."""
+        return Pick(things=values_of(children)[0])
+
+    def carry_from(self, children: Children) -> Carry | None:
+        """*Out of the dishes, move two onto the trolley.*"""
+        several, destination = values_of(children)
+        count = next(int(token) for token in tokens_of(children) if token.type == "NUMBER")
+        if not isinstance(several, NounPhrase):
+            return None
+        some = replace(several, quantity=Quantity.SOME, count=count)
+        return Carry(things=(some,), destination=destination, verb="move")
+
+    def carry_from_which(self, children: Children) -> Carry | None:
+        """*From the three roses, bring the red ones to Ben.*"""
+        several, ones, destination = values_of(children)
+        if not isinstance(several, NounPhrase) or not isinstance(ones, NounPhrase):
+            return None
+        things = replace(ones, words=several.words, restrictions=(*several.restrictions, *ones.restrictions))
+        return Carry(things=(things,), destination=destination, verb="move")
 
     def carry_with(self, children: Children) -> Carry:
         """*Into the sink with them.*"""

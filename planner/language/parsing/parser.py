@@ -139,13 +139,13 @@ def _gathered(steps: Sequence[ParsedStep]) -> list[ParsedStep]:
     found: list[ParsedStep] = []
     taken: list[Understood] = []
     for step in steps:
-        if isinstance(step, Understood) and taken and all(map(_leans, step.readings)):
-            several = any(_several(reading) for reading in step.readings)
+        if isinstance(step, Understood) and taken and any(map(_leans, step.readings)):
+            several = any(map(_several, filter(_leans, step.readings)))
             leads = taken if several else taken[-1:]
             found += [] if several else taken[:-1]
             readings = dict.fromkeys(
                 replace(carry, things=things)
-                for reading in step.readings
+                for reading in filter(_leans, step.readings)
                 if isinstance(carry := reading.step if isinstance(reading, Perhaps) else reading, Carry)
                 for things in _combinations(leads)
             )

@@ -27,6 +27,8 @@ class Quantities:
         if phrase == NounPhrase(words=("one",)) and context.noun:
             return self._any(phrase, found, avoid)
         match phrase.quantity:
+            case Quantity.A if _by_use(phrase) and len({self._snapshot.node(i).label for i in found}) > 1:
+                return self._one(phrase_text(phrase), found, context)  # a knife or scissors: which is asked
             case Quantity.A | Quantity.SOME:
                 return self._any(phrase, found, avoid)
             case Quantity.ALL:
@@ -86,6 +88,11 @@ class Quantities:
             )
         seen = "; ".join(describe(i, self._snapshot) for i in found)
         return NoReferent(reason=f"I know of only {len(found)} that fits “{phrase_text(phrase)}”: {seen}.")
+
+
+def _by_use(phrase: NounPhrase) -> bool:
+    """*Something to cut with*."""
+    return any(restriction.relation == "use" for restriction in phrase.restrictions)
 
 
 def is_many(phrase: NounPhrase) -> bool:

@@ -266,7 +266,10 @@ class _Assembly:
         condition = None
         text = ""
         if part.condition is not None:
-            condition = tuple(r.value for r in part.condition.readings if isinstance(r.value, Ask))
+            cheapest = part.condition.readings[0].cost
+            condition = tuple(
+                r.value for r in part.condition.readings if r.cost <= cheapest and isinstance(r.value, Ask)
+            )
             text = self._text(part.condition)
         otherwise = self._inner(part.otherwise, then)
         steps.append(Choice(text=text, condition=condition, negated=part.negated, then=then, otherwise=otherwise))
